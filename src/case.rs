@@ -54,20 +54,37 @@ pub struct Limit {
     pub quantity: &'static str,
     /// The text as the user wrote it.
     pub text: String,
-    /// The value in SI; infinite while the text in a form is invalid.
+    /// The value in SI, or the factor of another result; infinite while the text in a form is
+    /// invalid.
     pub value: f64,
+    /// The result to which the limit is relative.
+    pub of: Option<&'static str>,
 }
 
 impl Limit {
-    /// A limit from the quantity's key and a text such as "2500 N".
+    /// A limit from the quantity's key and a text such as "2500 N" or "1.3 x mesh_force". The
+    /// nominal force is the mesh force.
     ///
     /// # Errors
-    /// If the quantity does not exist, or the text is not a value of the quantity.
+    /// If the quantity does not exist, or the text is neither a value of the quantity nor a multiple
+    /// of a result in the same unit.
     pub fn new(quantity: &str, text: &str) -> Result<Limit, Problem> {
         let field = format!("limits.{quantity}");
         let Some(known) = Quantity::find(quantity) else {
             return Err(check::unknown_quantity(&field, quantity));
         };
+        let (quantity, owned) = (known.key, text.to_owned());
+        if let Some((factor, other)) = relative(text) {
+            let nominal = if known.unit == "N" { "mesh_force" } else { other };
+            let other = if other == "nominal" { nominal } else { other };
+            let of =
+                Quantity::named(other).ok_or_else(|| check::unknown_quantity(&field, other))?;
+            if of.unit != known.unit || of.is_flag() {
+                let cause = format!("{} has another unit than {quantity}", of.key);
+                return Err(Problem::new(&field, cause, "name a result in the same unit"));
+            }
+            return Ok(Limit { quantity, text: owned, value: factor, of: Some(of.key) });
+        }
         let dimension = units::Dimension::of_unit(known.unit).unwrap_or(units::Dimension::Number);
         let usual = if matches!(known.shown, "1" | "yes/no") { "" } else { known.shown };
         let value = units::parse(text, dimension, usual).map_err(|misread| {
@@ -78,8 +95,26 @@ impl Limit {
             }
             problem
         })?;
-        Ok(Limit { quantity: known.key, text: text.to_owned(), value })
+        Ok(Limit { quantity, text: owned, value, of: None })
     }
+
+    /// The greatest allowed value in SI, if the result to which it is relative has a value.
+    pub fn bound(&self, value: impl Fn(&'static Quantity) -> Option<f64>) -> Option<f64> {
+        let base = self.of.map_or(Some(1.0), |of| value(Quantity::find(of)?));
+        Some(self.value * base?)
+    }
+
+    /// The limited quantity, and that to which the limit is relative.
+    pub fn quantities(&self) -> impl Iterator<Item = &'static Quantity> + use<> {
+        [Some(self.quantity), self.of].into_iter().flatten().filter_map(Quantity::find)
+    }
+}
+
+/// The factor and the result of a text such as "1.3 x mesh_force".
+fn relative(text: &str) -> Option<(f64, &str)> {
+    let (factor, other) = text.split_once(" x ")?;
+    let factor = factor.trim().parse::<f64>().ok().filter(|factor| factor.is_finite())?;
+    Some((factor, other.trim()))
 }
 
 impl Case {
@@ -187,7 +222,7 @@ impl Case {
     /// Writes the limit of a quantity, with a valid or an invalid text. An empty text leaves an
     /// empty limit until [`Case::drop_empty_limits`].
     pub fn write_limit(&mut self, quantity: &'static str, text: &str) {
-        let unread = Limit { quantity, text: text.to_owned(), value: f64::INFINITY };
+        let unread = Limit { quantity, text: text.to_owned(), value: f64::INFINITY, of: None };
         let limit = Limit::new(quantity, text).unwrap_or(unread);
         keep(&mut self.limits, limit, |held| held.quantity == quantity);
     }

@@ -38,8 +38,7 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
     problems.extend(unread.filter_map(|limit| Limit::new(limit.quantity, &limit.text).err()));
     // Other methods do not use the needs: a limit does not change their results.
     if inputs.method == Method::Auto {
-        let limited = case.limits.iter();
-        let limited = limited.filter_map(|limit| Quantity::find(limit.quantity));
+        let limited = case.limits.iter().flat_map(Limit::quantities);
         inputs = inputs.needing(limited.map(|quantity| quantity.stage));
     }
     (inputs, problems)

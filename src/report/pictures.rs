@@ -7,6 +7,7 @@ use super::charts::{
     tooth_chart,
 };
 use super::graphs::{GRAPHS, Graph};
+use super::relief::{RELIEF, relief_chart};
 use super::svg;
 use super::{Report, Selection};
 use crate::case::Case;
@@ -19,11 +20,12 @@ use crate::study::stiffness::{
 };
 
 /// The pictures that are not charts of [`GRAPHS`]; they follow those charts.
-const OTHERS: [Picture; 5] = [
+const OTHERS: [Picture; 6] = [
     Picture { key: TOOTH_KEYS[0], drawing: Drawing::ToothCompliance(0) },
     Picture { key: TOOTH_KEYS[1], drawing: Drawing::ToothCompliance(1) },
     Picture { key: SPECTRUM, drawing: Drawing::Spectrum },
     Picture { key: SPEED, drawing: Drawing::Speed },
+    Picture { key: RELIEF, drawing: Drawing::Relief },
     Picture { key: "teeth", drawing: Drawing::Teeth },
 ];
 
@@ -42,6 +44,7 @@ enum Drawing {
     ToothCompliance(usize),
     Spectrum,
     Speed,
+    Relief,
     Teeth,
 }
 
@@ -84,7 +87,7 @@ impl Picture {
         match self.drawing {
             Drawing::Graph(graph) => graph.is_on_page,
             Drawing::ToothCompliance(_) => false,
-            Drawing::Spectrum | Drawing::Speed | Drawing::Teeth => true,
+            Drawing::Spectrum | Drawing::Speed | Drawing::Relief | Drawing::Teeth => true,
         }
     }
 
@@ -97,7 +100,7 @@ impl Picture {
     /// Whether each case has a separate picture.
     #[must_use]
     pub fn is_of_one_case(self) -> bool {
-        matches!(self.drawing, Drawing::Teeth | Drawing::ToothCompliance(_))
+        matches!(self.drawing, Drawing::Teeth | Drawing::Relief | Drawing::ToothCompliance(_))
     }
 
     /// Draws solved cases; a picture of one case draws the first.
@@ -124,6 +127,10 @@ impl Picture {
                 let named =
                     cases.iter().filter_map(|(name, case)| Some((*name, case.speeds.as_ref()?)));
                 speed_chart(&named.collect::<Vec<_>>())
+            }
+            Drawing::Relief => {
+                let (_, report) = first()?;
+                relief_chart(&report.inputs, &report.solution.geometry)
             }
             Drawing::Teeth => {
                 let (_, report) = first()?;

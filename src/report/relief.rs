@@ -1,12 +1,20 @@
-//! The tip relief to specify as text, JSON or CSV.
+//! The tip relief to specify as text, JSON or CSV, and the diagram of reliefs over the roll angle.
 
+use super::chart::{Axis, Chart, Kind, Series};
 use super::json::{Json, json};
 use super::layout::{WIDTH, item};
 use super::results::{Named, Results};
 use super::table::{Cell, Column, Table};
+use crate::case::units;
+use crate::model::Inputs;
 use crate::model::explanation::tidy;
+use crate::model::geometry::Geometry;
 use crate::model::inputs::{Method, ReliefShape};
-use crate::study::relief::{Choice, MOST_LOAD, MapPoint, Specification, TipReliefs};
+use crate::model::relief::{GearReliefs, Relief, Reliefs};
+use crate::numeric::decimal::shortest;
+use crate::study::relief::{
+    Begin, Choice, Figures, MOST_LOAD, MapPoint, Specification, TipReliefs, WORTH,
+};
 
 /// A relief to specify with the name of its case.
 #[derive(Clone, Copy)]
@@ -18,36 +26,53 @@ pub struct ReliefReport<'a> {
 }
 
 impl ReliefReport<'_> {
-    /// The specification without the title: rows of tables of at most 80 columns, and unwrapped
-    /// sentences.
-    pub fn without_title(&self) -> Vec<String> {
+    /// The specification with one of its choices: rows of tables of at most 80 columns, and
+    /// unwrapped sentences.
+    pub fn of_choice(&self, at: usize) -> Vec<String> {
         let found = self.found;
         let mut lines = vec![self.demand(), String::new()];
-        lines.extend(self.answer());
-        lines.extend([String::new(), self.margin()]);
-        let ratio = found.unloaded_contact_ratio;
-        let below = ", below 1: under light load the pairs change on the reliefs";
-        let below = if ratio < 1.0 { below } else { "" };
-        lines.push(format!(
-            "The unrelieved flanks alone have a contact ratio of {ratio:.3}{below}."
-        ));
-        if found.is_cut {
-            lines.push("The search ended with its budget; a better relief may exist.".to_owned());
-        }
+        lines.extend(self.drawing(at).lines());
+        lines.push(String::new());
+        lines.extend(self.sentences(at));
+        let force = if found.method == Method::Dynamic { "in motion" } else { "at rest" };
+        let greatest = percent(found.demand.greatest_load());
+        let figure = self.figure();
         for (title, table) in [
             (
-                "Choices: amounts C_a, gap and transmission error TE in um, lengths L in mm; TE peak to \
-                 peak, its maximum and mean over the loads",
-                choices(found),
+                format!("Before and after, forces {force} at {greatest} % of the load"),
+                self.before_and_after(at),
             ),
-            ("Transmission error peak to peak over the load, um (Harris map)", harris(found)),
             (
-                "Greatest transmission error over the loads by length and amount of the relief, um; \
-                 - corner contact at the greatest load, * the relief to specify",
-                map(found),
+                format!(
+                    "What each relief gains: amounts C_a and {figure} of the peak-to-peak \
+                     transmission error TE in um, lengths L in mm; {}",
+                    self.chosen_mark()
+                ),
+                self.gains(),
+            ),
+            (
+                format!(
+                    "What each relief costs: TE at {} % of the load in um, contact ratio of the \
+                     unrelieved flanks, force before E and peak force in N, remaining gap in um, \
+                     load in % at which it closes",
+                    percent(found.loads[0])
+                ),
+                self.of_choices(&[11, 12, 13, 14, 15, 16, 8, 17]),
+            ),
+            (
+                "Transmission error peak to peak over the load, um (Harris map)".into(),
+                self.harris(),
+            ),
+            (
+                format!(
+                    "{} of the transmission error by length and amount of the relief, um; - corner \
+                     contact at the greatest load, * the relief to specify",
+                    capital(figure)
+                ),
+                self.map(),
             ),
         ] {
-            lines.extend([String::new(), title.to_owned()]);
+            lines.extend([String::new(), title]);
             lines.extend(table.lines());
         }
         lines
@@ -55,9 +80,6 @@ impl ReliefReport<'_> {
 
     fn demand(&self) -> String {
         let Specification { demand, torque, method, .. } = self.found;
-        let (from, to) = (percent(demand.loads.0), percent(demand.loads.1));
-        let loads =
-            if demand.loads.0 < demand.loads.1 { format!("{from} to {to} %") } else { to + " %" };
         // Why the method is not that of the case.
         let reason = match self.method {
             own if own == *method => String::new(),
@@ -67,43 +89,266 @@ impl ReliefReport<'_> {
                 format!(", because method {own} does not share the load among pairs")
             }
         };
-        let (torque, tolerance) = (tidy(*torque, 4), tidy(demand.tolerance * 1e6, 3));
+        let loads = demand.loads_text().replace("..", " to ");
         format!(
-            "Tip relief for {loads} of {torque} N m, tolerance {tolerance} um on each relief; \
-             computed by method {}{reason}.",
+            "Tip relief for {loads} of {} N m with the least {}, tolerances {} um on amounts and \
+             {} mm on lengths; computed by method {}{reason}.",
+            tidy(*torque, 4),
+            demand.minimise,
+            tidy(demand.tolerance * 1e6, 3),
+            tidy(self.tolerance_length() * 1e3, 3),
             method.name()
         )
     }
 
-    /// The relief in two lines.
-    pub fn answer(&self) -> Vec<String> {
-        let TipReliefs { shape, amounts, lengths } = self.found.chosen().reliefs;
-        let line = |(at, gear): (usize, &str)| {
-            let (amount, length, shape) = (um(amounts[at]), mm(lengths[at]), name(shape));
-            format!(
-                "  {gear}  {amount:>5} um over {length:>5} mm along the path of contact, {shape}"
-            )
-        };
-        ["driver", "driven"].into_iter().enumerate().map(line).collect()
+    fn tolerance_length(&self) -> f64 {
+        self.found.demand.tolerance_length.unwrap_or_default()
     }
 
-    fn margin(&self) -> String {
-        let greatest = self.found.demand.loads.1;
-        let rest = match self.found.greatest_load {
+    /// The figure over the loads.
+    fn figure(&self) -> &'static str {
+        if self.found.demand.spectrum.is_empty() { "greatest" } else { "mean" }
+    }
+
+    fn chosen_mark(&self) -> String {
+        format!("* the smallest relief within {:.0} % of the best", 100.0 * WORTH)
+    }
+
+    /// What a drawing states of a choice.
+    fn drawing(&self, at: usize) -> Table {
+        let Specification { choices, demand, geometry, .. } = self.found;
+        let reliefs = choices[at].reliefs;
+        let off = self.tolerance_length();
+        let begins = reliefs.begins(geometry);
+        let shorter = TipReliefs { lengths: reliefs.lengths.map(|own| own - off), ..reliefs };
+        let above = shorter.begins(geometry);
+        let row = |title: &str, of: &dyn Fn(usize) -> String| {
+            let cell = |at: usize| if reliefs.amounts[at] > 0.0 { of(at) } else { "-".to_owned() };
+            vec![title.to_owned(), cell(0), cell(1)]
+        };
+        let place = |of: fn(&Begin) -> f64, at: usize| {
+            let [own, other] = [begins, above].map(|begins| of(&begins[at]));
+            format!("{own:.2} +-{:.2}", other - own)
+        };
+        let rows = [
+            row("  tip relief C_a, um", &|at| {
+                format!("{} +-{}", um(reliefs.amounts[at]), um(demand.tolerance))
+            }),
+            row("  length along the path of contact L_Ca, mm", &|at| {
+                format!("{} +-{}", mm(reliefs.lengths[at]), mm(off))
+            }),
+            row("  begins at roll angle, deg", &|at| {
+                place(|begin| begin.roll_angle.to_degrees(), at)
+            }),
+            row("  begins at diameter d_Ca, mm", &|at| place(|begin| 1e3 * begin.diameter, at)),
+            row("  shape", &|_| name(reliefs.shape).to_owned()),
+        ];
+        let head = ["  For the drawing", "driver", "driven gear"].map(str::to_owned);
+        let mut table = Table::of_texts(head.to_vec(), rows);
+        table.columns[1..].iter_mut().for_each(|column| column.gap = 3);
+        table
+    }
+
+    /// Margin, gain, cost and alternative of a choice.
+    fn sentences(&self, at: usize) -> Vec<String> {
+        let found = self.found;
+        let (case, own) = (&found.choices[0], &found.choices[at]);
+        let greatest = found.demand.greatest_load();
+        let load = match own.greatest_load {
             Some(load) => {
-                let load = (1e3 * load).floor() / 1e3;
-                format!("the load can rise to {} %", percent(load))
+                format!("the load can rise to {} %", percent((1e3 * load).floor() / 1e3))
             }
             None => {
                 format!("no load up to {} % causes corner contact", percent(MOST_LOAD * greatest))
             }
         };
-        format!(
-            "No corner contact at {} % of the load with each relief off by the tolerance: a gap of {} um \
-             remains; at rest, {rest}.",
-            percent(greatest),
-            tidy(self.found.chosen().margin * 1e6, 2),
-        )
+        let Figures { gap, strikes, entry, .. } = own.worst;
+        let margin = match strikes {
+            false => format!(
+                "No corner contact at {} % of the load within the tolerances: a gap of {} um \
+                 remains; at rest, {load}.",
+                percent(greatest),
+                tidy(gap * 1e6, 2),
+            ),
+            true if gap < 0.0 => format!(
+                "Corner contact at {} % of the load within the tolerances: the teeth overlap by {} \
+                 um at rest, the force before E is {} N.",
+                percent(greatest),
+                tidy(-gap * 1e6, 2),
+                tidy(entry, 3)
+            ),
+            true => "Corner contact in motion within the tolerances.".to_owned(),
+        };
+        let mut lines = vec![margin];
+        if at > 0 {
+            let least = percent(found.loads[0]);
+            let changed = |from: f64, to: f64| {
+                let [shown, other] = [from, to].map(|error| tidy(error * 1e6, 3));
+                format!("from {shown} to {other} um ({})", change(from, to))
+            };
+            lines.push(format!(
+                "The {} transmission error over the loads changes {}, at {least} % of the load {}.",
+                self.figure(),
+                changed(case.nominal.error, own.nominal.error),
+                changed(case.errors[0], own.errors[0]),
+            ));
+        }
+        let ratio = own.reliefs.unloaded_contact_ratio(&found.geometry);
+        if ratio < 1.0 {
+            lines.push(format!(
+                "The unrelieved flanks alone have a contact ratio of {ratio:.3}, below 1: under \
+                 light load the pairs change on the reliefs."
+            ));
+        }
+        lines.extend(self.alternative(at));
+        if found.is_cut {
+            lines.push("The search ended with its budget; a better relief may exist.".to_owned());
+        }
+        lines
+    }
+
+    /// The choice with the best figure, if it is another one.
+    fn alternative(&self, at: usize) -> Option<String> {
+        let Specification { choices, demand, .. } = self.found;
+        let figure = |choice: &Choice| choice.worst.of(demand.minimise);
+        let best = choices.iter().filter(|choice| !choice.worst.strikes);
+        let best = best.min_by(|one, other| figure(one).total_cmp(&figure(other)))?;
+        let own = &choices[at];
+        let gain = 1.0 - figure(best) / figure(own);
+        let cost = best.reliefs.removed() - own.reliefs.removed();
+        (gain >= 0.005 && cost > 0.0).then(|| {
+            format!(
+                "The relief \"{}\" has {:.0} % less {} within the tolerances, for {} um more \
+                 relief on both gears together.",
+                best.name,
+                100.0 * gain,
+                demand.minimise,
+                um(cost)
+            )
+        })
+    }
+
+    /// The figures with the relief of the case, with a choice, and at the limits of its tolerances.
+    fn before_and_after(&self, at: usize) -> Table {
+        let (case, own) = (&self.found.choices[0], &self.found.choices[at]);
+        let all = [&case.nominal, &own.nominal, &own.worst];
+        let row = |title: &str, of: &dyn Fn(&Figures) -> Option<f64>, digits: usize| {
+            let cell = |figures| of(figures).map_or_else(|| "-".to_owned(), |it| tidy(it, digits));
+            [vec![format!("  {title}")], all.map(cell).to_vec()].concat()
+        };
+        let force = self.found.mesh_force;
+        let error = format!("{} TE over the loads, um", self.figure());
+        let mut rows = vec![
+            row(&error, &|found| Some(found.error * 1e6), 3),
+            row("force before E, N", &|found| Some(found.entry), 4),
+            row("peak force of a tooth, N", &|found| Some(found.peak), 4),
+            row("peak force/mesh force", &|found| Some(found.peak / force), 3),
+            row("dynamic factor K_mesh", &|found| found.factor, 3),
+            row("gap before E and after B at rest, um", &|found| Some(found.gap * 1e6), 2),
+        ];
+        if self.found.method != Method::Dynamic {
+            rows.remove(4);
+        }
+        let head = ["", "case", "relief", "in tolerance"].map(str::to_owned).to_vec();
+        Table::of_texts(head, rows)
+    }
+
+    /// One row per choice: the relief and its transmission error.
+    pub fn gains(&self) -> Table {
+        self.of_choices(&[3, 4, 5, 6, 7, 9, 10])
+    }
+
+    /// One row per choice with these columns of the whole table, and a mark at the relief to
+    /// specify.
+    fn of_choices(&self, columns: &[usize]) -> Table {
+        let mut table = self.choices().of(&[&[0], columns].concat());
+        for (at, row) in table.rows.iter_mut().enumerate() {
+            row[0] = self.marked(at).into();
+        }
+        table
+    }
+
+    fn marked(&self, at: usize) -> String {
+        let mark = if at == self.found.best { '*' } else { ' ' };
+        format!("{mark} {}", self.found.choices[at].name)
+    }
+
+    /// Every result of each choice.
+    fn choices(&self) -> Table {
+        let texts = [("choice", "  relief"), ("best", ""), ("shape", "")];
+        let texts = texts.map(|(key, title)| Column::text(key, title).wide(0, 0));
+        let numbers = NUMBERS
+            .map(|(key, title, unit, shown, _)| Column::number(key, title, unit, shown).wide(1, 0));
+        let found = self.found;
+        let rows = found.choices.iter().enumerate().map(|(at, choice)| {
+            let best = if at == found.best { "true" } else { "false" };
+            let texts = [choice.name, best, name(choice.reliefs.shape)].map(Cell::from);
+            let numbers = NUMBERS.map(|(.., (shown, digits), of)| match of(found, choice) {
+                Some(value) if shown == "%" => {
+                    Cell::Shown(value, format!("{:+.0} %", 100.0 * value))
+                }
+                Some(value) => {
+                    Cell::Shown(value, tidy(value / units::factor(shown).unwrap_or(1.0), digits))
+                }
+                None => Cell::None("-"),
+            });
+            texts.into_iter().chain(numbers).collect()
+        });
+        Table::new("", texts.into_iter().chain(numbers).collect()).with(rows)
+    }
+
+    /// One row per choice: the transmission error over the load.
+    fn harris(&self) -> Table {
+        let loads = self.found.loads.iter().map(|&load| format!("{} %", percent(load)));
+        let rows = self.found.choices.iter().enumerate().map(|(at, choice)| {
+            let name = self.marked(at);
+            let errors = choice.errors.iter().map(|error| tidy(error * 1e6, 3));
+            std::iter::once(name).chain(errors).collect()
+        });
+        Table::of_texts(std::iter::once("  relief".to_owned()).chain(loads).collect(), rows)
+    }
+
+    /// One row per length: the figure of the transmission error by amount.
+    fn map(&self) -> Table {
+        let (found, chosen) = (self.found, self.found.chosen().reliefs);
+        let cell = |point: &MapPoint| {
+            let same = |one: [f64; 2], other: [f64; 2]| (one[0] - other[0]).abs() < 1e-9;
+            let is_chosen = same(point.reliefs.amounts, chosen.amounts)
+                && same(point.reliefs.lengths, chosen.lengths);
+            let error =
+                if point.margin < 0.0 { "-".to_owned() } else { tidy(point.error * 1e6, 2) };
+            if is_chosen { format!("*{error}") } else { error }
+        };
+        // The amounts in one row, or in one per gear.
+        let points = found.map.first().map_or(&[][..], Vec::as_slice);
+        let head = |name: &str, at: usize| {
+            let amounts = points.iter().map(|point| um(point.reliefs.amounts[at]));
+            std::iter::once(format!("  amount{name}, um")).chain(amounts).collect::<Vec<_>>()
+        };
+        let [both, driver, driven] =
+            [("", 0), (" driver", 0), (" driven", 1)].map(|(name, at)| head(name, at));
+        let is_alike = driver[1..] == driven[1..];
+        let (first, second) = if is_alike { (both, None) } else { (driver, Some(driven)) };
+        let rows = found.map.iter().map(|row| {
+            let length = row.first().map(|point| length(point.reliefs.lengths));
+            std::iter::once(length.unwrap_or_default()).chain(row.iter().map(cell)).collect()
+        });
+        Table::of_texts(first, second.into_iter().chain(rows))
+    }
+
+    /// A relief with the points at which it begins.
+    fn relief(&self, reliefs: &TipReliefs) -> Json {
+        let TipReliefs { shape, amounts, lengths } = reliefs;
+        let begins = reliefs.begins(&self.found.geometry);
+        let gear = |at: usize| {
+            json!({
+                "tip_relief": amounts[at],
+                "tip_relief_length": lengths[at],
+                "begin_roll_angle": begins[at].roll_angle,
+                "begin_diameter": begins[at].diameter,
+            })
+        };
+        json!({"shape": name(*shape), "driver": gear(0), "driven": gear(1)})
     }
 }
 
@@ -111,7 +356,7 @@ impl Results for ReliefReport<'_> {
     fn lines(&self, case: Named) -> Vec<String> {
         // Rows of tables fit; only sentences are wrapped.
         let is_short = |line: &String| line.chars().count() <= WIDTH;
-        let lines = self.without_title().into_iter();
+        let lines = self.of_choice(self.found.best).into_iter();
         let lines =
             lines.flat_map(|line| if is_short(&line) { vec![line] } else { item("", &line) });
         std::iter::once(case.heading()).chain(lines).collect()
@@ -119,25 +364,38 @@ impl Results for ReliefReport<'_> {
 
     fn json(&self) -> Json {
         let found = self.found;
-        let choice = |Choice { name, reliefs, errors, margin }: &Choice| {
-            json!({
-                "name": name,
-                "relief": relief(reliefs),
-                "transmission_errors": errors,
-                "margin": margin,
-            })
+        // The reliefs have members of their own.
+        let results: Vec<usize> = (7..3 + NUMBERS.len()).collect();
+        let results = self.choices().of(&results).objects();
+        let choice = |(choice, results): (&Choice, Json)| {
+            let mut line = json!({
+                "name": choice.name,
+                "relief": self.relief(&choice.reliefs),
+                "transmission_errors": choice.errors,
+                "corner_contact": choice.worst.strikes,
+            });
+            if let (Json::Object(line), Json::Object(results)) = (&mut line, results) {
+                line.extend(results);
+            }
+            line
         };
-        let point = |MapPoint { reliefs, error, margin }: &MapPoint| json!({"relief": relief(reliefs), "transmission_error": error, "margin": margin});
+        let point = |MapPoint { reliefs, error, margin }: &MapPoint| json!({"relief": self.relief(reliefs), "transmission_error": error, "margin": margin});
+        let shares: Vec<f64> = found.demand.loads().into_iter().map(|(_, share)| share).collect();
+        let chosen = found.chosen();
         json!({
             "method": found.method.name(),
             "torque": found.torque,
             "loads": found.loads,
+            "shares": (!found.demand.spectrum.is_empty()).then_some(shares),
             "tolerance": found.demand.tolerance,
-            "relief": relief(&found.chosen().reliefs),
-            "margin": found.chosen().margin,
-            "greatest_load": found.greatest_load,
-            "unloaded_contact_ratio": found.unloaded_contact_ratio,
-            "choices": found.choices.iter().map(choice).collect::<Json>(),
+            "tolerance_length": found.demand.tolerance_length,
+            "minimise": found.demand.minimise.name(),
+            "relief": self.relief(&chosen.reliefs),
+            "margin": chosen.worst.gap,
+            "greatest_load": chosen.greatest_load,
+            "unloaded_contact_ratio": chosen.reliefs.unloaded_contact_ratio(&found.geometry),
+            "best": chosen.name,
+            "choices": found.choices.iter().zip(results).map(choice).collect::<Json>(),
             "map": found.map.iter().flatten().map(point).collect::<Json>(),
             "tries": found.tries,
             "is_complete": !found.is_cut,
@@ -146,36 +404,79 @@ impl Results for ReliefReport<'_> {
 
     /// The choices, then the map over amount and length.
     fn table(&self) -> Table {
-        let texts = ["choice", "best", "shape"].map(|key| Column::text(key, ""));
-        let [amounts, lengths] = KEYS;
-        let keys = [amounts[0], lengths[0], amounts[1], lengths[1], "transmission_error", "margin"];
-        let lengths = keys.map(|key| Column::si(key, "m"));
-        let row = |name: &str, best: &str, reliefs: &TipReliefs, error: f64, margin: f64| {
-            let TipReliefs { shape, amounts, lengths } = *reliefs;
-            let numbers = [amounts[0], lengths[0], amounts[1], lengths[1], error, margin];
-            let texts = [name, best, self::name(shape)].map(Cell::from);
-            texts.into_iter().chain(numbers.map(|number| number.to_string().into())).collect()
-        };
-        let choices = self.found.choices.iter().enumerate().map(|(at, choice)| {
-            let best = if at == self.found.best { "true" } else { "false" };
-            row(choice.name, best, &choice.reliefs, choice.greatest_error(), choice.margin)
-        });
-        let map = self.found.map.iter().flatten();
-        let map = map.map(|point| row("map", "", &point.reliefs, point.error, point.margin));
-        Table::new("", texts.into_iter().chain(lengths).collect()).with(choices.chain(map))
+        let mut table = self.choices();
+        for MapPoint { reliefs, error, margin } in self.found.map.iter().flatten() {
+            let begins = reliefs.begins(&self.found.geometry);
+            let known = [
+                (KEYS[0][0], reliefs.amounts[0]),
+                (KEYS[0][1], reliefs.amounts[1]),
+                (KEYS[1][0], reliefs.lengths[0]),
+                (KEYS[1][1], reliefs.lengths[1]),
+                ("transmission_error", *error),
+                ("margin", *margin),
+                ("driver.begin_diameter", begins[0].diameter),
+                ("driven.begin_diameter", begins[1].diameter),
+            ];
+            let texts = ["map", "", name(reliefs.shape)].map(Cell::from);
+            let number = |column: &Column| {
+                let known = known.iter().find(|(key, _)| *key == column.key);
+                Cell::number(known.map(|(_, value)| *value), "")
+            };
+            let numbers = table.columns[3..].iter().map(number);
+            let row = texts.into_iter().chain(numbers).collect();
+            table.rows.push(row);
+        }
+        table
     }
 }
+
+/// The value of a column of a choice, in SI.
+type Number = fn(&Specification, &Choice) -> Option<f64>;
+
+/// The columns of numbers: key, header, unit in SI, unit and digits in text, value.
+const NUMBERS: [(&str, &str, &str, (&str, usize), Number); 21] = [
+    ("driver.tip_relief", "C_a1", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[0])),
+    ("driver.tip_relief_length", "L_1", "m", ("mm", 4), |_, of| Some(of.reliefs.lengths[0])),
+    ("driven.tip_relief", "C_a2", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[1])),
+    ("driven.tip_relief_length", "L_2", "m", ("mm", 4), |_, of| Some(of.reliefs.lengths[1])),
+    ("transmission_error", "TE", "m", ("um", 3), |_, of| Some(of.nominal.error)),
+    ("margin", "gap", "m", ("um", 2), |_, of| Some(of.worst.gap)),
+    ("change", "vs case", "1", ("%", 2), |all, of| {
+        Some(of.nominal.error / all.choices[0].nominal.error - 1.0)
+    }),
+    ("worst_transmission_error", "in tolerance", "m", ("um", 3), |_, of| Some(of.worst.error)),
+    ("least_load_error", "TE", "m", ("um", 3), |_, of| of.errors.first().copied()),
+    ("least_load_change", "vs case", "1", ("%", 2), |all, of| {
+        Some(of.errors.first()? / all.choices[0].errors.first()? - 1.0)
+    }),
+    ("unloaded_contact_ratio", "ratio", "1", ("1", 3), |all, of| {
+        Some(of.reliefs.unloaded_contact_ratio(&all.geometry))
+    }),
+    ("worst_entry_force", "entry", "N", ("N", 3), |_, of| Some(of.worst.entry)),
+    ("worst_peak_force", "peak", "N", ("N", 4), |_, of| Some(of.worst.peak)),
+    ("dynamic_factor", "K", "1", ("1", 3), |_, of| of.nominal.factor),
+    ("greatest_load", "load", "1", ("1", 3), |_, of| of.greatest_load),
+    ("entry_force", "", "N", ("N", 3), |_, of| Some(of.nominal.entry)),
+    ("peak_force", "", "N", ("N", 4), |_, of| Some(of.nominal.peak)),
+    ("driver.begin_roll_angle", "", "rad", ("deg", 4), |all, of| {
+        Some(of.reliefs.begins(&all.geometry)[0].roll_angle)
+    }),
+    ("driver.begin_diameter", "", "m", ("mm", 5), |all, of| {
+        Some(of.reliefs.begins(&all.geometry)[0].diameter)
+    }),
+    ("driven.begin_roll_angle", "", "rad", ("deg", 4), |all, of| {
+        Some(of.reliefs.begins(&all.geometry)[1].roll_angle)
+    }),
+    ("driven.begin_diameter", "", "m", ("mm", 5), |all, of| {
+        Some(of.reliefs.begins(&all.geometry)[1].diameter)
+    }),
+];
 
 /// The keys of the amounts and of the lengths of both gears.
 const KEYS: [[&str; 2]; 2] = [
     ["driver.tip_relief", "driven.tip_relief"],
     ["driver.tip_relief_length", "driven.tip_relief_length"],
 ];
-
-fn relief(TipReliefs { shape, amounts, lengths }: &TipReliefs) -> Json {
-    let gear = |at: usize| json!({"tip_relief": amounts[at], "tip_relief_length": lengths[at]});
-    json!({"shape": name(*shape), "driver": gear(0), "driven": gear(1)})
-}
 
 /// The reliefs as values of the fields of a case, rounded as the report prints them.
 pub fn settings(reliefs: &TipReliefs) -> Vec<(&'static str, String)> {
@@ -190,62 +491,43 @@ pub fn settings(reliefs: &TipReliefs) -> Vec<(&'static str, String)> {
     settings
 }
 
-/// One row per choice.
-fn choices(found: &Specification) -> Table {
-    let head = ["  choice", "C_a1", "L_1", "C_a2", "L_2", "max TE", "mean TE", "gap"];
-    let rows = found.choices.iter().enumerate().map(|(at, choice)| {
-        let mark = if at == found.best { '*' } else { ' ' };
-        let TipReliefs { amounts, lengths, .. } = choice.reliefs;
-        let length = |at: usize| if amounts[at] > 0.0 { mm(lengths[at]) } else { "-".to_owned() };
-        let errors = [choice.greatest_error(), choice.mean_error()];
-        let [greatest, mean] = errors.map(|error| tidy(error * 1e6, 3));
-        let name = format!("{mark} {}", choice.name);
-        let gap = tidy(choice.margin * 1e6, 2);
-        let [driver, driven] = amounts.map(um);
-        vec![name, driver, length(0), driven, length(1), greatest, mean, gap]
-    });
-    Table::of_texts(head.map(str::to_owned).to_vec(), rows)
-}
+/// The key of the diagram of reliefs.
+pub const RELIEF: &str = "relief";
 
-/// One row per load: the relief of the case and the relief to specify.
-fn harris(found: &Specification) -> Table {
-    let errors = |name: &str, choice: &Choice| {
-        let errors = choice.errors.iter().map(|error| tidy(error * 1e6, 3));
-        std::iter::once(format!("  {name}")).chain(errors).collect()
+/// The diagram of the reliefs of a pair: the deviation of each profile from the involute over the
+/// roll angle of its gear, from the start to the end of contact (K-chart).
+///
+/// # Errors
+/// The reason if the case has no relief.
+pub fn relief_chart(inputs: &Inputs, geometry: &Geometry) -> Result<Chart, String> {
+    /// Points between the ends of contact.
+    const POINTS: u32 = 200;
+    let all = inputs.reliefs();
+    if all.sum() == 0.0 {
+        return Err("the case has no relief".to_owned());
+    }
+    let none = GearReliefs { tip: 0.0, root: 0.0, ..all.driver };
+    let Geometry { start, end, tangent_length, .. } = *geometry;
+    let series = |at: usize| {
+        let own = [Reliefs { driven: none, ..all }, Reliefs { driver: none, ..all }][at];
+        let own = Relief::of(&own, geometry);
+        let base = [geometry.driver.base, geometry.driven.base][at];
+        let points = (0..=POINTS).map(|point| {
+            let driver = start + (end - start) * f64::from(point) / f64::from(POINTS);
+            let driven = tangent_length - driver;
+            let curvature = [driver, driven][at];
+            ((curvature / base).to_degrees(), -1e6 * own.at(driver, driven))
+        });
+        let name = ["driver", "driven gear"][at].to_owned();
+        Series { name, pieces: vec![points.collect()], kind: Kind::Curve }
     };
-    let loads = found.loads.iter().map(|&load| format!("{} %", percent(load)));
-    let rows = [
-        errors("relief of the case", &found.choices[0]),
-        errors("relief to specify", found.chosen()),
-    ];
-    Table::of_texts(std::iter::once("  load".to_owned()).chain(loads).collect(), rows)
-}
-
-/// One row per length: the greatest transmission error by amount.
-fn map(found: &Specification) -> Table {
-    let chosen = found.chosen().reliefs;
-    let cell = |point: &MapPoint| {
-        let same = |one: [f64; 2], other: [f64; 2]| (one[0] - other[0]).abs() < 1e-9;
-        let is_chosen = same(point.reliefs.amounts, chosen.amounts)
-            && same(point.reliefs.lengths, chosen.lengths);
-        let error = if point.margin < 0.0 { "-".to_owned() } else { tidy(point.error * 1e6, 2) };
-        if is_chosen { format!("*{error}") } else { error }
-    };
-    // The amounts in one row, or in one per gear.
-    let points = found.map.first().map_or(&[][..], Vec::as_slice);
-    let head = |name: &str, at: usize| {
-        let amounts = points.iter().map(|point| um(point.reliefs.amounts[at]));
-        std::iter::once(format!("  amount{name}, um")).chain(amounts).collect::<Vec<_>>()
-    };
-    let [both, driver, driven] =
-        [("", 0), (" driver", 0), (" driven", 1)].map(|(name, at)| head(name, at));
-    let is_alike = driver[1..] == driven[1..];
-    let (first, second) = if is_alike { (both, None) } else { (driver, Some(driven)) };
-    let rows = found.map.iter().map(|row| {
-        let length = row.first().map(|point| length(point.reliefs.lengths));
-        std::iter::once(length.unwrap_or_default()).chain(row.iter().map(cell)).collect()
-    });
-    Table::of_texts(first, second.into_iter().chain(rows))
+    Ok(Chart {
+        title: "Reliefs over the roll angle (K-chart)".to_owned(),
+        across: Axis::new("roll angle of the gear", "deg"),
+        up: Axis::new("Deviation from the involute", "um"),
+        series: vec![series(0), series(1)],
+        marks: Vec::new(),
+    })
 }
 
 fn length(lengths: [f64; 2]) -> String {
@@ -265,7 +547,7 @@ fn name(shape: ReliefShape) -> &'static str {
 }
 
 fn um(length: f64) -> String {
-    format!("{:.1}", length * 1e6)
+    shortest((length * 1e7).round() / 10.0)
 }
 
 fn mm(length: f64) -> String {
@@ -274,4 +556,13 @@ fn mm(length: f64) -> String {
 
 fn percent(part: f64) -> String {
     tidy(100.0 * part, 4)
+}
+
+/// A change in percent.
+fn change(from: f64, to: f64) -> String {
+    format!("{:+.0} %", 100.0 * (to / from - 1.0))
+}
+
+fn capital(text: &str) -> String {
+    text[..1].to_uppercase() + &text[1..]
 }

@@ -89,8 +89,13 @@ const FEW_SAMPLES: usize = 1000;
 /// Seed of the command `tolerance`.
 const SEED: u64 = 1;
 /// Quantities of variants in addition to the headline quantities.
-const OF_VARIANTS: [&str; 4] =
-    ["total_deviation", "static_te_peak_to_peak", "mesh_force_factor", "steady_back_strikes"];
+const OF_VARIANTS: [&str; 5] = [
+    "total_deviation",
+    "clearing_relief",
+    "static_te_peak_to_peak",
+    "mesh_force_factor",
+    "steady_back_strikes",
+];
 
 /// A solved case with its studies and the text of its file.
 #[derive(Debug, Default)]

@@ -63,6 +63,8 @@ pub struct Verdict<'a> {
     pub quantity: &'static Quantity,
     /// The value of the quantity in SI.
     pub value: Option<f64>,
+    /// The greatest allowed value in SI.
+    pub bound: Option<f64>,
     /// The comparison.
     pub standing: Standing,
     /// Why the value is absent.
@@ -125,23 +127,31 @@ pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
 #[must_use]
 pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Option<Verdict<'a>> {
     let quantity = Quantity::find(limit.quantity)?;
-    let value = value(quantity, solution);
-    let absence = value.is_none().then(|| Absence::of(quantity, solution));
-    let standing = match (value, absence) {
-        (Some(value), _) if value <= limit.value => Standing::Within,
-        (Some(_), _) => Standing::Exceeded,
-        (None, Some(Absence::NoContact(..))) => Standing::NotApplicable,
-        (None, _) => Standing::Unknown,
+    let found = value(quantity, solution);
+    let bound = limit.bound(|of| value(of, solution));
+    // The result to which the limit is relative may be absent.
+    let lacking = match (found, bound) {
+        (None, _) => Some(quantity),
+        (_, None) => limit.of.and_then(Quantity::find),
+        _ => None,
     };
+    let absence = lacking.map(|lacking| Absence::of(lacking, solution));
+    let standing = match (found, bound, absence) {
+        (Some(value), Some(bound), _) if value <= bound => Standing::Within,
+        (Some(_), Some(_), _) => Standing::Exceeded,
+        (None, _, Some(Absence::NoContact(..))) => Standing::NotApplicable,
+        _ => Standing::Unknown,
+    };
+    let value = found.filter(|_| bound.is_some());
     // Without corner contact there is no counterpart to compare.
     let beside = value.and_then(|_| Beside::of(quantity, solution));
-    Some(Verdict { limit, quantity, value, standing, absence, beside })
+    Some(Verdict { limit, quantity, value, bound, standing, absence, beside })
 }
 
 /// The stages for every limit of a case.
 #[must_use]
 pub fn stages(case: &Case) -> Stages {
-    all_stages(limited(case))
+    all_stages(case.limits.iter().flat_map(Limit::quantities))
 }
 
 /// The stages of the counterparts of the limited quantities in a method.
@@ -165,7 +175,8 @@ pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
     let absence = Some(Absence::Withheld(*refusal));
     let verdict = |limit: &'a Limit| {
         let (quantity, standing) = (Quantity::find(limit.quantity)?, Standing::Unknown);
-        Some(Verdict { limit, quantity, value: None, standing, absence, beside: None })
+        let (value, bound) = (None, limit.bound(|_| None));
+        Some(Verdict { limit, quantity, value, bound, standing, absence, beside: None })
     };
     case.limits.iter().filter_map(verdict).collect()
 }
@@ -174,7 +185,7 @@ impl Verdict<'_> {
     /// The value as a fraction of the limit, if both are in range.
     #[must_use]
     pub fn part(&self) -> Option<f64> {
-        let (value, limit) = (self.value?, self.limit.value);
+        let (value, limit) = (self.value?, self.bound?);
         (limit > 0.0 && limit.is_finite() && value >= 0.0).then(|| value / limit)
     }
 
@@ -194,11 +205,14 @@ impl Verdict<'_> {
     #[must_use]
     pub fn is_exceeded_beside(&self) -> bool {
         let own = self.beside.and_then(|beside| beside.own?.1);
-        own.is_some_and(|own| own > self.limit.value)
+        own.zip(self.bound).is_some_and(|(own, bound)| own > bound)
     }
 
     fn statement(&self, system: System) -> String {
-        let (key, limit) = (self.quantity.key, sanitize(&self.limit.text));
+        let (key, mut limit) = (self.quantity.key, sanitize(&self.limit.text));
+        if let Some(bound) = self.bound.filter(|_| self.limit.of.is_some()) {
+            limit = format!("{limit} = {}", shown_in(self.quantity, bound, system));
+        }
         match (self.value, self.absence) {
             (Some(value), _) => {
                 let value = shown_in(self.quantity, value, system);
@@ -208,6 +222,9 @@ impl Verdict<'_> {
             }
             (None, Some(Absence::Withheld(refusal))) => {
                 format!("{key} cannot be computed: {refusal} (limit {limit})")
+            }
+            (None, Some(absence)) if self.bound.is_none() => {
+                format!("{key} cannot be compared with {limit}: {absence}")
             }
             (None, Some(absence)) if self.standing == Standing::Unknown => {
                 format!("{key} has no value (limit {limit}): {absence}")
@@ -241,7 +258,7 @@ pub fn write_json(
         return write_line(&line, out);
     }
     verdicts.iter().try_for_each(|verdict| {
-        let Verdict { limit, quantity, value, standing, beside, .. } = verdict;
+        let Verdict { limit, quantity, value, bound, standing, beside, .. } = verdict;
         // The counterpart in the method, if the method resolves the impact itself.
         let own = beside.and_then(|beside| beside.own);
         let own =
@@ -252,7 +269,8 @@ pub fn write_json(
             "standing": standing.name(),
             "quantity": quantity.key,
             "value": value,
-            "limit": limit.value,
+            "limit": bound,
+            "limit_of": limit.of,
             "unit": quantity.unit,
             "of": beside.map(|_| "free-impact"),
             "own": own,
@@ -265,6 +283,7 @@ pub fn write_json(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Inputs;
 
     fn sentences(limits: &[(&str, &str)], system: System) -> Vec<String> {
         let mut case = Case::table_1();
@@ -376,6 +395,33 @@ mod tests {
             sentences(&limits, System::Inch)[0],
             "ok impact_force 492.56 lbf <= 500 lbf (99 %)"
         );
+    }
+
+    #[test]
+    fn a_limit_relative_to_another_result_follows_it() {
+        let limits =
+            [("static_peak_force", "1.3 x mesh_force"), ("static_force_at_start", "0.5 x nominal")];
+        let mut case = Case::table_1();
+        case.set("model.method", "static").unwrap();
+        case.set("limits.impact_force", "").unwrap();
+        for (quantity, text) in limits {
+            case.set_limit(quantity, text).unwrap();
+        }
+        let solution = crate::model::solve(&case.inputs().unwrap(), stages(&case)).unwrap();
+        let found = verdicts(&case, &solution);
+        let standings = found.iter().map(|verdict| verdict.standing);
+        assert_eq!(standings.collect::<Vec<_>>(), [Standing::Within, Standing::Exceeded]);
+        assert!(
+            found[0].to_string().contains("<= 1.3 x mesh_force = 1981.6 N (77 %)"),
+            "{}",
+            found[0]
+        );
+        let other = Inputs { method: Method::Exact, ..case.inputs().unwrap() };
+        let solution = crate::model::solve(&other, stages(&case)).unwrap();
+        assert_eq!(verdicts(&case, &solution)[0].standing, Standing::Unknown);
+        let wrong = |text: &str| case.clone().set_limit("static_peak_force", text).unwrap_err();
+        assert!(wrong("1.3 x mesh_forc").to_string().contains("mesh_force"));
+        assert!(wrong("1.3 x contact_ratio").to_string().contains("another unit"));
     }
 
     #[test]

@@ -155,7 +155,12 @@ fn compared(name: &str, relation: Option<Relation>, value: &str) -> Result<Kind,
     let flags = format!("write {key}=true or {key}=false");
     let (cause, fix) = match (quantity.is_flag(), relation) {
         (false, Some(relation)) => {
-            return Ok(Kind::Compared(key, relation, Limit::new(key, value)?.value));
+            let Limit { value: limit, of, .. } = Limit::new(key, value)?;
+            if of.is_none() {
+                return Ok(Kind::Compared(key, relation, limit));
+            }
+            let cause = format!("{} is relative to another result", quoted(value));
+            (cause, "write a value with its unit".to_owned())
         }
         (false, None) => {
             let cause = format!("= compares only flags and outcomes, and {key} is a number");

@@ -1,42 +1,36 @@
-//! The tip relief to specify: amounts and lengths on both gears without corner contact at the
-//! greatest load and with the least transmission error over the loads.
+//! The tip relief to specify: amounts and lengths on both gears that can be made, without corner
+//! contact at the greatest load, and the best by a criterion even at the limits of the tolerances.
 
+pub mod demand;
 mod search;
 
 use std::cell::Cell;
-use std::collections::HashMap;
 use std::fmt;
 
-use crate::case::units::{self, Dimension};
 use crate::model::geometry::Geometry;
 use crate::model::inputs::{Drive, Gear, Method, ReliefShape};
 use crate::model::profile::{Profile, Rack};
 use crate::model::static_load::{lead_after_end, lead_before_start};
 use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve, solve_while};
-use crate::numeric::decimal::shortest;
-use search::{Grid, MOST_TRIES, PreparedMesh, Search, tolerances};
+pub use demand::{Criterion, Demand};
+use search::{Bench, Grid, MOST_TRIES, Search};
 
-/// Step of an amount, in m: half a micrometre.
-pub const AMOUNT_STEP: f64 = 0.5e-6;
+/// Step of an amount, in m: a drawing states whole micrometres.
+pub const AMOUNT_STEP: f64 = 1e-6;
 
 /// The greatest load at which corner contact is looked for, relative to the greatest load of the
 /// demand.
 pub const MOST_LOAD: f64 = 64.0;
 
-/// Number of loads at which the transmission error is computed.
-const LOADS: usize = 6;
+/// A smaller relief is chosen if its figure exceeds the best one by at most this fraction: 10 % of
+/// a transmission error are 0.8 dB.
+pub const WORTH: f64 = 0.1;
 
 /// Fraction of the progress that the search makes up; whole solves make up the rest.
-const SEARCH: f64 = 0.5;
+const SEARCH: f64 = 0.7;
 
-/// Load range and tolerance that a relief must satisfy.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Demand {
-    /// Least and greatest load, relative to the load of the case.
-    pub loads: (f64, f64),
-    /// Deviation of each relief in both directions, in m.
-    pub tolerance: f64,
-}
+/// Deviations in m: of the amounts on driver and driven gear, then of the lengths.
+type Off = [f64; 4];
 
 /// The tip reliefs of both gears.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +43,34 @@ pub struct TipReliefs {
     pub lengths: [f64; 2],
 }
 
-/// Reliefs with their transmission errors and gaps.
+/// The point of a flank at which a relief begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Begin {
+    /// Roll angle from the base circle, in rad.
+    pub roll_angle: f64,
+    /// Diameter, in m.
+    pub diameter: f64,
+}
+
+/// The figures of a relief: transmission error at rest, and results of the method at the greatest
+/// load.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Figures {
+    /// The figure of the demand over the peak-to-peak transmission errors at its loads, in m.
+    pub error: f64,
+    /// The gap that remains before E and after B at rest, in m; below 0 the overlap.
+    pub gap: f64,
+    /// Whether a tip touches off the path of contact, at rest or in motion.
+    pub strikes: bool,
+    /// Greatest force of the incoming tooth before E, in N.
+    pub entry: f64,
+    /// Greatest force of the incoming tooth, in N.
+    pub peak: f64,
+    /// Dynamic factor of the mesh in steady motion; only nominal and of method `dynamic`.
+    pub factor: Option<f64>,
+}
+
+/// Reliefs with their results.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
     /// Short name.
@@ -58,26 +79,14 @@ pub struct Choice {
     pub reliefs: TipReliefs,
     /// Peak-to-peak transmission error at each load, in m.
     pub errors: Vec<f64>,
-    /// The gap that remains before E and after B at the greatest load with the least favourable
-    /// tolerance, in m; below 0 the overlap.
-    pub margin: f64,
-}
-
-impl Demand {
-    /// Loads from 25 % to 110 % of the load of the case, tolerance 5 um.
-    pub const USUAL: Demand = Demand { loads: (0.25, 1.1), tolerance: 5e-6 };
-}
-
-impl Choice {
-    /// The greatest transmission error over the loads, in m.
-    pub fn greatest_error(&self) -> f64 {
-        self.errors.iter().copied().fold(0.0, f64::max)
-    }
-
-    /// The mean transmission error over the loads, in m.
-    pub fn mean_error(&self) -> f64 {
-        self.errors.iter().sum::<f64>() / self.errors.len().max(1) as f64
-    }
+    /// The figures without deviations.
+    pub nominal: Figures,
+    /// The least favourable of each figure at the limits of the tolerances.
+    pub worst: Figures,
+    /// The greatest load without corner contact at rest, relative to the load of the case. `None`
+    /// if [`MOST_LOAD`] times the greatest load of the demand has no corner contact. The motion is
+    /// checked only at the greatest load of the demand.
+    pub greatest_load: Option<f64>,
 }
 
 /// A point of the map over amount and length.
@@ -85,7 +94,7 @@ impl Choice {
 pub struct MapPoint {
     /// The reliefs.
     pub reliefs: TipReliefs,
-    /// Greatest peak-to-peak transmission error over the loads, in m.
+    /// The figure of the transmission errors over the loads, in m.
     pub error: f64,
     /// The remaining gap, in m.
     pub margin: f64,
@@ -96,29 +105,102 @@ pub struct MapPoint {
 pub struct Specification {
     /// The method that finds no corner contact with the specified relief.
     pub method: Method,
-    /// The demand of the specification.
+    /// The demand, with the tolerance of the lengths.
     pub demand: Demand,
     /// Torque on the driver at load 1, in N m.
     pub torque: f64,
+    /// Mesh force at the greatest load of the demand, in N.
+    pub mesh_force: f64,
+    /// The geometry of the pair.
+    pub geometry: Geometry,
     /// The loads, relative to the load of the case.
     pub loads: Vec<f64>,
-    /// The reliefs of the case, then the best relief of each kind; [`Specification::best`] is one
-    /// of them.
+    /// The reliefs of the case, then the best relief of each kind.
     pub choices: Vec<Choice>,
     /// Index of the choice to specify.
     pub best: usize,
-    /// The greatest load without corner contact at rest, relative to the load of the case. `None`
-    /// if [`MOST_LOAD`] times the greatest load of the demand has no corner contact. The motion is
-    /// checked only at the greatest load of the demand.
-    pub greatest_load: Option<f64>,
-    /// Path of contact on unrelieved flanks over the base pitch: the contact ratio without load.
-    pub unloaded_contact_ratio: f64,
     /// One row per length, shortest first; one point per amount.
     pub map: Vec<Vec<MapPoint>>,
     /// Number of reliefs that the search evaluated.
     pub tries: u64,
     /// Whether the budget ended the search early.
     pub is_cut: bool,
+}
+
+impl TipReliefs {
+    /// The reliefs with deviations. A tip without relief has no deviation.
+    fn off(&self, by: Off) -> TipReliefs {
+        let amount = |at: usize| {
+            if self.amounts[at] > 0.0 { (self.amounts[at] + by[at]).max(0.0) } else { 0.0 }
+        };
+        let length = |at: usize| (self.lengths[at] + by[2 + at]).max(f64::MIN_POSITIVE);
+        TipReliefs { amounts: [amount(0), amount(1)], lengths: [length(0), length(1)], ..*self }
+    }
+
+    /// The points at which the reliefs begin.
+    ///
+    /// # Formula
+    /// ```text
+    /// ρ = ρ_a − L_Ca,   ξ = ρ/r_b,   d_Ca = 2 √(r_b² + ρ²)
+    /// ```
+    /// ρ_a is the radius of curvature at the end of contact, ξ the roll angle.
+    ///
+    /// # Source
+    /// ISO 21771: involute and tip relief.
+    pub fn begins(&self, geometry: &Geometry) -> [Begin; 2] {
+        let Geometry { driver, driven, start, end, tangent_length, .. } = geometry;
+        let gears = [(driver.base, *end), (driven.base, tangent_length - start)];
+        std::array::from_fn(|at| {
+            let (base, tip) = gears[at];
+            let curvature = (tip - self.lengths[at]).max(0.0);
+            Begin { roll_angle: curvature / base, diameter: 2.0 * base.hypot(curvature) }
+        })
+    }
+
+    /// The case with these reliefs.
+    fn of(&self, inputs: &Inputs) -> Inputs {
+        let gear = |gear: &Gear, at: usize| Gear {
+            tip_relief: self.amounts[at],
+            tip_relief_length: Some(self.lengths[at]),
+            ..gear.clone()
+        };
+        Inputs {
+            driver: gear(&inputs.driver, 0),
+            driven: gear(&inputs.driven, 1),
+            relief_shape: self.shape,
+            ..inputs.clone()
+        }
+    }
+
+    /// Both amounts together, in m.
+    pub fn removed(&self) -> f64 {
+        self.amounts[0] + self.amounts[1]
+    }
+
+    /// Path of contact on unrelieved flanks over the base pitch: the contact ratio without load.
+    pub fn unloaded_contact_ratio(&self, geometry: &Geometry) -> f64 {
+        let relieved = (0..2).filter(|&at| self.amounts[at] > 0.0).map(|at| self.lengths[at]);
+        geometry.contact_ratio - relieved.sum::<f64>() / geometry.base_pitch
+    }
+}
+
+impl Figures {
+    /// The least favourable of each figure.
+    fn worst(self, other: Figures) -> Figures {
+        Figures {
+            error: self.error.max(other.error),
+            gap: self.gap.min(other.gap),
+            strikes: self.strikes || other.strikes,
+            entry: self.entry.max(other.entry),
+            peak: self.peak.max(other.peak),
+            factor: None,
+        }
+    }
+
+    /// The figure that a criterion compares.
+    pub fn of(&self, criterion: Criterion) -> f64 {
+        [self.error, self.peak, self.entry][criterion as usize]
+    }
 }
 
 impl Specification {
@@ -132,11 +214,16 @@ impl Specification {
 ///
 /// # Formula
 /// ```text
-/// least over C1, L1, C2, L2, shape of  max over the loads of (max x − min x)
-/// with x + e − S <= 0 before E and after B at the greatest load, for each C ± the tolerance
+/// least over C1, L1, C2, L2, shape of  max over the tolerances of  figure
+/// figure:  te     max over the loads of (max x − min x), or its mean over a load spectrum
+///          peak   greatest tooth force at the greatest load
+///          entry  greatest tooth force before E at the greatest load
+/// with x + e − S <= 0 before E and after B at the greatest load, for each C and L ± its tolerance
 /// ```
 /// x is the transmission error of the static balance. If the method of the case is `dynamic`, the
-/// amounts grow until the motion has no corner contact either.
+/// amounts grow until the motion has no corner contact either. Of the kinds of relief whose figures
+/// differ by no more than [`WORTH`], the one with the smallest amounts is chosen. If no relief
+/// prevents corner contact, the criterion `entry` chooses the one with the least overlap.
 ///
 /// # Source
 /// Harris maps of the transmission error over the load: Harris 1958; long and short relief: Munro,
@@ -155,25 +242,27 @@ pub fn specify(
     let method = governing(&inputs, go_on)?;
     // No figure reads the stations.
     let at_rest = Inputs { method: Method::Static, stations: Some(1), ..inputs };
-    let at_most = loaded(&at_rest, demand.loads.1);
+    let at_most = loaded(&at_rest, demand.greatest_load());
     let solution = solve(&at_most, Stages::of(Stage::Static))?;
-    let grid = grid(&at_rest, &solution, demand)?;
-    let loads = load_factors(demand.loads);
-    let bench = PreparedMesh::new(&at_rest, &solution, demand, &loads, &grid)?;
-    let searching = |part: f64| go_on(SEARCH * part.min(1.0));
-    let mut search =
-        Search { bench: &bench, grid: &grid, go_on: &searching, known: HashMap::new() };
-    let found = search.best_of_each_kind()?;
-    let solves = WholeSolves {
-        inputs: &at_rest,
+    let step = length_step(&solution.geometry);
+    let tolerance_length = demand.tolerance_length.unwrap_or(step);
+    let demand = Demand { tolerance_length: Some(tolerance_length), ..demand.clone() };
+    let grid = grid(&at_rest, &solution, &demand, step)?;
+    let bench = Bench::new(&at_rest, &solution, &demand, &grid)?;
+    let pair = WholeSolves {
         is_in_motion: method == Method::Dynamic,
+        inputs: &at_rest,
         at_most: &at_most,
-        demand,
-        loads: &loads,
+        demand: &demand,
         grid: &grid,
+        bench: &bench,
         go_on,
         part: Cell::new(SEARCH),
     };
+    let peak = |reliefs: &TipReliefs| Ok(pair.figures(reliefs, pair.is_in_motion)?.peak);
+    let mut search = Search::new(&bench, &grid, &demand, go_on);
+    let peak = (demand.minimise == Criterion::Peak).then_some(&peak as search::Peak<'_>);
+    let found = search.best_of_each_kind(peak, demand.minimise == Criterion::Entry)?;
     let usual = solution.geometry.shared_length();
     let gears = [&at_rest.driver, &at_rest.driven];
     let present = TipReliefs {
@@ -181,11 +270,11 @@ pub fn specify(
         amounts: gears.map(|gear| gear.tip_relief),
         lengths: gears.map(|gear| gear.tip_relief_length.unwrap_or(usual)),
     };
-    let (mut choices, mut beyond) = (vec![solves.choice("relief of the case", present)?], None);
-    let kinds = found.len() as f64;
+    let mut choices = vec![pair.choice("relief of the case", present)?];
+    let (kinds, mut beyond) = (found.len() as f64, None);
     for (done, (name, reliefs)) in (1..).zip(found) {
-        solves.part.set(SEARCH + (1.0 - SEARCH) * f64::from(done) / (kinds + 1.0));
-        match solves.cleared(name, reliefs) {
+        pair.part.set(SEARCH + (1.0 - SEARCH) * f64::from(done) / (kinds + 1.0));
+        match pair.cleared(name, reliefs) {
             Ok(choice) => choices.push(choice),
             // Another kind of relief may still prevent corner contact.
             Err(none @ (NoRelief::Beyond { .. } | NoRelief::InMotion { .. })) => {
@@ -197,24 +286,34 @@ pub fn specify(
     if let (1, Some(none)) = (choices.len(), beyond) {
         return Err(none);
     }
-    let error = |at: &usize| choices[*at].greatest_error();
-    let best = (1..choices.len()).min_by(|one, other| error(one).total_cmp(&error(other)));
-    let best = best.unwrap_or(0);
-    let reliefs = choices[best].reliefs;
+    let best = best(&choices, demand.minimise);
     Ok(Specification {
         method,
-        demand: *demand,
         torque,
-        greatest_load: solves.greatest_load(&bench, &reliefs)?,
-        unloaded_contact_ratio: solution.geometry.contact_ratio
-            - (reliefs.lengths[0] + reliefs.lengths[1]) / solution.geometry.base_pitch,
-        map: search.map(&reliefs),
+        mesh_force: solution.mesh_force,
+        geometry: solution.geometry,
+        loads: demand.loads().into_iter().map(|(load, _)| load).collect(),
+        map: bench.map(&choices[best].reliefs, &grid, &demand),
         choices,
         best,
-        loads,
         tries: search.tries(),
         is_cut: search.tries() >= MOST_TRIES,
+        demand,
     })
+}
+
+/// The choice with the smallest amounts among those whose figure is close to the best one.
+fn best(choices: &[Choice], criterion: Criterion) -> usize {
+    let figure = |at: &usize| choices[*at].worst.of(criterion);
+    let mut candidates: Vec<usize> =
+        (0..choices.len()).filter(|&at| !choices[at].worst.strikes).collect();
+    if candidates.is_empty() {
+        candidates = (1..choices.len()).collect();
+    }
+    let least = candidates.iter().map(figure).fold(f64::INFINITY, f64::min);
+    candidates.retain(|at| figure(at) <= (1.0 + WORTH) * least);
+    let removed = |at: &usize| choices[*at].reliefs.removed();
+    candidates.into_iter().min_by(|one, other| removed(one).total_cmp(&removed(other))).unwrap_or(0)
 }
 
 /// The method that decides whether a tooth strikes: the closed forms do not share the load.
@@ -231,22 +330,29 @@ fn governing(inputs: &Inputs, go_on: &dyn Fn(f64) -> bool) -> Result<Method, NoR
     })
 }
 
-/// Loads over the range, including both ends.
-fn load_factors((from, to): (f64, f64)) -> Vec<f64> {
-    let steps = if to > from { LOADS } else { 1 };
-    let last = (steps - 1).max(1) as f64;
-    (0..steps).map(|at| decimal(from + (to - from) * at as f64 / last)).collect()
-}
-
 /// Rounds a number to at most twelve decimal places.
 fn decimal(number: f64) -> f64 {
     const PLACES: f64 = 1e12;
     (number * PLACES).round() / PLACES
 }
 
-/// The search grid: amounts and lengths in round steps, up to the limits of tip and path of
-/// contact.
-fn grid(inputs: &Inputs, solution: &Solution, demand: &Demand) -> Result<Grid, NoRelief> {
+/// The step of a length, in m: 0.1 mm, and less where the path of contact is short.
+fn length_step(geometry: &Geometry) -> f64 {
+    match longest(geometry) {
+        3e-3.. => 1e-4,
+        1e-3.. => 5e-5,
+        _ => 1e-5,
+    }
+}
+
+/// The search grid: amounts and lengths in steps that a drawing states, up to the limits of tip and
+/// path of contact.
+fn grid(
+    inputs: &Inputs,
+    solution: &Solution,
+    demand: &Demand,
+    length_step: f64,
+) -> Result<Grid, NoRelief> {
     /// Greatest amount over the deflection and deviation at the greatest load.
     const MOST: f64 = 3.0;
     /// Greatest fraction of its thickness that a tip may lose on one flank.
@@ -258,8 +364,8 @@ fn grid(inputs: &Inputs, solution: &Solution, demand: &Demand) -> Result<Grid, N
     let needed = solution.deviation.loaded_deflection()
         + solution.deviation.equivalent_error.max(0.0)
         + 2.0 * demand.tolerance;
-    let length_step = round_step(longest / 40.0);
-    let least = (needed / STEEPEST).max(length_step);
+    let shortest = demand.tolerance_length.unwrap_or(0.0) + length_step;
+    let least = (needed / STEEPEST).max(shortest);
     if least > longest {
         return Err(NoRelief::ShortPath { length: longest, least, ratio: geometry.contact_ratio });
     }
@@ -285,92 +391,12 @@ fn longest(geometry: &Geometry) -> f64 {
     geometry.shared_length().max(kept)
 }
 
-/// The least round step not below a length: 1, 2 or 5 times a power of ten.
-fn round_step(length: f64) -> f64 {
-    let decade = 10f64.powf(length.log10().floor());
-    let round = [1.0, 2.0, 5.0, 10.0].into_iter();
-    let step = round.map(|part| part * decade).find(|step| *step >= length);
-    step.unwrap_or(length)
-}
-
-/// Parses a range of loads in percent, such as `25..110%`, or one load.
-///
-/// # Errors
-/// Returns the syntax of a load range.
-pub fn loads(text: &str) -> Result<(f64, f64), String> {
-    const FIX: &str = "write a range above 0 % and up to 1000 %, such as 25..110%";
-    let number = |text: &str| {
-        let number = text.trim().trim_end_matches('%').trim_end();
-        let percent = number.parse::<f64>().ok().filter(|percent| *percent > 0.0);
-        percent.filter(|percent| *percent <= 1000.0).map(|percent| percent / 100.0)
-    };
-    let (from, to) = text.split_once("..").unwrap_or((text, text));
-    match number(from).zip(number(to)) {
-        Some((from, to)) if from > to => Err(format!("the range is reversed: {FIX}")),
-        found => found.ok_or(FIX.to_owned()),
-    }
-}
-
-/// Parses a length from 0 to 1 mm.
-///
-/// # Errors
-/// Returns the syntax of a tolerance.
-pub fn tolerance(text: &str) -> Result<f64, String> {
-    const MOST: f64 = 1e-3;
-    let length = units::parse(text, Dimension::Length, "um")
-        .map_err(|error| format!("{}: {}", error.cause, error.fix))?;
-    if (0.0..=MOST).contains(&length) {
-        Ok(length)
-    } else {
-        Err("write a length from 0 um to 1 mm, such as '5 um'".to_owned())
-    }
-}
-
-impl Demand {
-    /// Parses a text such as `25..110 %, 5 um`; the tolerance is optional.
-    ///
-    /// # Errors
-    /// Returns the correct syntax.
-    pub fn parse(text: &str) -> Result<Demand, String> {
-        let (range, width) = text.split_once(',').unwrap_or((text, ""));
-        let tolerance = match width.trim() {
-            "" => Demand::USUAL.tolerance,
-            width => tolerance(width)?,
-        };
-        let loads = loads(range)?;
-        Ok(Demand { loads, tolerance })
-    }
-
-    /// The text that [`Demand::parse`] reads.
-    pub fn text(&self) -> String {
-        let percent = |part: f64| shortest((part * 1e4).round() / 100.0);
-        let (from, to) = self.loads;
-        let tolerance = units::text(self.tolerance, "um");
-        format!("{}..{} %, {tolerance}", percent(from), percent(to))
-    }
-}
-
 /// Steps by which the amount of a relief grows if a whole solve finds an overlap.
-const GROWTHS: [i32; 12] = [0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48];
+const GROWTHS: [i32; 12] = [0, 1, 2, 3, 4, 5, 6, 8, 10, 14, 18, 24];
 
 /// The case with a fraction of its load.
 fn loaded(inputs: &Inputs, part: f64) -> Inputs {
     Inputs { drive: Drive::Torque(part * inputs.torque()), ..inputs.clone() }
-}
-
-/// The case with other tip reliefs and their deviations.
-fn relieved(inputs: &Inputs, reliefs: &TipReliefs, off: [f64; 2]) -> Inputs {
-    let gear = |gear: &Gear, at: usize| Gear {
-        tip_relief: (reliefs.amounts[at] + off[at]).max(0.0),
-        tip_relief_length: Some(reliefs.lengths[at]),
-        ..gear.clone()
-    };
-    Inputs {
-        driver: gear(&inputs.driver, 0),
-        driven: gear(&inputs.driven, 1),
-        relief_shape: reliefs.shape,
-        ..inputs.clone()
-    }
 }
 
 /// Whole solves of the pair with other reliefs.
@@ -381,77 +407,107 @@ struct WholeSolves<'a> {
     /// The case under the greatest load of the demand.
     at_most: &'a Inputs,
     demand: &'a Demand,
-    loads: &'a [f64],
     grid: &'a Grid,
+    bench: &'a Bench<'a>,
     go_on: &'a dyn Fn(f64) -> bool,
     /// The progress so far.
     part: Cell<f64>,
 }
 
 impl WholeSolves<'_> {
-    /// Increases a relief until no whole solve finds corner contact.
+    /// Increases a relief until no whole solve finds corner contact. The criterion `entry` accepts
+    /// the contact of a relief that cannot prevent it.
     fn cleared(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
-        let (mut greatest, mut overlap) = (reliefs, f64::INFINITY);
+        let (mut greatest, mut last) = (reliefs, 0.0);
         for steps in GROWTHS {
             let Some(greater) = self.grid.greater(&reliefs, steps) else {
                 break;
             };
-            (greatest, overlap) = (greater, self.overlap(&greater)?);
-            if overlap <= 0.0 && !self.strikes_in_motion(&greater)? {
+            let worst = self.worst(&greater)?;
+            if !worst.strikes {
                 return self.choice(name, greater);
             }
+            (greatest, last) = (greater, worst.gap);
+        }
+        if self.demand.minimise == Criterion::Entry {
+            return self.choice(name, reliefs);
         }
         let most = greatest.amounts[0].max(greatest.amounts[1]);
-        Err(if overlap > 0.0 {
-            NoRelief::Beyond { most, overlap }
+        Err(if last < 0.0 {
+            NoRelief::Beyond { most, overlap: -last }
         } else {
             NoRelief::InMotion { most }
         })
     }
 
     fn choice(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
-        let errors = self.loads.iter().map(|&part| {
-            let inputs = relieved(&loaded(self.inputs, part), &reliefs, [0.0; 2]);
+        let loads = self.demand.loads();
+        let errors = loads.iter().map(|&(part, _)| {
+            let inputs = reliefs.of(&loaded(self.inputs, part));
             let solution = self.solve(&inputs, Stage::StaticSpectrum)?;
             let found = solution.static_spectrum.transpose()?;
             Ok(found.map_or(0.0, |found| found.spectrum.peak_to_peak))
         });
-        Ok(Choice {
-            name,
-            reliefs,
-            errors: errors.collect::<Result<_, NoRelief>>()?,
-            margin: -self.overlap(&reliefs)?,
+        let errors = errors.collect::<Result<Vec<f64>, NoRelief>>()?;
+        let factor = if self.is_in_motion {
+            // A motion that does not become steady has no factor.
+            let solution = self.solve(&self.moving(&reliefs), Stage::SteadyMotion)?;
+            let steady = solution.steady.and_then(Result::ok);
+            steady.map(|steady| steady.mesh_force / solution.mesh_force)
+        } else {
+            None
+        };
+        let error = self.demand.figure(errors.iter().copied());
+        let nominal = Figures { error, factor, ..self.figures(&reliefs, self.is_in_motion)? };
+        let worst = nominal.worst(self.worst(&reliefs)?);
+        let greatest_load = self.greatest_load(&reliefs)?;
+        Ok(Choice { name, reliefs, errors, nominal, worst, greatest_load })
+    }
+
+    /// The least favourable figures at the limits of the tolerances. The motion is computed where
+    /// both gears have equal deviations.
+    fn worst(&self, reliefs: &TipReliefs) -> Result<Figures, NoRelief> {
+        let none = Figures { gap: f64::INFINITY, ..Figures::default() };
+        self.demand.corners().into_iter().try_fold(none, |worst, off| {
+            let is_alike = off[..2] == [off[0]; 2] && off[2..] == [off[2]; 2];
+            let found = self.figures(&reliefs.off(off), self.is_in_motion && is_alike)?;
+            Ok(worst.worst(found))
         })
     }
 
-    /// Overlap of the teeth at the greatest load with the least favourable tolerance, in m.
-    fn overlap(&self, reliefs: &TipReliefs) -> Result<f64, NoRelief> {
-        let mut worst = f64::NEG_INFINITY;
-        for off in tolerances(self.demand.tolerance) {
-            let solution = self.solve(&relieved(self.at_most, reliefs, off), Stage::Static)?;
-            if let Some(mesh) = &solution.mesh {
-                let leads = [lead_before_start(mesh)?, lead_after_end(mesh)?];
-                worst = leads.into_iter().fold(worst, f64::max);
-            }
+    /// The figures of a relief, by the motion if that is wanted.
+    fn figures(&self, reliefs: &TipReliefs, in_motion: bool) -> Result<Figures, NoRelief> {
+        let solution = self.solve(&reliefs.of(self.at_most), Stage::Static)?;
+        let leads = match &solution.mesh {
+            Some(mesh) => [lead_before_start(mesh)?, lead_after_end(mesh)?],
+            None => [f64::NEG_INFINITY; 2],
+        };
+        let found = solution.static_load.unwrap_or_default();
+        let gap = -leads[0].max(leads[1]);
+        let at_rest = Figures {
+            error: self.bench.error(reliefs),
+            gap,
+            strikes: gap < 0.0,
+            entry: if leads[0] > 0.0 { found.force_at_start } else { 0.0 },
+            peak: found.peak_force,
+            factor: None,
+        };
+        if !in_motion {
+            return Ok(at_rest);
         }
-        Ok(worst)
+        let solution = self.solve(&self.moving(reliefs), Stage::Dynamic)?;
+        Ok(solution.dynamic.map_or(at_rest, |found| Figures {
+            strikes: at_rest.strikes
+                || found.first_contact_angle.is_some()
+                || found.last_contact_angle.is_some(),
+            entry: found.peak_approach_force,
+            peak: found.peak_force,
+            ..at_rest
+        }))
     }
 
-    /// Whether a tip touches off the path of contact in motion at the greatest load.
-    fn strikes_in_motion(&self, reliefs: &TipReliefs) -> Result<bool, NoRelief> {
-        if !self.is_in_motion {
-            return Ok(false);
-        }
-        let inputs = Inputs { method: Method::Dynamic, ..self.at_most.clone() };
-        for off in tolerances(self.demand.tolerance) {
-            let solution = self.solve(&relieved(&inputs, reliefs, off), Stage::Dynamic)?;
-            if let Some(found) = solution.dynamic
-                && (found.first_contact_angle.is_some() || found.last_contact_angle.is_some())
-            {
-                return Ok(true);
-            }
-        }
-        Ok(false)
+    fn moving(&self, reliefs: &TipReliefs) -> Inputs {
+        reliefs.of(&Inputs { method: Method::Dynamic, ..self.at_most.clone() })
     }
 
     fn solve(&self, inputs: &Inputs, stage: Stage) -> Result<Solution, NoRelief> {
@@ -460,24 +516,22 @@ impl WholeSolves<'_> {
 
     /// The greatest load without overlap at rest, relative to the load of the case. `None` if even
     /// [`MOST_LOAD`] times the greatest load of the range has no overlap.
-    fn greatest_load(
-        &self,
-        bench: &PreparedMesh,
-        reliefs: &TipReliefs,
-    ) -> Result<Option<f64>, NoRelief> {
+    fn greatest_load(&self, reliefs: &TipReliefs) -> Result<Option<f64>, NoRelief> {
         const CLOSE: f64 = 1e-3;
-        let clears = |times: f64| Ok::<bool, NoRelief>(bench.overlap_under(reliefs, times)? <= 0.0);
-        let (mut low, mut high) = (1.0, 2.0);
+        let clears = |times: f64| {
+            if !(self.go_on)(self.part.get()) {
+                return Err(NoRelief::Refused(Refusal::Stopped));
+            }
+            Ok(self.bench.overlap_under(reliefs, self.demand, times)? <= 0.0)
+        };
+        let (mut low, mut high) = (0.0, 1.0);
         while clears(high)? {
             if high >= MOST_LOAD {
                 return Ok(None);
             }
             (low, high) = (high, 2.0 * high);
         }
-        while high - low > CLOSE * high {
-            if !(self.go_on)(self.part.get()) {
-                return Err(NoRelief::Refused(Refusal::Stopped));
-            }
+        while high - low > CLOSE * high.max(CLOSE) {
             let middle = f64::midpoint(low, high);
             if clears(middle)? {
                 low = middle;
@@ -485,7 +539,7 @@ impl WholeSolves<'_> {
                 high = middle;
             }
         }
-        Ok(Some(self.demand.loads.1 * low))
+        Ok(Some(self.demand.greatest_load() * low))
     }
 }
 
@@ -536,21 +590,23 @@ impl fmt::Display for NoRelief {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let um = |length: &f64| format!("{:.1} um", length * 1e6);
         let mm = |length: &f64| format!("{:.2} mm", length * 1e3);
+        let none = "no tip relief prevents corner contact";
+        let fix = "lower the greatest load or a tolerance, or find the relief with the least force \
+            before E (--minimise entry)";
         match self {
             NoRelief::Refused(refusal) => write!(f, "{refusal}; {}", refusal.fix()),
             NoRelief::ThinTip { gear, most, overlap } => write!(
                 f,
-                "no tip relief prevents corner contact: the {gear} tip is thin, its relief is \
-                    limited to {}, and the teeth still overlap by {}; lower the greatest load or \
-                    the tolerance",
+                "{none}: the {gear} tip is thin, its relief is limited to {}, and the teeth still \
+                 overlap by {}; {fix}",
                 um(most),
                 um(overlap)
             ),
             NoRelief::ShortPath { length, least, ratio } => write!(
                 f,
-                "no tip relief prevents corner contact: for this load its length is at least {} (20 times \
-                 its amount), and beyond {} {} (contact ratio {ratio:.4}); raise the addendum or the \
-                 number of teeth, or lower the greatest load",
+                "{none}: for this load and these tolerances its length is at least {} (20 times \
+                 its amount), and beyond {} {} (contact ratio {ratio:.4}); raise the addendum or \
+                 the number of teeth, or lower the greatest load",
                 mm(least),
                 mm(length),
                 if *ratio < 2.0 {
@@ -561,33 +617,16 @@ impl fmt::Display for NoRelief {
             ),
             NoRelief::Beyond { most, overlap } => write!(
                 f,
-                "no tip relief up to {} prevents corner contact: the teeth still overlap by {}; lower \
-                 the greatest load or the tolerance",
+                "{none} up to {}: the teeth still overlap by {}; {fix}",
                 um(most),
                 um(overlap)
             ),
             NoRelief::InMotion { most } => write!(
                 f,
-                "no tip relief up to {} prevents corner contact in motion; raise model.damping_ratio or \
-                 change operation.speed, or use --method static",
+                "{none} in motion up to {}; raise model.damping_ratio or change operation.speed, \
+                 or use --method static",
                 um(most)
             ),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_demand_is_parsed_from_its_text() {
-        assert_eq!(Demand::USUAL.text(), "25..110 %, 5 um");
-        assert_eq!(Demand::parse(&Demand::USUAL.text()), Ok(Demand::USUAL));
-        let own = Demand::parse("50..100%").expect("a range");
-        assert_eq!((own.loads, own.tolerance), ((0.5, 1.0), 5e-6));
-        for wrong in ["", "110..25 %", "25..110 %, 5", "0..110 %, 5 um", "25..110 %, 2 mm"] {
-            assert!(Demand::parse(wrong).is_err(), "{wrong}");
         }
     }
 }

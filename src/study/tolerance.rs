@@ -70,12 +70,9 @@ impl Tolerance {
         };
         let limits: Vec<Limit> =
             case.limits.iter().filter(|limit| !limit.text.is_empty()).cloned().collect();
-        let limited = limits.iter().filter_map(|limit| Quantity::find(limit.quantity));
-        let quantities = if only.is_empty() {
-            headline(case, &[inputs.method])
-        } else {
-            distinct(only.iter().copied().chain(limited))
-        };
+        let limited = limits.iter().flat_map(Limit::quantities);
+        let own = if only.is_empty() { headline(case, &[inputs.method]) } else { only.to_vec() };
+        let quantities = distinct(own.into_iter().chain(limited));
         let design = Design { seed: size.seed, distributions, samples: size.samples, ranked };
         Ok(Tolerance { design, quantities, limits })
     }
@@ -115,11 +112,14 @@ impl Tolerance {
 
     fn exceedance(&self, limit: &Limit, samples: &Samples) -> Option<Exceedance> {
         let quantity = Quantity::find(limit.quantity)?;
-        let at = self.quantities.iter().position(|known| known.key == quantity.key)?;
+        let value = |of: &Quantity, sample| {
+            let at = self.quantities.iter().position(|known| known.key == of.key)?;
+            samples.value(at, sample)
+        };
         let exceeds = |sample| {
             let PointOutcome::Solved(outcome) = samples.outcomes[sample] else { return None };
-            match samples.value(at, sample) {
-                Some(value) => Some(value > limit.value),
+            match value(quantity, sample) {
+                Some(own) => Some(own > limit.bound(|of| value(of, sample))?),
                 // Without contact there is no value above the limit.
                 None => (outcome == Outcome::NoCornerContact || quantity.is_of_free_impact())
                     .then_some(false),

@@ -15,13 +15,61 @@ fn lines(text: &str) -> Vec<Value> {
 }
 
 #[test]
-fn the_map_of_a_relief_marks_the_relief_to_specify_and_fits_the_line() {
+fn a_relief_states_what_a_drawing_needs_and_marks_the_relief_to_specify() {
     let text = stdout_of(&["relief", "cases/mill-coarse-slow.toml", "--load", "50..100%"]);
-    assert!(text.lines().all(|line| line.len() <= 80), "{text}");
-    let map = &text[text.find("  amount driver, um").expect("a map")..];
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    let map = &text[text.rfind("  amount").expect("a map")..];
     assert_eq!(map.matches('*').count(), 1, "{map}");
     assert!(text.contains("Tip relief for 50 to 100 % of 35000 N m"), "{text}");
-    for (option, value) in [("--tolerance", "-5 um"), ("--load", "-5..100%")] {
+    for stated in ["C_a, um", "L_Ca, mm", "roll angle, deg", "d_Ca, mm", "shape"] {
+        let line = text.lines().find(|line| line.contains(stated)).expect(stated);
+        assert!(stated == "shape" || line.matches("+-").count() == 2, "{line}");
+    }
+}
+
+#[test]
+fn the_formats_of_a_relief_agree_and_the_chosen_relief_solves_without_contact() {
+    let arguments = ["relief", TABLE_1, "--spectrum", "50%:0.3, 100%:0.7", "--tolerance-length"];
+    let with = |format| stdout_of(&[&arguments[..], &["0.2 mm", "--format", format]].concat());
+    let json = &lines(&with("json"))[0];
+    assert_eq!((&json["minimise"], &json["tolerance_length"]), (&"te".into(), &2e-4.into()));
+    assert_eq!(json["shares"], serde_json::json!([0.3, 0.7]));
+    let csv = with("csv");
+    let header: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    let best = csv.lines().find(|line| line.contains(",true,")).unwrap();
+    let cell = |key: &str| {
+        let at = header.iter().position(|column| *column == key).unwrap();
+        best.split(',').nth(at).unwrap().parse::<f64>().unwrap()
+    };
+    let relief = &json["relief"]["driven"];
+    assert_eq!(relief["tip_relief"], cell("driven.tip_relief [m]"));
+    assert_eq!(relief["begin_diameter"], cell("driven.begin_diameter [m]"));
+    let set = |gear: &str, key: &str| {
+        format!("{gear}.{key}={} m", json["relief"][gear][key].as_f64().unwrap())
+    };
+    let shape = format!("model.relief_shape={}", json["relief"]["shape"].as_str().unwrap());
+    let mut solve = vec!["solve".to_owned(), TABLE_1.to_owned()];
+    for gear in ["driver", "driven"] {
+        let keys = ["tip_relief", "tip_relief_length"].map(|key| set(gear, key));
+        solve.extend(keys.into_iter().flat_map(|setting| ["--set".to_owned(), setting]));
+    }
+    let more = ["--set", &shape, "--method", "static", "--format", "json"].map(str::to_owned);
+    solve.extend(more);
+    let solve: Vec<&str> = solve.iter().map(String::as_str).collect();
+    assert_eq!(lines(&stdout_of(&solve))[0]["outcome"], "no-corner-contact");
+    let picture = [&["plot"], &solve[1..solve.len() - 2], &["--chart", "relief"]].concat();
+    assert!(stdout_of(&picture).contains("K-chart"));
+}
+
+#[test]
+fn a_bad_option_of_a_relief_gets_its_fix() {
+    for (option, value) in [
+        ("--tolerance", "-5 um"),
+        ("--tolerance-length", "5 mm"),
+        ("--load", "-5..100%"),
+        ("--spectrum", "50%"),
+        ("--minimise", "noise"),
+    ] {
         let (code, _, errors) = printed(&["relief", TABLE_1, option, value]);
         let expected = format!("error: invalid value '{value}' for '{option}");
         assert!(code == 2 && errors.starts_with(&expected), "{errors}");

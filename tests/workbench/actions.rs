@@ -60,7 +60,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("", ":variant", "", "Commands"),
     ("X", ":reload", "", "[> Cancel <]"),
     ("", ":journals", "", "no ended session left unsaved edits"),
-    ("", ":relief", "", "Load range and tolerance"),
+    ("", ":relief", "", "Loads, tolerances, te|peak|entry"),
     // Chart and teeth.
     ("Esc 3", "Space", "", "[ticks]"),
     ("Esc 3 l l", "h", "", "1.3663 deg of the driver before E: F_S 2191.0 N"),

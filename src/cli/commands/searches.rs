@@ -13,7 +13,7 @@ use crate::report::seek::SeekReport;
 use crate::report::stiffness::{StiffnessReport, no_field};
 use crate::study::axis::{AxisRange, Sampling, with_unit};
 use crate::study::condition::Condition;
-use crate::study::relief::{self, Demand, NoRelief, specify};
+use crate::study::relief::{Criterion, Demand, NoRelief, demand, specify};
 use crate::study::seek::{USUAL_SCAN, seek};
 use crate::study::shard::Format;
 use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare_flanks, compare_path};
@@ -81,11 +81,13 @@ impl Seek {
     }
 }
 
-const RELIEF_HELP: &str = "Corner contact counts before the start and after the end of the path of contact, at the greatest load, with \
-    each relief off by the tolerance to either side. Among the reliefs without corner contact the command chooses the one with the \
-    smallest maximum transmission error (peak to peak, at rest, without base pitch deviations) over six loads of the range. Amounts are \
-    multiples of 0.5 um, lengths are round numbers. With method dynamic the motion must have no corner contact either. CSV has one row per choice \
-    and point of the map, JSON is one object; both are in SI units.";
+const RELIEF_HELP: &str = "The answer is what a drawing states: amounts in whole um, lengths in steps of 0.1 mm (0.05 mm or 0.01 mm on \
+    short paths of contact), and the roll angle and diameter where each relief begins. Corner contact counts before the start and after \
+    the end of the path of contact, at the greatest load. Every figure is that of the least favourable combination of the tolerances. \
+    Among the kinds of relief within 10 % of the best figure, the command chooses the one with the smallest amounts. The transmission \
+    error is peak to peak, at rest and without base pitch deviations: the greatest over six loads of the range, or the mean over a \
+    spectrum. With method dynamic the motion must have no corner contact either. CSV has one row per choice and point of the map, JSON \
+    is one object; both are in SI units.";
 
 /// The options of the command.
 #[derive(Debug, Args)]
@@ -96,19 +98,41 @@ pub struct Relief {
         long,
         value_name = "A..B",
         default_value = "25..110%",
-        value_parser = relief::loads,
+        value_parser = demand::loads,
         allow_hyphen_values = true
     )]
     pub load: (f64, f64),
-    /// Manufacturing tolerance of each relief, plus and minus, such as '5 um'
+    /// Loads with their shares of the time, in place of the range, such as
+    /// '50%:0.2, 100%:0.7, 130%:0.1'
+    #[arg(
+        long,
+        value_name = "LOAD:SHARE,...",
+        value_parser = Spectrum::parse,
+        conflicts_with = "load",
+        allow_hyphen_values = true
+    )]
+    pub spectrum: Option<Spectrum>,
+    /// Manufacturing tolerance of each amount, plus and minus, such as '5 um'
     #[arg(
         long,
         value_name = "LENGTH",
         default_value = "5 um",
-        value_parser = relief::tolerance,
+        value_parser = demand::tolerance,
         allow_hyphen_values = true
     )]
     pub tolerance: f64,
+    /// Manufacturing tolerance of each length along the path of contact, plus and minus, such as
+    /// '0.2 mm' (default: one step of a length)
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        value_parser = demand::tolerance,
+        allow_hyphen_values = true
+    )]
+    pub tolerance_length: Option<f64>,
+    /// The figure to minimise
+    #[arg(long, value_name = "FIGURE", default_value = "te")]
+    pub minimise: Criterion,
     /// The case
     #[command(flatten)]
     pub input: CaseFile,
@@ -120,12 +144,28 @@ pub struct Relief {
     pub destination: Destination,
 }
 
+/// The loads of a spectrum with their shares; one argument has all of them.
+#[derive(Debug, Clone)]
+pub struct Spectrum(Vec<(f64, f64)>);
+
+impl Spectrum {
+    fn parse(text: &str) -> Result<Spectrum, String> {
+        demand::spectrum(text).map(Spectrum)
+    }
+}
+
 impl Relief {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let Relief { input, load: loads, tolerance, destination, .. } = self;
+        let Relief { input, destination, .. } = self;
         destination.check(&input.case)?;
         let opened = input.open(&[], streams)?;
-        let demand = Demand { loads: *loads, tolerance: *tolerance };
+        let demand = Demand {
+            loads: self.load,
+            spectrum: self.spectrum.as_ref().map_or(Vec::new(), |spectrum| spectrum.0.clone()),
+            tolerance: self.tolerance,
+            tolerance_length: self.tolerance_length,
+            minimise: self.minimise,
+        };
         let found = follow("% of the budget", |go_on| {
             specify(&opened.inputs, &demand, &|part| go_on((100.0 * part) as usize, 100))
         })?;

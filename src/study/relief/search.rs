@@ -1,9 +1,10 @@
-//! The search over round amounts and lengths.
+//! The search over round amounts and lengths on a prepared mesh.
 
+use std::array::from_fn;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 
-use super::{AMOUNT_STEP, Demand, MapPoint, NoRelief, TipReliefs, decimal};
+use super::{AMOUNT_STEP, Demand, MapPoint, NoRelief, Off, TipReliefs, decimal};
 use crate::model::geometry::{Geometry, PairShape, geometry};
 use crate::model::inputs::{Gear, ReliefShape};
 use crate::model::mesh::Mesh;
@@ -15,26 +16,43 @@ use crate::model::{Inputs, Refusal, Solution};
 /// A relief in whole steps: amounts on driver and driven gear, then lengths.
 type Steps = [i32; 4];
 
+/// A relief with its cost, which is infinite with corner contact.
+type Tried = (Steps, f64);
+
+/// The peak force with a relief, in N.
+pub(super) type Peak<'a> = &'a dyn Fn(&TipReliefs) -> Result<f64, NoRelief>;
+
 /// The kinds of relief: the shape, the name, and the name if both gears have the same relief.
 const KINDS: [(ReliefShape, [&str; 2]); 2] = [
     (ReliefShape::Linear, ["linear", "linear, both alike"]),
     (ReliefShape::Parabolic, ["parabolic", "parabolic, both alike"]),
 ];
+/// The name of the relief that removes no more than corner contact requires.
+const LEAST: &str = "least amount";
+/// The name of the relief with the least overlap, if none prevents corner contact.
+const LEAST_OVERLAP: &str = "least overlap";
 
-/// Start lengths, relative to the longest length.
-const PARTS: [f64; 7] = [0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.0];
-/// The number of start lengths, in equal steps, if both gears have the same length.
+/// Start lengths, relative to the longest length, if both gears have the same length.
 const PARTS_ALIKE: u32 = 20;
+/// Start lengths of each gear.
+const PARTS: [f64; 6] = [0.3, 0.45, 0.6, 0.75, 0.9, 1.0];
 /// Start amounts, relative to the least amount without corner contact.
 const TIMES: [f64; 4] = [1.0, 1.15, 1.4, 1.8];
 /// Number of starts that the search follows: with two free lengths, and with one.
-const FOLLOWED: [usize; 2] = [6, 16];
+const FOLLOWED: [usize; 2] = [3, 5];
 /// Greatest stride of the search, in steps; it is halved down to one step.
 const STRIDE: i32 = 8;
+/// The directions of the search: both gears alike, then one gear or both in opposite directions.
+const DIRECTIONS: [[Steps; 4]; 4] = [
+    [[1, 1, 0, 0], [0, 0, 1, 1], [1, 1, 1, 1], [1, 1, -1, -1]],
+    [[1, 0, 0, 0], [0, 0, 1, 0], [1, 0, 1, 0], [1, 0, -1, 0]],
+    [[0, 1, 0, 0], [0, 0, 0, 1], [0, 1, 0, 1], [0, 1, 0, -1]],
+    [[1, -1, 0, 0], [0, 0, 1, -1], [1, -1, 1, -1], [1, -1, -1, 1]],
+];
 /// Greatest number of reliefs that the search evaluates.
-pub(super) const MOST_TRIES: u64 = 50_000;
+pub(super) const MOST_TRIES: u64 = 200_000;
 /// Number of reliefs that a typical search evaluates.
-const USUAL_TRIES: f64 = 7_500.0;
+const USUAL_TRIES: f64 = 20_000.0;
 
 /// The steps and bounds of amounts and lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,55 +101,105 @@ impl Grid {
     }
 }
 
-/// The cost of a relief: whether it has corner contact, then the overlap, otherwise the transmission
-/// error. Any overlap costs more than any error.
-type Cost = (bool, f64);
-
-/// A relief with its cost.
-type Tried = (Steps, Cost);
-
-fn by_cost(one: &Tried, other: &Tried) -> std::cmp::Ordering {
-    one.1.partial_cmp(&other.1).unwrap_or(std::cmp::Ordering::Equal)
+/// A figure of the prepared mesh for a relief.
+#[derive(Clone, Copy)]
+enum Figure {
+    Overlap,
+    Error,
 }
 
 pub(super) struct Search<'a> {
-    pub(super) bench: &'a PreparedMesh<'a>,
-    pub(super) grid: &'a Grid,
-    pub(super) go_on: &'a dyn Fn(f64) -> bool,
-    /// The costs of the evaluated reliefs, by shape and steps.
-    pub(super) known: HashMap<(bool, Steps), Cost>,
+    bench: &'a Bench<'a>,
+    grid: &'a Grid,
+    corners: Vec<Off>,
+    go_on: &'a dyn Fn(f64) -> bool,
+    /// The overlaps and errors of the evaluated reliefs, by shape, amounts and lengths in 0.1 nm.
+    known: [HashMap<[i64; 5], f64>; 2],
 }
 
-impl Search<'_> {
-    /// The number of evaluated reliefs.
-    pub(super) fn tries(&self) -> u64 {
-        self.known.len() as u64
+impl<'a> Search<'a> {
+    pub(super) fn new(
+        bench: &'a Bench<'a>,
+        grid: &'a Grid,
+        demand: &Demand,
+        go_on: &'a dyn Fn(f64) -> bool,
+    ) -> Search<'a> {
+        Search { bench, grid, corners: demand.corners(), go_on, known: Default::default() }
     }
 
-    /// The best relief of each kind without corner contact, those with equal gears last.
+    /// The number of evaluated reliefs.
+    pub(super) fn tries(&self) -> u64 {
+        self.known.iter().map(|known| known.len() as u64).sum()
+    }
+
+    /// The best relief of each kind without corner contact, then those with equal gears, and the
+    /// least; by the transmission error, and then by the peak force if that is the criterion. If
+    /// there is none and contact is accepted, the relief with the least overlap.
     ///
     /// # Errors
     /// Returns an error if no kind has such a relief, or if the user stops the search.
     pub(super) fn best_of_each_kind(
         &mut self,
+        peak: Option<Peak<'_>>,
+        accepts_contact: bool,
     ) -> Result<Vec<(&'static str, TipReliefs)>, NoRelief> {
-        let (mut own, mut alike) = (Vec::new(), Vec::new());
+        let (mut own, mut alike, mut least) = (Vec::new(), Vec::new(), None);
         for (shape, names) in KINDS {
-            let best_alike = self.best(shape, true, None)?;
-            let best = self.best(shape, false, best_alike)?;
-            let named = |name, best: Option<Tried>| Some((name, self.grid.reliefs(shape, best?.0)));
-            own.extend(named(names[0], best));
-            alike.extend(named(names[1], best_alike));
+            let starts = self.starts(shape, true)?;
+            least = least.or(self.least(shape, &starts)?);
+            let best_alike = self.best(shape, starts, true)?;
+            let starts = [best_alike.into_iter().collect(), self.starts(shape, false)?].concat();
+            let best = self.best(shape, starts, false)?;
+            for (found, best, name, kinds) in
+                [(&mut own, best, names[0], 4), (&mut alike, best_alike, names[1], 1)]
+            {
+                let Some(mut best) = best else { continue };
+                if let Some(peak) = peak {
+                    let cost = |search: &mut Self, steps, _| {
+                        let error = search.cost(shape, steps, f64::INFINITY)?;
+                        let reliefs = search.grid.reliefs(shape, steps);
+                        // The transmission error decides between equal forces.
+                        let is_clear = error.is_finite();
+                        Ok(if is_clear { peak(&reliefs)? * (1.0 + error) } else { error })
+                    };
+                    let start = (best.0, cost(self, best.0, f64::INFINITY)?);
+                    best = self.followed(start, &DIRECTIONS[..kinds], STRIDE / 2, &cost)?;
+                }
+                found.push((name, self.grid.reliefs(shape, best.0)));
+            }
         }
         own.append(&mut alike);
+        own.extend(least.map(|reliefs| (LEAST, reliefs)));
+        if own.is_empty() && accepts_contact {
+            own.push((LEAST_OVERLAP, self.least_overlap()?));
+        }
         if own.is_empty() { Err(self.none()) } else { Ok(own) }
+    }
+
+    /// The relief of a coarse grid with the least overlap.
+    fn least_overlap(&mut self) -> Result<TipReliefs, NoRelief> {
+        const PARTS: i32 = 12;
+        let Grid { least_length, most_length, most_amounts: [one, other], .. } = *self.grid;
+        let mut best = (f64::INFINITY, self.grid.reliefs(ReliefShape::Linear, [0; 4]));
+        for (index, (shape, _)) in (0..PARTS * PARTS).flat_map(|at| KINDS.map(|kind| (at, kind))) {
+            let (length, amount) = (index / PARTS, 1 + index % PARTS);
+            let length = least_length + (most_length - least_length) * length / (PARTS - 1);
+            let steps = self.grid.equal(one.max(other) * amount / PARTS, [length; 2]);
+            let reliefs = self.grid.reliefs(shape, steps);
+            let overlap = self.figure(Figure::Overlap, &reliefs.off(self.corners[0]))?;
+            if overlap < best.0 {
+                best = (overlap, reliefs);
+            }
+        }
+        Ok(best.1)
     }
 
     /// Why no relief prevents corner contact.
     fn none(&self) -> NoRelief {
         let Grid { tips, most_amounts: [one, other], most_length, .. } = *self.grid;
         let steps = [one, other, most_length, most_length];
-        let overlap = self.bench.overlap(&self.grid.reliefs(ReliefShape::Linear, steps));
+        let worst = self.grid.reliefs(ReliefShape::Linear, steps).off(self.corners[0]);
+        let overlap = self.bench.overlap(&worst);
         let most = AMOUNT_STEP * f64::from(one.max(other));
         match (0..2).find(|&at| tips[at] < most + AMOUNT_STEP) {
             Some(at) => {
@@ -141,26 +209,28 @@ impl Search<'_> {
         }
     }
 
-    /// The best relief of a kind; the search also follows `start`.
+    /// The best relief that the search finds from the best of the starts.
     fn best(
         &mut self,
         shape: ReliefShape,
+        starts: Vec<Tried>,
         is_alike: bool,
-        start: Option<Tried>,
     ) -> Result<Option<Tried>, NoRelief> {
-        let mut starts = self.starts(shape, is_alike)?;
-        starts.sort_by(by_cost);
-        starts.truncate(FOLLOWED[usize::from(is_alike)]);
-        let directions = directions(is_alike);
-        let mut found = Vec::new();
-        for start in starts.into_iter().chain(start) {
-            found.push(self.followed(shape, &directions, start)?);
+        let kinds = if is_alike { 1 } else { DIRECTIONS.len() };
+        let mut best: Option<Tried> = None;
+        for (steps, _) in starts.into_iter().take(FOLLOWED[usize::from(is_alike)]) {
+            let start = (steps, self.cost(shape, steps, f64::INFINITY)?);
+            let cost = |search: &mut Self, steps, bound| search.cost(shape, steps, bound);
+            let found = self.followed(start, &DIRECTIONS[..kinds], STRIDE, &cost)?;
+            if found.1 < best.map_or(f64::INFINITY, |best| best.1) {
+                best = Some(found);
+            }
         }
-        Ok(found.into_iter().min_by(by_cost).filter(|(_, (overlaps, _))| !overlaps))
+        Ok(best)
     }
 
     /// Reliefs of several lengths with the least amounts without corner contact, and with greater
-    /// amounts.
+    /// amounts; those with the least nominal error first.
     fn starts(&mut self, shape: ReliefShape, is_alike: bool) -> Result<Vec<Tried>, NoRelief> {
         let grid = self.grid;
         let (least, most) = (f64::from(grid.least_length), f64::from(grid.most_length));
@@ -173,138 +243,164 @@ impl Search<'_> {
         };
         let mut starts: Vec<Tried> = Vec::new();
         for lengths in lengths {
-            let clears = self.least_clear(shape, lengths)?;
+            let Some(clears) = self.least_clear(shape, lengths)? else { continue };
             for times in TIMES {
                 let steps = grid.equal((f64::from(clears) * times).round() as i32, lengths);
                 if starts.iter().all(|(known, _)| *known != steps) {
-                    starts.push((steps, self.cost(shape, steps)?));
+                    let error = self.figure(Figure::Error, &grid.reliefs(shape, steps))?;
+                    starts.push((steps, error));
                 }
             }
         }
+        starts.sort_by(|one, other| one.1.total_cmp(&other.1));
         Ok(starts)
     }
 
-    /// The least amount, the same on both gears, without overlap; the greatest amount if there is
-    /// none. Amounts are tried in rising order: a very large relief shifts load to the pair ahead,
-    /// whose deflection causes an overlap again.
-    fn least_clear(&mut self, shape: ReliefShape, lengths: [i32; 2]) -> Result<i32, NoRelief> {
+    /// The relief with the least error among those with the least amounts, which are reduced gear
+    /// by gear.
+    fn least(
+        &mut self,
+        shape: ReliefShape,
+        starts: &[Tried],
+    ) -> Result<Option<TipReliefs>, NoRelief> {
+        let mut best: Option<Tried> = None;
+        let mut lengths: Vec<[i32; 2]> = Vec::new();
+        for &([_, _, one, other], _) in starts {
+            if lengths.contains(&[one, other]) {
+                continue;
+            }
+            lengths.push([one, other]);
+            let Some(amount) = self.least_clear(shape, [one, other])? else { continue };
+            let mut steps = self.grid.equal(amount, [one, other]);
+            for at in 0..2 {
+                while steps[at] > 0 {
+                    let mut less = steps;
+                    less[at] -= 1;
+                    if !self.clears(shape, less)? {
+                        break;
+                    }
+                    steps = less;
+                }
+            }
+            let bound = best.map_or(f64::INFINITY, |best| best.1);
+            let cost = self.cost(shape, steps, bound)?;
+            if cost < bound {
+                best = Some((steps, cost));
+            }
+        }
+        Ok(best.map(|(steps, _)| self.grid.reliefs(shape, steps)))
+    }
+
+    /// The least amount, the same on both gears, without overlap. Amounts are tried in rising
+    /// order: a very large relief shifts load to the pair ahead, whose deflection causes an overlap
+    /// again.
+    fn least_clear(
+        &mut self,
+        shape: ReliefShape,
+        lengths: [i32; 2],
+    ) -> Result<Option<i32>, NoRelief> {
         const STRIDES: i32 = 24;
         let grid = self.grid;
-        let mut overlaps = |amount: i32| {
-            let (overlaps, _) = self.cost(shape, grid.equal(amount, lengths))?;
-            Ok::<bool, NoRelief>(overlaps)
-        };
         let [one, other] = grid.most_amounts;
         let greatest = one.max(other);
         let stride = (greatest / STRIDES).max(1);
         let (mut low, mut high) = (-1, 0);
-        while overlaps(high)? {
+        while !self.clears(shape, grid.equal(high, lengths))? {
             if high >= greatest {
-                return Ok(greatest);
+                return Ok(None);
             }
             (low, high) = (high, (high + stride).min(greatest));
         }
         while high - low > 1 {
             let middle = i32::midpoint(low, high);
-            if overlaps(middle)? {
-                low = middle;
-            } else {
+            if self.clears(shape, grid.equal(middle, lengths))? {
                 high = middle;
+            } else {
+                low = middle;
             }
         }
-        Ok(high)
+        Ok(Some(high))
     }
 
-    /// The best relief that steps in every direction find from a start, long steps first.
+    /// The best relief that steps in every direction find from a start, long steps first. `cost`
+    /// may return any cost above the bound for a relief that exceeds it.
     fn followed(
         &mut self,
-        shape: ReliefShape,
-        directions: &[Steps],
         start: Tried,
+        directions: &[[Steps; 4]],
+        longest: i32,
+        cost: &dyn Fn(&mut Self, Steps, f64) -> Result<f64, NoRelief>,
     ) -> Result<Tried, NoRelief> {
-        let (mut best, mut stride) = (start, STRIDE);
+        let (mut best, mut stride) = (start, longest);
         while stride > 0 {
             let (at, before) = best;
-            for direction in directions {
-                let next: Steps = std::array::from_fn(|axis| at[axis] + stride * direction[axis]);
-                if self.grid.has(next) {
-                    let cost = self.cost(shape, next)?;
-                    if cost < best.1 {
-                        best = (next, cost);
+            for direction in directions.iter().flatten() {
+                for by in [stride, -stride] {
+                    let next: Steps = from_fn(|axis| at[axis] + by * direction[axis]);
+                    if self.grid.has(next) {
+                        let cost = cost(self, next, best.1)?;
+                        if cost < best.1 {
+                            best = (next, cost);
+                        }
                     }
                 }
             }
-            if best.1 == before {
+            if best.1.total_cmp(&before).is_eq() {
                 stride /= 2;
             }
         }
         Ok(best)
     }
 
-    /// The cost of a relief. After the last try, a relief that is not known costs an infinite
-    /// overlap.
-    fn cost(&mut self, shape: ReliefShape, steps: Steps) -> Result<Cost, NoRelief> {
-        /// Part of the mean error in the cost, which decides between equal greatest errors.
-        const MEAN: f64 = 1e-3;
-        let key = (shape == ReliefShape::Linear, steps);
-        if let Some(&known) = self.known.get(&key) {
+    /// Whether no tip touches off the path of contact at any limit of the tolerances.
+    fn clears(&mut self, shape: ReliefShape, steps: Steps) -> Result<bool, NoRelief> {
+        let reliefs = self.grid.reliefs(shape, steps);
+        for at in 0..self.corners.len() {
+            if self.figure(Figure::Overlap, &reliefs.off(self.corners[at]))? > 0.0 {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// The greatest error within the tolerances, or a cost above the bound.
+    fn cost(&mut self, shape: ReliefShape, steps: Steps, bound: f64) -> Result<f64, NoRelief> {
+        let reliefs = self.grid.reliefs(shape, steps);
+        let mut worst = self.figure(Figure::Error, &reliefs)?;
+        if worst > bound || !self.clears(shape, steps)? {
+            return Ok(f64::INFINITY);
+        }
+        for at in 0..self.corners.len() {
+            worst = worst.max(self.figure(Figure::Error, &reliefs.off(self.corners[at]))?);
+            if worst > bound {
+                return Ok(f64::INFINITY);
+            }
+        }
+        Ok(worst)
+    }
+
+    /// A figure, computed once for each relief; infinite after the last try.
+    fn figure(&mut self, of: Figure, reliefs: &TipReliefs) -> Result<f64, NoRelief> {
+        let TipReliefs { shape, amounts: [one, other], lengths: [from, to] } = *reliefs;
+        let [one, other, from, to] =
+            [one, other, from, to].map(|length| (length * 1e10).round() as i64);
+        let key = [i64::from(shape == ReliefShape::Linear), one, other, from, to];
+        if let Some(&known) = self.known[of as usize].get(&key) {
             return Ok(known);
         }
-        if !(self.go_on)(self.tries() as f64 / USUAL_TRIES) {
+        if !(self.go_on)(super::SEARCH * (self.tries() as f64 / USUAL_TRIES).min(1.0)) {
             return Err(NoRelief::Refused(Refusal::Stopped));
         }
         if self.tries() >= MOST_TRIES {
-            return Ok((true, f64::INFINITY));
+            return Ok(f64::INFINITY);
         }
-        let reliefs = self.grid.reliefs(shape, steps);
-        let overlap = self.bench.overlap(&reliefs);
-        let cost = if overlap > 0.0 {
-            (true, overlap)
-        } else {
-            let errors: Vec<f64> = self.bench.errors(&reliefs).collect();
-            let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
-            (false, errors.into_iter().fold(0.0, f64::max) + MEAN * mean)
+        let found = match of {
+            Figure::Overlap => self.bench.overlap(reliefs),
+            Figure::Error => self.bench.error(reliefs),
         };
-        self.known.insert(key, cost);
-        Ok(cost)
+        self.known[of as usize].insert(key, found);
+        Ok(found)
     }
-
-    /// The map around a relief over both amounts and both lengths in proportion; the map contains
-    /// the relief itself.
-    pub(super) fn map(&self, reliefs: &TipReliefs) -> Vec<Vec<MapPoint>> {
-        const AMOUNTS: [f64; 7] = [0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6];
-        const LENGTHS: [f64; 6] = [0.25, 0.4, 0.55, 0.7, 0.85, 1.0];
-        /// A length of the map this close to the length of the relief is omitted.
-        const CLOSE: f64 = 0.03;
-        let longest = self.grid.length_step * f64::from(self.grid.most_length);
-        let greatest = reliefs.lengths[0].max(reliefs.lengths[1]);
-        let own = greatest / longest;
-        let mut parts = LENGTHS.to_vec();
-        parts.retain(|part| (part - own).abs() > CLOSE);
-        parts.push(own);
-        parts.sort_by(f64::total_cmp);
-        let point = |part: f64, times: f64| {
-            let scale = part * longest / greatest;
-            let reliefs = TipReliefs {
-                shape: reliefs.shape,
-                amounts: reliefs.amounts.map(|amount| times * amount),
-                lengths: reliefs.lengths.map(|length| scale * length),
-            };
-            let error = self.bench.errors(&reliefs).fold(0.0, f64::max);
-            MapPoint { reliefs, error, margin: -self.bench.overlap(&reliefs) }
-        };
-        let row = |part| AMOUNTS.map(|times| point(part, times)).to_vec();
-        parts.into_iter().map(row).collect()
-    }
-}
-
-/// Every direction to a neighbour; both gears together if they have the same relief.
-fn directions(is_alike: bool) -> Vec<Steps> {
-    let of = |index: i32| [1, 3, 9, 27].map(|power| index / power % 3 - 1);
-    let is_wanted = |steps: &Steps| {
-        *steps != [0; 4] && (!is_alike || steps[0] == steps[1] && steps[2] == steps[3])
-    };
-    (0..81).map(of).filter(is_wanted).collect()
 }
 
 /// Places over a base pitch at which the transmission error is always computed.
@@ -347,23 +443,19 @@ struct Pitch {
     places: Vec<OnceCell<Place>>,
 }
 
-/// A pair without tip reliefs, and its solution at the greatest load.
-struct BarePair<'a> {
+/// A pair without tip reliefs, prepared at the loads of a demand.
+pub(super) struct Bench<'a> {
     inputs: Inputs,
-    solution: &'a Solution,
+    /// The solution at the greatest load.
+    pub(super) solution: &'a Solution,
+    demand: &'a Demand,
     /// The geometry with the gears exchanged.
     swapped: Geometry,
-}
-
-/// The prepared mesh.
-pub(super) struct PreparedMesh<'a> {
-    pair: BarePair<'a>,
-    tolerance: f64,
     loads: Vec<Pitch>,
     corners: Corners,
 }
 
-impl<'a> PreparedMesh<'a> {
+impl<'a> Bench<'a> {
     /// The mesh of a pair with its solution at the greatest load; the grid has the greatest reliefs.
     ///
     /// # Errors
@@ -371,96 +463,168 @@ impl<'a> PreparedMesh<'a> {
     pub(super) fn new(
         inputs: &Inputs,
         solution: &'a Solution,
-        demand: &Demand,
-        loads: &[f64],
+        demand: &'a Demand,
         grid: &Grid,
-    ) -> Result<PreparedMesh<'a>, Refusal> {
+    ) -> Result<Bench<'a>, Refusal> {
         let [driver, driven] = grid.most_amounts;
-        let most = AMOUNT_STEP * f64::from(driver + driven);
+        let most = AMOUNT_STEP * f64::from(driver + driven) + 2.0 * demand.tolerance;
         let bare = |gear: &Gear| Gear { tip_relief: 0.0, ..gear.clone() };
         let (driver, driven) = (bare(&inputs.driver), bare(&inputs.driven));
         let inputs = Inputs { driver, driven, ..inputs.clone() };
         let shape = inputs.shape();
-        let swapped = PairShape { driver: shape.driven, driven: shape.driver, ..shape };
-        let pair = BarePair { inputs, solution, swapped: geometry(&swapped)? };
-        let unit = solution.mesh_force / demand.loads.1;
-        let pitch = |load: &f64| {
+        let swapped = geometry(&PairShape { driver: shape.driven, driven: shape.driver, ..shape })?;
+        let (loads, corners) = (Vec::new(), Corners { force: 0.0, places: Vec::new() });
+        let mut bench = Bench { inputs, solution, demand, swapped, loads, corners };
+        let unit = solution.mesh_force / demand.greatest_load();
+        let pitch = |(load, _): (f64, f64)| {
             let (force, places) = (load * unit, vec![OnceCell::new(); PLACES * BETWEEN]);
-            Ok(Pitch { force, mesh: pair.mesh((force, 0.0), most, 1.0)?, places })
+            Ok(Pitch { force, mesh: bench.mesh((force, 0.0), most, 1.0)?, places })
         };
-        Ok(PreparedMesh {
-            loads: loads.iter().map(pitch).collect::<Result<_, Refusal>>()?,
-            corners: pair.corners(most, 1.0)?,
-            tolerance: demand.tolerance,
-            pair,
-        })
+        bench.loads = demand.loads().into_iter().map(pitch).collect::<Result<_, Refusal>>()?;
+        bench.corners = bench.corners(most, 1.0)?;
+        Ok(bench)
     }
 
-    /// The peak-to-peak transmission error at each load, in m.
-    pub(super) fn errors(&self, reliefs: &TipReliefs) -> impl Iterator<Item = f64> {
-        let relief = self.relief(reliefs, [0.0; 2]);
-        self.loads.iter().map(move |pitch| {
+    /// The figure of the demand over the peak-to-peak transmission errors at its loads, in m.
+    pub(super) fn error(&self, reliefs: &TipReliefs) -> f64 {
+        let relief = self.relief(reliefs);
+        self.demand.figure(self.loads.iter().map(|pitch| {
             let ahead = |at: usize| {
-                let eased = pitch.place(&self.pair, at).eased(&relief);
+                let eased = self.at(pitch, at).eased(&relief);
                 eased.balance(pitch.force).displacement
             };
             let even: Vec<f64> = (0..PLACES).map(|at| ahead(at * BETWEEN)).collect();
             let opposite: Vec<f64> = even.iter().map(|ahead| -ahead).collect();
             greatest(&even, &ahead) + greatest(&opposite, &|at| -ahead(at))
-        })
+        }))
     }
 
-    /// Overlap of the teeth before E or after B at the greatest load with the least favourable
-    /// tolerance, in m; below 0 the gap that remains.
+    /// Overlap of the teeth before E or after B at the greatest load, in m; below 0 the gap that
+    /// remains.
     pub(super) fn overlap(&self, reliefs: &TipReliefs) -> f64 {
-        self.overlap_of(reliefs, &self.corners)
+        self.overlap_at(reliefs, &self.corners)
     }
 
-    /// The same overlap under `times` the force.
+    /// The overlap under `times` the force with the least favourable tolerance, in m.
     ///
     /// # Errors
     /// Refusals of the mesh.
-    pub(super) fn overlap_under(&self, reliefs: &TipReliefs, times: f64) -> Result<f64, Refusal> {
-        let most = reliefs.amounts[0] + reliefs.amounts[1] + 2.0 * self.tolerance;
-        Ok(self.overlap_of(reliefs, &self.pair.corners(most, times)?))
+    pub(super) fn overlap_under(
+        &self,
+        reliefs: &TipReliefs,
+        demand: &Demand,
+        times: f64,
+    ) -> Result<f64, Refusal> {
+        let corners = self.corners(reliefs.removed() + 2.0 * demand.tolerance, times)?;
+        let overlap = |off: Off| self.overlap_at(&reliefs.off(off), &corners);
+        Ok(demand.corners().into_iter().map(overlap).fold(f64::NEG_INFINITY, f64::max))
     }
 
-    fn overlap_of(&self, reliefs: &TipReliefs, corners: &Corners) -> f64 {
-        let overlaps = tolerances(self.tolerance).into_iter().map(|off| {
-            let relief = self.relief(reliefs, off);
-            let leads = corners.places.iter();
-            let leads = leads.map(|place| place.eased(&relief).lead(0, corners.force));
-            leads.fold(f64::NEG_INFINITY, f64::max)
-        });
-        overlaps.fold(f64::NEG_INFINITY, f64::max)
+    fn overlap_at(&self, reliefs: &TipReliefs, corners: &Corners) -> f64 {
+        let relief = self.relief(reliefs);
+        let leads = corners.places.iter();
+        let leads = leads.map(|place| place.eased(&relief).lead(0, corners.force));
+        leads.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The reliefs of the pair with other tip reliefs and their deviations.
-    fn relief(&self, tips: &TipReliefs, off: [f64; 2]) -> Relief {
-        let mut all = Reliefs { shape: tips.shape, ..self.pair.inputs.reliefs() };
+    /// The map around a relief over both amounts and both lengths in proportion; the map contains
+    /// the relief itself.
+    pub(super) fn map(
+        &self,
+        reliefs: &TipReliefs,
+        grid: &Grid,
+        demand: &Demand,
+    ) -> Vec<Vec<MapPoint>> {
+        const AMOUNTS: [f64; 7] = [0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6];
+        const LENGTHS: [f64; 6] = [0.25, 0.4, 0.55, 0.7, 0.85, 1.0];
+        /// A length of the map this close to the length of the relief is omitted.
+        const CLOSE: f64 = 0.03;
+        let longest = grid.length_step * f64::from(grid.most_length);
+        let greatest = reliefs.lengths[0].max(reliefs.lengths[1]);
+        let own = greatest / longest;
+        let mut parts = LENGTHS.to_vec();
+        parts.retain(|part| (part - own).abs() > CLOSE);
+        parts.push(own);
+        parts.sort_by(f64::total_cmp);
+        let point = |part: f64, times: f64| {
+            let scale = part * longest / greatest;
+            let reliefs = TipReliefs {
+                shape: reliefs.shape,
+                amounts: reliefs.amounts.map(|amount| times * amount),
+                lengths: reliefs.lengths.map(|length| scale * length),
+            };
+            let overlap = |off: Off| self.overlap(&reliefs.off(off));
+            let overlap =
+                demand.corners().into_iter().map(overlap).fold(f64::NEG_INFINITY, f64::max);
+            MapPoint { reliefs, error: self.error(&reliefs), margin: -overlap }
+        };
+        let row = |part| AMOUNTS.map(|times| point(part, times)).to_vec();
+        parts.into_iter().map(row).collect()
+    }
+
+    /// The reliefs of the pair with other tip reliefs.
+    fn relief(&self, tips: &TipReliefs) -> Relief {
+        let mut all = Reliefs { shape: tips.shape, ..self.inputs.reliefs() };
         for (at, gear) in [&mut all.driver, &mut all.driven].into_iter().enumerate() {
-            gear.tip = (tips.amounts[at] + off[at]).max(0.0);
+            gear.tip = tips.amounts[at];
             gear.tip_length = Some(tips.lengths[at]);
         }
-        Relief::of(&all, &self.pair.solution.geometry)
+        Relief::of(&all, &self.solution.geometry)
     }
-}
 
-/// The combinations of deviations of both reliefs.
-pub(super) fn tolerances(tolerance: f64) -> Vec<[f64; 2]> {
-    let both = [-tolerance, tolerance];
-    let ends = &both[..if tolerance > 0.0 { 2 } else { 1 }];
-    let pairs = ends.iter().flat_map(|&one| ends.iter().map(move |&other| [one, other]));
-    pairs.collect()
-}
+    /// The mesh under a force with an error; `most` is the greatest sum of both reliefs, in m.
+    fn mesh(&self, load: (f64, f64), most: f64, times: f64) -> Result<Mesh, Refusal> {
+        const FURTHER: f64 = 4.0;
+        let mut inputs = self.inputs.mesh();
+        // The places apply the root reliefs together with the tip reliefs.
+        (inputs.reliefs.driver.root, inputs.reliefs.driven.root) = (0.0, 0.0);
+        let deviation = &self.solution.deviation;
+        let yields = deviation.loaded_deflection() + deviation.equivalent_error.abs();
+        let reach = FURTHER * (2.0 * yields + most + self.inputs.reliefs().sum()) * times;
+        Mesh::new(&inputs, &self.solution.geometry, load, reach, None)
+    }
 
-impl Pitch {
-    fn place(&self, pair: &BarePair, at: usize) -> &Place {
-        let at = at % self.places.len();
-        self.places[at].get_or_init(|| {
-            let part = (at as f64 + 0.5) / self.places.len() as f64;
-            pair.place(&self.mesh, part * self.mesh.base_pitch)
+    /// Places from the ends of the path of contact outwards, denser near the ends, under `times` the
+    /// greatest load.
+    fn corners(&self, most: f64, times: f64) -> Result<Corners, Refusal> {
+        let force = times * self.solution.mesh_force;
+        let error = self.solution.deviation.equivalent_error;
+        let mesh = self.mesh((force, error), most, times.max(1.0))?;
+        let (from, to) = mesh.ends();
+        let part = |at: usize| (at as f64 / BEYOND as f64).powi(2);
+        let before = (0..=BEYOND).map(|at| part(at) * from);
+        let after = (0..=BEYOND).map(|at| mesh.length + part(at) * (to - mesh.length));
+        Ok(Corners { force, places: before.chain(after).map(|s| self.place(&mesh, s)).collect() })
+    }
+
+    fn at<'p>(&self, pitch: &'p Pitch, at: usize) -> &'p Place {
+        let at = at % pitch.places.len();
+        pitch.places[at].get_or_init(|| {
+            let part = (at as f64 + 0.5) / pitch.places.len() as f64;
+            self.place(&pitch.mesh, part * pitch.mesh.base_pitch)
         })
+    }
+
+    fn place(&self, mesh: &Mesh, s: f64) -> Place {
+        let pairs = mesh.pair_set(s, s);
+        let all = pairs.pairs().iter();
+        let way = |ahead: i32| s + f64::from(ahead) * mesh.base_pitch;
+        Place { radii: all.map(|pair| self.radii(mesh, way(pair.ahead))).collect(), pairs }
+    }
+
+    /// The radii of curvature of both flanks at the contact of a pair.
+    fn radii(&self, mesh: &Mesh, s: f64) -> (f64, f64) {
+        let geometry = &self.solution.geometry;
+        if s < 0.0 {
+            let tip = tip_at(geometry, -s / geometry.driven.base);
+            return (tip.curvature_driver, geometry.driven.tip_curvature);
+        }
+        if s > mesh.length {
+            let tip = tip_at(&self.swapped, (s - mesh.length) / geometry.driver.base);
+            return (geometry.driver.tip_curvature, tip.curvature_driver);
+        }
+        let along = geometry.start + s;
+        (along, geometry.tangent_length - along)
     }
 }
 
@@ -488,53 +652,4 @@ fn greatest(even: &[f64], value: &dyn Fn(usize) -> f64) -> f64 {
         most
     };
     (0..count).filter(exceeds).map(climbed).fold(even[0], f64::max)
-}
-
-impl BarePair<'_> {
-    /// The mesh under a force with an error; `most` is the greatest sum of both reliefs, in m.
-    fn mesh(&self, load: (f64, f64), most: f64, times: f64) -> Result<Mesh, Refusal> {
-        const FURTHER: f64 = 4.0;
-        let mut inputs = self.inputs.mesh();
-        // The places apply the root reliefs together with the tip reliefs.
-        (inputs.reliefs.driver.root, inputs.reliefs.driven.root) = (0.0, 0.0);
-        let deviation = &self.solution.deviation;
-        let yields = deviation.loaded_deflection() + deviation.equivalent_error.abs();
-        let reach = FURTHER * (2.0 * yields + most + self.inputs.reliefs().sum()) * times;
-        Mesh::new(&inputs, &self.solution.geometry, load, reach, None)
-    }
-
-    /// Places from the ends of the path of contact outwards, denser near the ends, under `times` the
-    /// greatest load.
-    fn corners(&self, most: f64, times: f64) -> Result<Corners, Refusal> {
-        let force = times * self.solution.mesh_force;
-        let error = self.solution.deviation.equivalent_error;
-        let mesh = self.mesh((force, error), most, times.max(1.0))?;
-        let (from, to) = mesh.ends();
-        let part = |at: usize| (at as f64 / BEYOND as f64).powi(2);
-        let before = (0..=BEYOND).map(|at| part(at) * from);
-        let after = (0..=BEYOND).map(|at| mesh.length + part(at) * (to - mesh.length));
-        Ok(Corners { force, places: before.chain(after).map(|s| self.place(&mesh, s)).collect() })
-    }
-
-    fn place(&self, mesh: &Mesh, s: f64) -> Place {
-        let pairs = mesh.pair_set(s, s);
-        let all = pairs.pairs().iter();
-        let way = |ahead: i32| s + f64::from(ahead) * mesh.base_pitch;
-        Place { radii: all.map(|pair| self.radii(mesh, way(pair.ahead))).collect(), pairs }
-    }
-
-    /// The radii of curvature of both flanks at the contact of a pair.
-    fn radii(&self, mesh: &Mesh, s: f64) -> (f64, f64) {
-        let geometry = &self.solution.geometry;
-        if s < 0.0 {
-            let tip = tip_at(geometry, -s / geometry.driven.base);
-            return (tip.curvature_driver, geometry.driven.tip_curvature);
-        }
-        if s > mesh.length {
-            let tip = tip_at(&self.swapped, (s - mesh.length) / geometry.driver.base);
-            return (geometry.driver.tip_curvature, tip.curvature_driver);
-        }
-        let along = geometry.start + s;
-        (along, geometry.tangent_length - along)
-    }
 }

@@ -16,22 +16,24 @@ use crate::tui::line::Line;
 use crate::tui::text;
 
 /// The label of the input line.
-const LABEL: &str = "Load range and tolerance: ";
-/// Rows above the result.
-const HEAD: u16 = 3;
+const LABEL: &str = "Loads, tolerances, te|peak|entry: ";
+/// Rows above the list: input, state, blank, headers.
+const HEAD: u16 = 4;
 
 /// The search and its result.
 #[derive(Debug, Clone)]
 pub struct ReliefDialog {
-    /// The typed load range and tolerance.
+    /// The typed demand.
     pub(crate) input: Line,
     inputs: Inputs,
     /// The demand of the last search.
     searched: Option<Demand>,
     answer: Option<Result<Box<Specification>, String>>,
-    lines: Vec<String>,
+    /// The selected relief.
+    selected: usize,
     /// Why the typed text is not a valid demand.
     problem: Option<String>,
+    /// The first visible line about the selected relief.
     top: usize,
 }
 
@@ -39,11 +41,11 @@ impl ReliefDialog {
     /// The dialog on a pair, before its first search.
     pub(crate) fn new(inputs: Inputs) -> ReliefDialog {
         ReliefDialog {
-            input: Line::whole(Demand::USUAL.text()),
+            input: Line::whole(Demand::default().text()),
             inputs,
             searched: None,
             answer: None,
-            lines: Vec::new(),
+            selected: 0,
             problem: None,
             top: 0,
         }
@@ -51,11 +53,9 @@ impl ReliefDialog {
 
     /// Searches for the typed demand.
     pub(crate) fn search(&mut self) -> Vec<Job> {
-        self.top = 0;
         match Demand::parse(self.input.value()) {
             Ok(demand) => {
-                (self.searched, self.answer, self.problem) = (Some(demand), None, None);
-                self.lines.clear();
+                (self.searched, self.answer, self.problem) = (Some(demand.clone()), None, None);
                 let inputs = self.inputs.clone();
                 vec![Job::Relief(Box::new(ReliefRequest { demand, inputs }))]
             }
@@ -67,15 +67,11 @@ impl ReliefDialog {
     }
 
     /// Shows the result of the search for a demand.
-    pub(crate) fn take(&mut self, demand: Demand, found: Result<Box<Specification>, String>) {
-        if Some(demand) != self.searched {
-            return;
+    pub(crate) fn take(&mut self, demand: &Demand, found: Result<Box<Specification>, String>) {
+        if Some(demand) == self.searched.as_ref() {
+            (self.selected, self.top) = (found.as_ref().map_or(0, |found| found.best), 0);
+            self.answer = Some(found);
         }
-        self.lines = match &found {
-            Ok(found) => ReliefReport { method: self.inputs.method, found }.without_title(),
-            Err(reason) => vec![reason.clone()],
-        };
-        self.answer = Some(found);
     }
 
     /// Whether the last search is for the typed demand.
@@ -87,19 +83,36 @@ impl ReliefDialog {
         let state = match (&self.problem, &self.answer) {
             (Some(problem), _) => return format!("! {problem}"),
             (None, None) => "Searching. Esc ends the search.",
-            (None, Some(_)) if !self.is_searched() => "Enter searches again.",
+            (None, Some(_)) if !self.is_searched() => {
+                "Results of the earlier input. Enter searches again."
+            }
             (None, Some(Ok(_))) => {
-                "Enter writes the relief into the case; Down and PageDown scroll."
+                "Up, Down select; Enter writes the relief into the case; PageDown scrolls."
             }
             (None, Some(Err(_))) => "No relief is found.",
         };
         state.to_owned()
     }
 
-    // Rows of tables keep their spaces.
-    fn wrapped(&self, screen: Rect) -> Vec<Words<'static>> {
+    fn found(&self) -> Option<&Specification> {
+        self.answer.as_ref()?.as_ref().ok().map(|found| &**found)
+    }
+
+    /// The lines about the selected relief. Rows of tables keep their spaces.
+    fn lines(&self, screen: Rect) -> Vec<Words<'static>> {
         let width = boxes::room(screen).width;
-        self.lines.iter().flat_map(|line| boxes::wrapped(line, width)).map(Words::from).collect()
+        let lines = match (self.found(), &self.answer) {
+            (Some(found), _) => {
+                ReliefReport { method: self.inputs.method, found }.of_choice(self.selected)
+            }
+            (None, Some(Err(reason))) => vec![reason.clone()],
+            _ => Vec::new(),
+        };
+        lines.iter().flat_map(|line| boxes::wrapped(line, width)).map(Words::from).collect()
+    }
+
+    fn count(&self) -> usize {
+        self.found().map_or(0, |found| found.choices.len())
     }
 }
 
@@ -117,38 +130,57 @@ impl Dialog for ReliefDialog {
         Vec::new()
     }
 
-    fn step(&mut self, by: isize, around: &Surroundings<'_>) {
-        let count = self.wrapped(around.screen).len() + usize::from(HEAD);
-        self.top = boxes::scrolled(self.top, by, count, around.screen);
+    fn step(&mut self, by: isize, _: &Surroundings<'_>) {
+        let next = self.selected.saturating_add_signed(by);
+        self.selected = next.min(self.count().saturating_sub(1));
+        self.top = 0;
     }
 
     fn turn(&mut self, by: isize, around: &Surroundings<'_>) {
-        let page = boxes::page_height(around.screen) - HEAD.cast_signed() as isize;
-        self.step(by * page.max(1), around);
+        let above = self.count() + usize::from(HEAD) + 1;
+        let page = boxes::page_height(around.screen) - above.cast_signed();
+        let count = self.lines(around.screen).len() + above;
+        self.top = boxes::scrolled(self.top, by * page.max(1), count, around.screen);
     }
 
     fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
-        match &self.answer {
+        match self.found() {
             _ if !self.is_searched() => Outcome::Jobs(self.search()),
-            Some(Ok(found)) => Outcome::Relief(settings(&found.chosen().reliefs)),
-            _ => Outcome::none(),
+            Some(found) => Outcome::Relief(settings(&found.choices[self.selected].reliefs)),
+            None => Outcome::none(),
         }
     }
 
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         let theme = around.look.theme;
         let inner = boxes::frame("Tip relief", boxes::room(area), area, theme, buffer);
-        let [line, state, _, below] = Layout::vertical([
+        let count = self.count();
+        let [line, state, _, head, list, _, below] = Layout::vertical([
             Constraint::Length(1),
             Constraint::Length(1),
             Constraint::Length(1),
+            Constraint::Length(u16::from(count > 0)),
+            Constraint::Length(count as u16),
+            Constraint::Length(u16::from(count > 0)),
             Constraint::Fill(1),
         ])
         .areas(inner);
-        let lines = self.wrapped(area);
+        if let Some(found) = self.found() {
+            let rows = ReliefReport { method: self.inputs.method, found }.gains().lines();
+            Span::raw(format!("  {}", rows[0])).render(head, buffer);
+            let row = |at: usize| rows[at + 1].clone();
+            boxes::draw_window(count, row, Some(self.selected), list, theme, buffer);
+        }
+        let lines = self.lines(area);
         text::draw_lines(lines.get(self.top..).unwrap_or_default(), below, buffer);
-        Span::styled(text::cut(&self.state(), inner.width.into()), theme.note)
-            .render(state, buffer);
+        let is_stale = self.answer.is_some() && !self.is_searched();
+        if is_stale {
+            for area in [head, list, below] {
+                buffer.set_style(area, theme.faint);
+            }
+        }
+        let style = if is_stale { theme.problem } else { theme.note };
+        Span::styled(text::cut(&self.state(), inner.width.into()), style).render(state, buffer);
         let [label, line] =
             Layout::horizontal([Constraint::Length(LABEL.width() as u16), Constraint::Fill(1)])
                 .areas(line);

@@ -118,7 +118,7 @@ pub fn work_of(job: Job) -> Work {
             },
             |app, (demand, found)| {
                 if let Some(Prompt::Relief(dialog)) = app.prompts.last_mut() {
-                    dialog.take(demand, found);
+                    dialog.take(&demand, found);
                 }
             },
         ),

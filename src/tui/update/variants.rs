@@ -3,7 +3,7 @@
 
 use super::{edit, key_of};
 use crate::case::{Case, Evaluator, Variant};
-use crate::model::{Inputs, Refusal, Stage};
+use crate::model::{Inputs, Refusal};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Running, Work};
 use crate::tui::jobs::Slot;
@@ -68,8 +68,7 @@ pub(super) fn request(app: &mut App) {
     let column = |variant: &Variant| (variant.name.clone(), inputs(&tab.case, variant));
     let columns: Vec<_> = tab.case.variants.iter().map(column).collect();
     app.comparing = Some(serial);
-    // As in `tipstrike compare`.
-    let stages = Pane::Results.needs().without(Stage::Clearing);
+    let stages = Pane::Results.needs();
     let solve = move |running: &Running<'_>| {
         let solved = |inputs: &Inputs| {
             let go_on = |_| running.is_wanted();

@@ -76,7 +76,7 @@ pub(super) fn draw(
         }
     }
     let limit = pane.case.limits.iter().find(|limit| limit.quantity == known.key);
-    if let Some(limit) = limit {
+    if let Some(limit) = limit.filter(|limit| limit.of.is_none()) {
         plot.draw_level(limit.value / factor, "╌", theme.rule, buffer);
     }
     let nearest = || range::nearest(axis, pane.case).map(|at| x(axis, at));

@@ -48,7 +48,7 @@ pub(super) fn draw(
         up,
         cells: Rect::ZERO,
         values: Span::of(all()),
-        limit: limit.map(|limit| limit.value).filter(|value| value.is_finite()),
+        limit: limit.and_then(|limit| limit.bound(|_| None)).filter(|value| value.is_finite()),
     };
     let words = map.legend(known, common_unit(known, all(), pane.units));
     let legend = Rect { height: area.height.saturating_sub(4), ..area };
