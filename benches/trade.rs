@@ -41,7 +41,7 @@ fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
         vec!["| case | paper | exact | static |".to_owned(), "|---|---|---|---|".to_owned()];
     for (name, trade) in trades {
         let percent = |method: Method| {
-            let mut models = trade.models.iter();
+            let mut models = trade.finest.iter();
             let off = models
                 .find(|model| model.setting.method == method)
                 .map_or([None; Subject::ALL.len()], |model| model.off);

@@ -9,13 +9,13 @@ use super::table::Table;
 use crate::model::impact::StiffnessModels;
 use crate::numeric::decimal::significant;
 use crate::study::trade::{
-    Differences, METHODS, MeasuredSetting, Reference, Setting, Subject, Trade, greatest,
+    Differences, Finest, METHODS, MeasuredSetting, Setting, Subject, Trade, greatest,
 };
 
 impl Results for Trade {
     /// The results in 80 columns.
     fn lines(&self, case: Named) -> Vec<String> {
-        let reference = match &self.reference {
+        let reference = match self.reference() {
             Err(refusal) => format!("No reference: method dynamic refuses the case: {refusal}."),
             Ok(reference) => format!("Reference: {}. {}", reference.setting, build(self)),
         };
@@ -31,7 +31,7 @@ impl Results for Trade {
     /// SI units, seconds, relative errors, without absent values.
     fn json(&self) -> Json {
         let trade = self;
-        let reference = trade.reference.as_ref().ok().map(|Reference { setting, values }| {
+        let reference = trade.reference().ok().map(|Finest { setting, values, .. }| {
             let quantity = |subject: Subject| {
                 let key = subject.quantity(setting.method)?.key;
                 Some((key, json!(values[subject as usize])))
@@ -51,7 +51,7 @@ impl Results for Trade {
             "reference": reference,
             // Driver and driven gear; no other time includes them.
             "field_seconds": trade.build.ok(),
-            "no_reference": trade.reference.as_ref().err().map(ToString::to_string),
+            "no_reference": trade.reference().err().map(|refusal| refusal.to_string()),
             "settings": trade.settings.iter().map(setting).collect::<Json>(),
             "recommended": trade.recommended().map(setting),
         })
@@ -103,8 +103,7 @@ pub fn parts(trade: &Trade, measured: &MeasuredSetting) -> Option<String> {
     let curve = numbers[Subject::Curve as usize].take();
     let named = |name: &str, off: Option<f64>| Some(format!("{name} {} %", percent(off?)));
     let is_reference = trade
-        .reference
-        .as_ref()
+        .reference()
         .is_ok_and(|reference| reference.setting.is_finer_or_coarser(&figures.taken));
     let model = if is_reference {
         Some("model: the reference".to_owned())

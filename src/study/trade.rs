@@ -24,37 +24,28 @@ pub struct Trade {
     pub planned: usize,
     /// The settings measured so far.
     pub settings: Vec<MeasuredSetting>,
-    /// The reference, or the refusal.
-    pub reference: Result<Reference, Refusal>,
-    /// Model error of each method: its finest setting against the reference.
-    pub models: Vec<Model>,
+    /// The finest setting of each method; that of `dynamic` is the reference.
+    pub finest: Vec<Finest>,
     /// Seconds to build the fields of driver and driven gear, or the reason why one has none. Later
     /// solves read the cached fields.
     pub build: Result<[f64; 2], Refusal>,
 }
 
-/// The answer of method `dynamic` with the finest setting, by the default compliance: the elastic
-/// field if both gears have one.
-#[derive(Debug, Clone)]
-pub struct Reference {
-    /// The setting of the reference.
-    pub setting: Setting,
-    /// The values in SI, in the order of [`Subject::ALL`].
-    pub values: [Option<f64>; Subject::ALL.len()],
-}
-
 /// Relative differences in the order of [`Subject::ALL`]; `None` if a method has no such quantity.
 pub type Differences = [Option<f64>; Subject::ALL.len()];
 
-/// The model error of a method.
+/// The finest setting of a method. That of `dynamic` by the default compliance is the reference: the
+/// elastic field if both gears have one.
 #[derive(Debug, Clone)]
-pub struct Model {
-    /// Its finest setting.
+pub struct Finest {
+    /// The setting.
     pub setting: Setting,
-    /// Difference of this setting from the reference.
+    /// The outcome, or the refusal.
+    pub outcome: Result<Outcome, Refusal>,
+    /// The values in SI, in the order of [`Subject::ALL`].
+    pub values: [Option<f64>; Subject::ALL.len()],
+    /// Difference from the reference: the model error of the method.
     pub off: Differences,
-    /// The outcome of this setting, if it solves the case.
-    pub outcome: Option<Outcome>,
 }
 
 /// A setting with its time and errors.
@@ -121,15 +112,16 @@ pub fn trade(
         Ok((setting, solution.map(|solution| Answer::of(&solution))))
     };
     let finest = finest.into_iter().map(answer).collect::<Result<Vec<_>, Refusal>>()?;
-    let (reference, truth) = &finest[REFERENCE];
+    let truth = &finest[REFERENCE].1;
     let off = |found: &Answer, truth: &Result<Answer, Refusal>| {
         let truth = truth.as_ref().ok();
         Subject::ALL.map(|subject| found.off(truth?, subject))
     };
-    let model = |(setting, found): &(Setting, Result<Answer, Refusal>)| Model {
+    let model = |(setting, found): &(Setting, Result<Answer, Refusal>)| Finest {
         setting: *setting,
+        outcome: found.as_ref().map(|found| found.outcome).map_err(|refusal| *refusal),
+        values: found.as_ref().map_or([None; Subject::ALL.len()], |found| found.values),
         off: found.as_ref().map_or([None; Subject::ALL.len()], |found| off(found, truth)),
-        outcome: found.as_ref().ok().map(|found| found.outcome),
     };
     let build = |gear: &Gear| {
         let begun = Instant::now();
@@ -142,11 +134,7 @@ pub fn trade(
         planned: settings.len(),
         // The capacity is exact, because a measurement stays in memory with its case.
         settings: Vec::with_capacity(settings.len()),
-        reference: truth
-            .as_ref()
-            .map(|truth| Reference { setting: *reference, values: truth.values })
-            .map_err(|refusal| *refusal),
-        models: finest.iter().map(model).collect(),
+        finest: finest.iter().map(model).collect(),
         build,
     };
     show(&trade);
@@ -227,14 +215,23 @@ impl Trade {
         self.settings.len() as f64 / self.planned as f64
     }
 
-    /// The model error of the method and compliance of a setting.
-    pub fn model(&self, setting: &Setting) -> Option<&Model> {
-        self.models.iter().find(|model| model.setting.is_finer_or_coarser(setting))
+    /// The finest setting of the method and compliance of a setting.
+    pub fn model(&self, setting: &Setting) -> Option<&Finest> {
+        self.finest.iter().find(|model| model.setting.is_finer_or_coarser(setting))
+    }
+
+    /// The reference, or the refusal.
+    ///
+    /// # Errors
+    /// The refusal of the case by method `dynamic`.
+    pub fn reference(&self) -> Result<&Finest, Refusal> {
+        let reference = &self.finest[REFERENCE];
+        reference.outcome.map(|_| reference)
     }
 
     /// The compared compliances, first that of the reference.
     pub fn compliances(&self) -> Vec<StiffnessModels> {
-        let reference = self.reference.iter().map(|reference| reference.setting);
+        let reference = self.reference().into_iter().map(|reference| reference.setting);
         let settings = self.settings.iter().map(|measured| measured.setting);
         distinct(reference.chain(settings).filter_map(|setting| setting.models))
     }
@@ -253,7 +250,7 @@ impl Trade {
 
     /// Whether every method that solves the case finds no corner contact.
     pub fn is_without_contact(&self) -> bool {
-        let mut outcomes = self.models.iter().filter_map(|model| model.outcome).peekable();
+        let mut outcomes = self.finest.iter().filter_map(|model| model.outcome.ok()).peekable();
         outcomes.peek().is_some() && outcomes.all(|outcome| outcome == Outcome::NoCornerContact)
     }
 

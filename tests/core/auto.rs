@@ -43,7 +43,7 @@ fn auto_chooses_the_method_that_a_trade_recommends_at_its_cost() {
         trade.judge();
         // The compliance is that of the reference: without the reference solve, no other compliance
         // is known to be close to it.
-        let reference = trade.reference.as_ref().expect("a reference").setting.models;
+        let reference = trade.reference().expect("a reference").setting.models;
         let best =
             trade.cheapest_where(|setting| setting.models == reference).expect("one qualifies");
         let recommended = best.setting.method;

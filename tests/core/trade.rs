@@ -79,7 +79,7 @@ fn table_1_within_five_percent_needs_the_method_dynamic() {
 #[test]
 fn every_method_is_compared_with_every_compliance_of_the_pair() {
     let trade = traded_table_1();
-    let reference = trade.reference.as_ref().unwrap();
+    let reference = trade.reference().unwrap();
     let compliances = trade.compliances();
     assert_eq!(compliances.len(), StiffnessModels::covering(&table_1()).count());
     assert_eq!(Some(compliances[0]), reference.setting.models);
@@ -111,7 +111,7 @@ fn a_pair_without_a_field_is_compared_with_the_beam_and_the_page_says_why() {
     inputs.driver.poisson = 0.495;
     inputs.tooth_compliance = None;
     let trade = traded(&inputs, 0.05);
-    let models = trade.reference.as_ref().unwrap().setting.models.unwrap();
+    let models = trade.reference().unwrap().setting.models.unwrap();
     assert_eq!(models.tooth.name(), ToothCompliance::BEAM.name());
     assert!(matches!(trade.build, Err(Refusal::NoField { .. })), "{:?}", trade.build);
     let words = text(&trade).replace('\n', " ");
@@ -244,7 +244,7 @@ fn a_method_that_refuses_is_listed_with_its_reason() {
         case.set(key, value).unwrap();
     }
     let trade = traded(&case.inputs().unwrap(), 0.05);
-    assert!(matches!(trade.reference, Err(Refusal::TooSlow { .. })), "{:?}", trade.reference);
+    assert!(matches!(trade.reference(), Err(Refusal::TooSlow { .. })));
     let dynamic = of(&trade, &Setting::usual(Method::Dynamic, &table_1()));
     assert!(dynamic.found.is_err() && !dynamic.qualifies && !dynamic.is_on_front);
     assert!(trade.recommended().is_none());
