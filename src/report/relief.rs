@@ -13,7 +13,7 @@ use crate::model::inputs::{Method, ReliefShape};
 use crate::model::relief::{GearReliefs, Relief, Reliefs};
 use crate::numeric::decimal::shortest;
 use crate::study::relief::{
-    Begin, Choice, Figures, MOST_LOAD, MapPoint, Specification, TipReliefs, WORTH,
+    Begin, Choice, Figures, MOST_LOAD, MapPoint, Specification, TipReliefs,
 };
 
 /// A relief to specify with the name of its case.
@@ -37,6 +37,16 @@ impl ReliefReport<'_> {
         let force = if found.method == Method::Dynamic { "in motion" } else { "at rest" };
         let greatest = percent(found.demand.greatest_load());
         let figure = self.figure();
+        let within = match found.demand.minimise.worth() {
+            0.0 => "without force before E".to_owned(),
+            worth => {
+                format!("within {:.0} % of the least {}", 100.0 * worth, found.demand.minimise)
+            }
+        };
+        let costs: &[usize] = match found.method {
+            Method::Dynamic => &[11, 12, 13, 14, 15, 16, 8, 17],
+            _ => &[11, 12, 13, 14, 15, 8, 17],
+        };
         for (title, table) in [
             (
                 format!("Before and after, forces {force} at {greatest} % of the load"),
@@ -44,20 +54,19 @@ impl ReliefReport<'_> {
             ),
             (
                 format!(
-                    "What each relief gains: amounts C_a and {figure} of the peak-to-peak \
-                     transmission error TE in um, lengths L in mm; {}",
-                    self.chosen_mark()
+                    "What each relief gains; C_a in um, L in mm, TE: {figure} peak-to-peak \
+                     transmission error over the loads in um; * the smallest relief {within}"
                 ),
                 self.gains(),
             ),
             (
                 format!(
-                    "What each relief costs: TE at {} % of the load in um, contact ratio of the \
-                     unrelieved flanks, force before E and peak force in N, remaining gap in um, \
-                     load in % at which it closes",
+                    "What each relief costs; TE at {} % of the load in um, contact ratio of the \
+                     unrelieved flanks; within the tolerances: force before E and peak force in N, \
+                     gap in um, load at which it closes",
                     percent(found.loads[0])
                 ),
-                self.of_choices(&[11, 12, 13, 14, 15, 16, 8, 17]),
+                self.of_choices(costs),
             ),
             (
                 "Transmission error peak to peak over the load, um (Harris map)".into(),
@@ -108,10 +117,6 @@ impl ReliefReport<'_> {
     /// The figure over the loads.
     fn figure(&self) -> &'static str {
         if self.found.demand.spectrum.is_empty() { "greatest" } else { "mean" }
-    }
-
-    fn chosen_mark(&self) -> String {
-        format!("* the smallest relief within {:.0} % of the best", 100.0 * WORTH)
     }
 
     /// What a drawing states of a choice.
@@ -192,6 +197,14 @@ impl ReliefReport<'_> {
                 changed(case.nominal.error, own.nominal.error),
                 changed(case.errors[0], own.errors[0]),
             ));
+            let [from, to] = [case, own].map(|choice| choice.nominal.peak);
+            if (to / from - 1.0).abs() > 0.02 {
+                let (shown, change) = ([from, to].map(|force| tidy(force, 4)), change(from, to));
+                lines.push(format!(
+                    "The peak force of a tooth changes from {} to {} N ({change}).",
+                    shown[0], shown[1]
+                ));
+            }
         }
         let ratio = own.reliefs.unloaded_contact_ratio(&found.geometry);
         if ratio < 1.0 {
@@ -283,14 +296,14 @@ impl ReliefReport<'_> {
         let rows = found.choices.iter().enumerate().map(|(at, choice)| {
             let best = if at == found.best { "true" } else { "false" };
             let texts = [choice.name, best, name(choice.reliefs.shape)].map(Cell::from);
-            let numbers = NUMBERS.map(|(.., (shown, digits), of)| match of(found, choice) {
-                Some(value) if shown == "%" => {
-                    Cell::Shown(value, format!("{:+.0} %", 100.0 * value))
-                }
-                Some(value) => {
-                    Cell::Shown(value, tidy(value / units::factor(shown).unwrap_or(1.0), digits))
-                }
-                None => Cell::None("-"),
+            let numbers = NUMBERS.map(|(.., (shown, digits), of)| {
+                let Some(value) = of(found, choice) else { return Cell::None("-") };
+                let text = match shown {
+                    "%" => format!("{:+.0} %", 100.0 * value),
+                    "% load" => percent(value) + " %",
+                    unit => tidy(value / units::factor(unit).unwrap_or(1.0), digits),
+                };
+                Cell::Shown(value, text)
             });
             texts.into_iter().chain(numbers).collect()
         });
@@ -436,9 +449,9 @@ type Number = fn(&Specification, &Choice) -> Option<f64>;
 /// The columns of numbers: key, header, unit in SI, unit and digits in text, value.
 const NUMBERS: [(&str, &str, &str, (&str, usize), Number); 21] = [
     ("driver.tip_relief", "C_a1", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[0])),
-    ("driver.tip_relief_length", "L_1", "m", ("mm", 4), |_, of| Some(of.reliefs.lengths[0])),
+    ("driver.tip_relief_length", "L_1", "m", ("mm", 4), |_, of| of.length(0)),
     ("driven.tip_relief", "C_a2", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[1])),
-    ("driven.tip_relief_length", "L_2", "m", ("mm", 4), |_, of| Some(of.reliefs.lengths[1])),
+    ("driven.tip_relief_length", "L_2", "m", ("mm", 4), |_, of| of.length(1)),
     ("transmission_error", "TE", "m", ("um", 3), |_, of| Some(of.nominal.error)),
     ("margin", "gap", "m", ("um", 2), |_, of| Some(of.worst.gap)),
     ("change", "vs case", "1", ("%", 2), |all, of| {
@@ -455,7 +468,9 @@ const NUMBERS: [(&str, &str, &str, (&str, usize), Number); 21] = [
     ("worst_entry_force", "entry", "N", ("N", 3), |_, of| Some(of.worst.entry)),
     ("worst_peak_force", "peak", "N", ("N", 4), |_, of| Some(of.worst.peak)),
     ("dynamic_factor", "K", "1", ("1", 3), |_, of| of.nominal.factor),
-    ("greatest_load", "load", "1", ("1", 3), |_, of| of.greatest_load),
+    ("greatest_load", "load", "1", ("% load", 0), |_, of| {
+        of.greatest_load.map(|load| (1e3 * load).floor() / 1e3)
+    }),
     ("entry_force", "", "N", ("N", 3), |_, of| Some(of.nominal.entry)),
     ("peak_force", "", "N", ("N", 4), |_, of| Some(of.nominal.peak)),
     ("driver.begin_roll_angle", "", "rad", ("deg", 4), |all, of| {

@@ -22,10 +22,6 @@ pub const AMOUNT_STEP: f64 = 1e-6;
 /// demand.
 pub const MOST_LOAD: f64 = 64.0;
 
-/// A smaller relief is chosen if its figure exceeds the best one by at most this fraction: 10 % of
-/// a transmission error are 0.8 dB.
-pub const WORTH: f64 = 0.1;
-
 /// Fraction of the progress that the search makes up; whole solves make up the rest.
 const SEARCH: f64 = 0.7;
 
@@ -184,6 +180,13 @@ impl TipReliefs {
     }
 }
 
+impl Choice {
+    /// The length on a gear, if it has a relief, in m.
+    pub fn length(&self, at: usize) -> Option<f64> {
+        (self.reliefs.amounts[at] > 0.0).then_some(self.reliefs.lengths[at])
+    }
+}
+
 impl Figures {
     /// The least favourable of each figure.
     fn worst(self, other: Figures) -> Figures {
@@ -222,7 +225,7 @@ impl Specification {
 /// ```
 /// x is the transmission error of the static balance. If the method of the case is `dynamic`, the
 /// amounts grow until the motion has no corner contact either. Of the kinds of relief whose figures
-/// differ by no more than [`WORTH`], the one with the smallest amounts is chosen. If no relief
+/// differ by no more than [`Criterion::worth`], the one with the smallest amounts is chosen. If no relief
 /// prevents corner contact, the criterion `entry` chooses the one with the least overlap.
 ///
 /// # Source
@@ -302,16 +305,20 @@ pub fn specify(
     })
 }
 
-/// The choice with the smallest amounts among those whose figure is close to the best one.
+/// The choice with the smallest amounts among those whose figure is close to the best one. Of equal
+/// peak forces the transmission error decides.
 fn best(choices: &[Choice], criterion: Criterion) -> usize {
-    let figure = |at: &usize| choices[*at].worst.of(criterion);
     let mut candidates: Vec<usize> =
         (0..choices.len()).filter(|&at| !choices[at].worst.strikes).collect();
     if candidates.is_empty() {
         candidates = (1..choices.len()).collect();
     }
-    let least = candidates.iter().map(figure).fold(f64::INFINITY, f64::min);
-    candidates.retain(|at| figure(at) <= (1.0 + WORTH) * least);
+    let others = [Criterion::Te].into_iter().filter(|_| criterion == Criterion::Peak);
+    for criterion in [criterion].into_iter().chain(others) {
+        let figure = |at: &usize| choices[*at].worst.of(criterion);
+        let least = candidates.iter().map(figure).fold(f64::INFINITY, f64::min);
+        candidates.retain(|at| figure(at) <= (1.0 + criterion.worth()) * least);
+    }
     let removed = |at: &usize| choices[*at].reliefs.removed();
     candidates.into_iter().min_by(|one, other| removed(one).total_cmp(&removed(other))).unwrap_or(0)
 }

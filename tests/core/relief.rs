@@ -8,7 +8,7 @@ use tipstrike::case::fields::key_of;
 use tipstrike::model::inputs::{Drive, Gear, Method, ReliefShape, ToothCompliance};
 use tipstrike::model::{Inputs, Outcome, Solution, Stage, Stages, solve};
 use tipstrike::study::relief::{
-    AMOUNT_STEP, Criterion, Demand, NoRelief, Specification, TipReliefs, WORTH, specify,
+    AMOUNT_STEP, Criterion, Demand, NoRelief, Specification, TipReliefs, specify,
 };
 
 fn inputs(path: &str) -> Inputs {
@@ -128,7 +128,10 @@ fn no_relief_of_a_grid_is_better() {
         let figure = |at: &usize| found.choices[*at].worst.error;
         let best = (1..found.choices.len()).min_by(|a, b| figure(a).total_cmp(&figure(b)));
         let best = &found.choices[best.unwrap()];
-        assert!(found.chosen().worst.error <= (1.0 + WORTH) * best.worst.error, "{name}");
+        assert!(
+            found.chosen().worst.error <= (1.0 + Criterion::Te.worth()) * best.worst.error,
+            "{name}"
+        );
         let longest = found.map.last().unwrap()[0].reliefs.lengths;
         let longest = longest[0].max(longest[1]);
         for shape in [ReliefShape::Linear, ReliefShape::Parabolic] {

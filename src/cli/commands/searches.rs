@@ -84,7 +84,8 @@ impl Seek {
 const RELIEF_HELP: &str = "The answer is what a drawing states: amounts in whole um, lengths in steps of 0.1 mm (0.05 mm or 0.01 mm on \
     short paths of contact), and the roll angle and diameter where each relief begins. Corner contact counts before the start and after \
     the end of the path of contact, at the greatest load. Every figure is that of the least favourable combination of the tolerances. \
-    Among the kinds of relief within 10 % of the best figure, the command chooses the one with the smallest amounts. The transmission \
+    Among the kinds of relief within 10 % of the least transmission error, or 2 % of the least peak force, the command chooses the one \
+    with the smallest amounts. The transmission \
     error is peak to peak, at rest and without base pitch deviations: the greatest over six loads of the range, or the mean over a \
     spectrum. With method dynamic the motion must have no corner contact either. CSV has one row per choice and point of the map, JSON \
     is one object; both are in SI units.";

@@ -30,6 +30,12 @@ impl Criterion {
     pub fn name(self) -> &'static str {
         ["te", "peak", "entry"][self as usize]
     }
+
+    /// A smaller relief is chosen if its figure exceeds the best one by at most this fraction: 10 %
+    /// of a transmission error are 0.8 dB.
+    pub fn worth(self) -> f64 {
+        [0.1, 0.02, 0.0][self as usize]
+    }
 }
 
 /// The figure in a sentence.
