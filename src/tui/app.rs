@@ -60,6 +60,9 @@ pub struct App {
     pub baseline: Option<Baseline>,
     /// Whether to pin the results as soon as they are complete.
     pub(crate) is_pinning: bool,
+    /// Whether results and charts show the free impact and the other methods beside the method of
+    /// the case.
+    pub(crate) shows_every_method: bool,
     /// Whether the results show the run time of each stage.
     pub(crate) shows_cost: bool,
     /// The view of the trade pane.
@@ -149,6 +152,7 @@ impl App {
             is_editing: true,
             baseline: None,
             is_pinning: false,
+            shows_every_method: false,
             shows_cost: false,
             trade_view: TradeView::default(),
             cursor: None,
@@ -217,7 +221,7 @@ impl App {
 
     fn place_of_pane(&self) -> Place {
         match self.layout.focus() {
-            Pane::Chart if self.chart.worker_chart.is_some() => Place::WORKER_CHART,
+            Pane::Chart if self.chart.worker_chart().is_some() => Place::WORKER_CHART,
             Pane::Study if self.study.is_tolerance => Place::TOLERANCE,
             pane => pane.place(),
         }
@@ -354,7 +358,8 @@ impl App {
             problems: &tab.problems,
             case: &tab.case,
             shows_cost: self.shows_cost,
-            notes_key: self.notes_key(),
+            shows_every_method: self.shows_every_method,
+            leave: self.leave(),
             units: self.settings.units,
             look: self.look,
             title: self.title(Pane::Results),
@@ -362,9 +367,9 @@ impl App {
         }
     }
 
-    /// The key of the notes. A field takes letters as text.
-    fn notes_key(&self) -> &'static str {
-        if self.has_line() { "Esc n" } else { "n" }
+    /// The prefix of a letter key: a field takes letters as text.
+    fn leave(&self) -> &'static str {
+        if self.has_line() { "Esc " } else { "" }
     }
 
     /// The trade pane with its benchmark.
@@ -413,7 +418,8 @@ impl App {
             baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
             cursor: self.cursor,
             is_stale: self.tab.shows_last_valid(),
-            notes_key: self.notes_key(),
+            leave: self.leave(),
+            shows_every_method: self.shows_every_method,
             work: &self.tab.chart_work,
             undone: self.tab.undone,
             units: self.settings.units,
@@ -456,7 +462,7 @@ impl App {
     /// Whether the chart of the mesh stiffness is visible.
     fn wants_stiffness(&self) -> bool {
         let is_visible = self.layout.plan().shows(Pane::Chart);
-        is_visible && GRAPHS[self.chart.graph].by_model.is_some()
+        is_visible && GRAPHS[self.chart.graph()].by_model.is_some()
     }
 
     /// Requests an effect.

@@ -52,12 +52,14 @@ const WRITTEN_OUT: [(&str, &str); 34] = [
 ];
 
 /// ASCII replacements of single cells.
-const ONE_CELL: [(&str, char); 29] = [
+const ONE_CELL: [(&str, char); 31] = [
     ("─━╌┄", '-'),
     ("═", '='),
     ("│┃║▏▕┊", '|'),
     ("┌┐└┘├┤┬┴┼╭╮╰╯╔╗╚╝", '+'),
     ("•●⠿", '*'),
+    ("◆", 'X'),
+    ("◇", 'O'),
     ("·∙", '.'),
     ("∘", 'o'),
     ("◦", 'd'),

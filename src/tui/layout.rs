@@ -47,14 +47,7 @@ impl Pane {
     /// The name of the pane.
     #[must_use]
     pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Pane::Form => "Form",
-            Pane::Results => "Results",
-            Pane::Chart => "Chart",
-            Pane::Teeth => "Teeth",
-            Pane::Trade => "Trade",
-            Pane::Study => "Study",
-        }
+        ["Form", "Results", "Chart", "Teeth", "Trade", "Study"][self as usize]
     }
 
     /// The digit that selects the pane, from 1.
@@ -71,7 +64,7 @@ impl Pane {
 
     /// Whether it shares the lower area.
     pub(crate) const fn is_lower(self) -> bool {
-        matches!(self, Pane::Chart | Pane::Teeth | Pane::Trade | Pane::Study)
+        !matches!(self, Pane::Form | Pane::Results)
     }
 
     /// The stages of a solve that the pane shows, if the method has them.
@@ -95,14 +88,14 @@ impl Pane {
     /// The place of keys while the pane has the focus and no field is edited.
     #[must_use]
     pub(crate) const fn place(self) -> Place {
-        match self {
-            Pane::Form => Place::FIELD,
-            Pane::Results => Place::RESULTS,
-            Pane::Chart => Place::CHART,
-            Pane::Teeth => Place::TEETH,
-            Pane::Trade => Place::TRADE,
-            Pane::Study => Place::STUDY,
-        }
+        [
+            Place::FIELD,
+            Place::RESULTS,
+            Place::CHART,
+            Place::TEETH,
+            Place::TRADE,
+            Place::STUDY,
+        ][self as usize]
     }
 
     /// The pane `by` places further, wrapping around.
@@ -134,8 +127,12 @@ impl Layout {
 
     fn of(size: Size, focus: Pane, lower: Pane, is_zoomed: bool) -> Layout {
         let mut layout = Layout { size, focus, lower, is_zoomed, plan: Plan::default() };
-        layout.plan = layout.plan_on(size);
+        layout.arrange();
         layout
+    }
+
+    fn arrange(&mut self) {
+        self.plan = self.plan_on(self.size);
     }
 
     /// The size of the terminal.
@@ -168,22 +165,26 @@ impl Layout {
 
     /// Adapts to a new size of the terminal.
     pub fn resize(&mut self, size: Size) {
-        *self = Layout::of(size, self.focus, self.lower, self.is_zoomed);
+        self.size = size;
+        self.arrange();
     }
 
     /// Moves the focus to a pane.
     pub(crate) fn focus_on(&mut self, pane: Pane) {
-        *self = Layout::of(self.size, pane, self.lower, self.is_zoomed);
+        self.focus = pane;
+        self.arrange();
     }
 
     /// Shows a pane in the lower area.
     pub(crate) fn show_below(&mut self, pane: Pane) {
-        *self = Layout::of(self.size, self.focus, pane, self.is_zoomed);
+        self.lower = pane;
+        self.arrange();
     }
 
     /// Makes the focused pane fill the screen, or restores the layout.
     pub(crate) fn zoom(&mut self, is_zoomed: bool) {
-        *self = Layout::of(self.size, self.focus, self.lower, is_zoomed);
+        self.is_zoomed = is_zoomed;
+        self.arrange();
     }
 
     /// The areas on a terminal of a size, which may not have been reported yet.
@@ -197,15 +198,25 @@ impl Layout {
         // The pane of the lower area beside the teeth, if these have an area of their own.
         let beside = if self.lower == Pane::Teeth { Pane::Chart } else { self.lower };
         if self.is_zoomed || (size.height < LOWER_FROM && self.focus.is_lower()) {
-            plan.place([(self.focus, body)]);
+            plan.place([self.focus], [body]);
         } else if size.height < LOWER_FROM {
-            plan.split_upper(body);
+            plan.place([Pane::Form, Pane::Results], split(body));
         } else if holds(size, THREE_FROM) {
             plan.three_columns(body, beside);
         } else if holds(size, BESIDE_FROM) {
-            plan.two_rows(body, beside, true);
+            let [upper, lower] = two_rows(body);
+            plan.place([Pane::Form, Pane::Results], split(upper));
+            let widths = Layouts::horizontal([Length(lower.width * 60 / 100), Fill(1)]);
+            plan.place([beside, Pane::Teeth], lower.layout(&widths));
+        } else if self.focus.is_lower() {
+            let [upper, lower] = two_rows(body);
+            plan.place([Pane::Form, Pane::Results], split(upper));
+            plan.place([self.lower], [lower]);
         } else {
-            plan.two_rows(body, self.lower, false);
+            // The results use the whole height until the lower pane gets the focus.
+            let [left, results] = split(body);
+            plan.place([Pane::Form, self.lower], two_rows(left));
+            plan.place([Pane::Results], [results]);
         }
         plan
     }
@@ -254,28 +265,10 @@ impl Plan {
         lowest.into_iter().find(|&pane| self.shows(pane))
     }
 
-    fn place<const COUNT: usize>(&mut self, panes: [(Pane, Rect); COUNT]) {
-        for (pane, area) in panes {
+    fn place<const COUNT: usize>(&mut self, panes: [Pane; COUNT], areas: [Rect; COUNT]) {
+        for (pane, area) in panes.into_iter().zip(areas) {
             self.panes[pane as usize] = area;
         }
-    }
-
-    fn split_upper(&mut self, area: Rect) {
-        let width = (area.width * 57 / 100).clamp(34, WIDEST);
-        let [form, results] = area.layout(&Layouts::horizontal([Length(width), Fill(1)]));
-        self.place([(Pane::Form, form), (Pane::Results, results)]);
-    }
-
-    fn two_rows(&mut self, body: Rect, pane: Pane, has_teeth_beside: bool) {
-        let height = (body.height.saturating_add(4) / 3).clamp(7, 20);
-        let [upper, lower] = body.layout(&Layouts::vertical([Fill(1), Length(height)]));
-        self.split_upper(upper);
-        if !has_teeth_beside {
-            return self.place([(pane, lower)]);
-        }
-        let left = Length(lower.width * 60 / 100);
-        let [beside, teeth] = lower.layout(&Layouts::horizontal([left, Fill(1)]));
-        self.place([(pane, beside), (Pane::Teeth, teeth)]);
     }
 
     fn three_columns(&mut self, body: Rect, pane: Pane) {
@@ -284,9 +277,20 @@ impl Plan {
         let [form, results, right] = body.layout(&Layouts::horizontal(columns));
         let rows = [Length(right.height / 2), Fill(1)];
         let [teeth, below] = right.layout(&Layouts::vertical(rows));
-        self.place([(Pane::Form, form), (Pane::Results, results), (Pane::Teeth, teeth)]);
-        self.place([(pane, below)]);
+        self.place([Pane::Form, Pane::Results, Pane::Teeth, pane], [form, results, teeth, below]);
     }
+}
+
+/// The areas of form and results.
+fn split(area: Rect) -> [Rect; 2] {
+    let width = (area.width / 2).clamp(34, WIDEST);
+    area.layout(&Layouts::horizontal([Length(width), Fill(1)]))
+}
+
+/// The upper area and the lower one.
+fn two_rows(area: Rect) -> [Rect; 2] {
+    let height = (area.height.saturating_add(4) / 3).clamp(7, 20);
+    area.layout(&Layouts::vertical([Fill(1), Length(height)]))
 }
 
 fn holds(size: Size, least: Size) -> bool {

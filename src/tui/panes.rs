@@ -11,20 +11,17 @@ pub(crate) mod trade;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Borders, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::layout::Pane;
 use super::text;
 use super::theme::Theme;
 
-/// Least width of a title beside the keys of hidden panes, and beside their names.
-const BESIDE_KEYS: usize = 32;
+/// Least width of a pane that shows the keys of hidden panes, and of a title beside their names.
+const LEAST_WIDTH: u16 = 40;
 const BESIDE_NAMES: usize = 44;
-/// The same beside names in a pane that fills the screen: at least its width among other panes.
-const ALONE: usize = 80;
-/// Prefix of the number of a pane while a field takes the digits.
-const LEAVE: &str = "Esc ";
 
 /// The title line of a pane.
 #[derive(Debug, Clone)]
@@ -43,23 +40,22 @@ pub(crate) struct Title {
 impl Title {
     /// Draws the line and returns the area below it.
     pub(crate) fn draw(&self, words: &str, area: Rect, buffer: &mut Buffer) -> Rect {
-        let names = self.names(area.width);
-        let room = room_beside(&names, area.width);
-        let title = text::cut(&format!("{}{words}", self.key()), room.saturating_sub(4));
-        let inner = text::titled(&title, area, self.theme, buffer);
-        if self.has_focus && area.width > 4 {
-            buffer.set_string(area.x, area.y, "▸", self.theme.title);
-            buffer.set_stringn(
-                area.x + 1,
-                area.y,
-                format!(" {title} "),
-                usize::from(area.width) - 1,
-                self.theme.key,
-            );
-        }
+        let (theme, names) = (self.theme, self.names(area.width));
+        let room = usize::from(area.width).saturating_sub(names.width() + 4);
+        let title = format!(" {} ", text::cut(&format!("{}{words}", self.key()), room));
+        let [mark, title] = if self.has_focus {
+            [Span::styled("▸", theme.title), Span::styled(title, theme.key)]
+        } else {
+            [Span::styled("─", theme.rule), Span::styled(title, theme.title)]
+        };
+        let mut block = Block::new().borders(Borders::TOP).border_style(theme.rule);
         if !names.is_empty() {
-            buffer.set_string(area.x + room as u16, area.y, &names, Style::new());
+            let end = Span::styled("─", theme.rule);
+            block = block.title(Line::from(vec![Span::raw(names), end]).right_aligned());
         }
+        let block = block.title(Line::from(vec![mark, title]));
+        let inner = block.inner(area);
+        block.render(area, buffer);
         inner
     }
 
@@ -86,34 +82,23 @@ impl Title {
         match (self.is_editing, self.pane) {
             (false, pane) => format!("{} ", pane.number()),
             (true, Pane::Form) => String::new(),
-            (true, pane) => format!("{LEAVE}{} ", pane.number()),
+            (true, pane) => format!("Esc {} ", pane.number()),
         }
     }
 
-    // Keys and names of the hidden panes; only the keys if the names do not fit; empty in a narrow
-    // pane.
+    // Keys and names of the hidden panes; only the keys beside a long title or in a pane alone.
     fn names(&self, width: u16) -> String {
-        if self.hidden.is_empty() {
+        if self.hidden.is_empty() || width < LEAST_WIDTH {
             return String::new();
         }
-        let leave = if self.is_editing { format!(" {}", LEAVE.trim_end()) } else { String::new() };
-        let hidden = || self.hidden.iter();
-        let names: Vec<String> =
-            hidden().map(|pane| format!(" {} {} ", pane.number(), pane.name())).collect();
-        let names = names.concat();
-        let keys: String =
-            hidden().map(|pane| format!(" {}", pane.number())).chain([" ".to_owned()]).collect();
+        let leave = if self.is_editing { " Esc" } else { "" };
+        let name = |pane: &Pane| format!(" {} {} ", pane.number(), pane.name());
+        let names = leave.to_owned() + &self.hidden.iter().map(name).collect::<String>();
         let is_alone = self.hidden.len() + 1 == Pane::ALL.len();
-        let beside_names = if is_alone { ALONE } else { BESIDE_NAMES };
-        let sayings =
-            [(format!("{leave}{names}"), beside_names), (format!("{leave}{keys}"), BESIDE_KEYS)];
-        let fits = sayings.into_iter().find(|(words, least)| room_beside(words, width) >= *least);
-        fits.map_or_else(String::new, |(words, _)| words)
+        if !is_alone && names.width() + BESIDE_NAMES <= width.into() {
+            return names;
+        }
+        let key = |pane: &Pane| format!(" {}", pane.number());
+        format!("{leave}{} ", self.hidden.iter().map(key).collect::<String>())
     }
-}
-
-// The names are at the right end, before one cell of the rule.
-fn room_beside(names: &str, width: u16) -> usize {
-    let taken = if names.is_empty() { 0 } else { names.width() + 1 };
-    usize::from(width).saturating_sub(taken)
 }

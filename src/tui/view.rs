@@ -25,12 +25,8 @@ use crate::case::fields::{Absent, Field, Kind};
 use crate::case::units::System;
 use crate::case::{Acting, FIELDS, Limit, partial_relevance, relevance};
 use crate::model::inputs::Method;
-use crate::numeric::decimal::shortest;
 use crate::report::verdict::verdicts;
 use crate::study::trade::Trade;
-
-/// Width of a progress bar.
-const BAR: usize = 20;
 
 /// Draws the whole screen. Returns the position of the text cursor, if any.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
@@ -56,7 +52,8 @@ pub(crate) fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
     if let Some((what, part)) = progress(app) {
         // Esc first leaves the field.
         let cancel = if app.has_line() { "Ctrl-C" } else { "Esc" };
-        parts.push((format!("{}; {cancel} cancels", bar(&what, part)), theme.note));
+        let part = if part.is_finite() { 100.0 * part.clamp(0.0, 1.0) } else { 0.0 };
+        parts.push((format!("{part:.0} % {what}; {cancel} cancels"), theme.note));
     }
     parts.push((focused(app), Style::new()));
     let mut lines = Vec::new();
@@ -99,13 +96,8 @@ pub(crate) fn about(field: &Field, ascii: bool, units: System) -> String {
     let name = [symbol(field.symbol, ascii).as_ref(), &field.full_label()].join(" ");
     let bounds = match field.kind {
         Kind::Text => String::new(),
-        Kind::Number(_, range, _) if units.unit(range.unit) == range.unit => {
-            format!(", {}..{} {}", shortest(range.from), shortest(range.to), range.unit)
-                .trim_end()
-                .to_owned()
-        }
         Kind::Number(..) => format!(", {}", field.range_in(units)),
-        Kind::Count(from, to, _) => format!(", {from}..{to}"),
+        Kind::Count(from, to, _) => format!(", {from} to {to}"),
         Kind::Choice(names, _) => format!(", {}", names.join(" | ")),
     };
     let absent = match field.absent {
@@ -128,52 +120,37 @@ fn too_small(area: Rect, buffer: &mut Buffer) {
 fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     let plan = app.layout.plan_on(area.as_size());
     header::draw(app, plan.header, buffer);
-    let in_form = form::draw(&Form { area: plan.area(Pane::Form), ..app.form() }, buffer);
+    let mut cursor = None;
     for pane in Pane::ALL {
         let area = plan.area(pane);
-        if !area.is_empty() {
-            draw_pane(app, pane, area, buffer);
+        match pane {
+            _ if area.is_empty() => (),
+            Pane::Form => cursor = form::draw(&Form { area, ..app.form() }, buffer),
+            Pane::Results => results::draw(&Results { area, ..app.results() }, buffer),
+            Pane::Chart => {
+                chart::draw(&Charts { area, ..app.charts() }, &app.title(pane), buffer);
+            }
+            Pane::Teeth => draw_teeth(app, area, buffer),
+            Pane::Trade => trade::draw(&TradePane { area, ..app.trade() }, buffer),
+            Pane::Study => study::draw(&StudyPane { area, ..app.study() }, buffer),
         }
     }
     hint(app, plan.hint, buffer);
     keys(app, plan.keys, buffer);
     match app.prompts.last() {
         Some(prompt) => prompt.dialog().draw(&app.surroundings(), area, buffer),
-        None => in_form,
+        None => cursor,
     }
-}
-
-fn draw_pane(app: &App, pane: Pane, area: Rect, buffer: &mut Buffer) {
-    match pane {
-        Pane::Form => (),
-        Pane::Results => results::draw(&Results { area, ..app.results() }, buffer),
-        Pane::Chart => draw_charts(app, area, buffer),
-        Pane::Teeth => draw_teeth(app, area, buffer),
-        Pane::Trade => trade::draw(&TradePane { area, ..app.trade() }, buffer),
-        Pane::Study => study::draw(&StudyPane { area, ..app.study() }, buffer),
-    }
-}
-
-fn draw_charts(app: &App, area: Rect, buffer: &mut Buffer) {
-    let (title, charts) = (app.title(Pane::Chart), app.charts());
-    let charts = Charts { area, ..charts };
-    chart::draw(&charts, &title, buffer);
 }
 
 fn draw_teeth(app: &App, area: Rect, buffer: &mut Buffer) {
     let stale = if app.tab.shows_last_valid() { "LAST VALID, " } else { "" };
-    let centre = app.teeth.centre.name();
-    let words = format!("{stale}Teeth, true to scale, around {centre}");
+    let words = format!("{stale}Teeth, true to scale, around {}", app.teeth.centre.name());
     let inner = app.title(Pane::Teeth).draw(&words, area, buffer);
-    if let Some(picture) = app.picture() {
-        teeth::draw(&picture, inner, buffer);
-    } else {
-        let message = if app.tab.answer.is_some() {
-            "  This method has no valid results."
-        } else {
-            "  No results yet."
-        };
-        buffer.set_stringn(inner.x, inner.y, message, inner.width.into(), Style::new());
+    match (app.picture(), &app.tab.answer) {
+        (Some(picture), _) => teeth::draw(&picture, inner, buffer),
+        (None, Some(_)) => text::draw_words("This method has no valid results.", inner, buffer),
+        (None, None) => text::draw_words("No results yet.", inner, buffer),
     }
 }
 
@@ -199,11 +176,9 @@ fn focused(app: &App) -> String {
                 .map_or_else(String::new, |compared| format!("{compared} "));
             compared + &about
         }),
-        Pane::Chart | Pane::Teeth => match app.chart.worker_chart {
-            Some(chart) if app.layout.focus() == Pane::Chart => chart.words()[2].to_owned(),
-            _ => at_cursor(app),
-        },
-        Pane::Trade => trade::signs(&app.trade()),
+        Pane::Chart if app.chart.worker_chart().is_some() => app.charts().own_readout(),
+        Pane::Chart | Pane::Teeth => at_cursor(app),
+        Pane::Trade => trade::signs(&app.trade()).to_owned(),
         Pane::Study => study::hint(&app.study()),
     }
 }
@@ -227,9 +202,8 @@ fn typed(app: &App) -> Option<String> {
 
 // The typed value in another unit, why the field has no effect, and its description.
 fn about_field(app: &App, index: usize) -> String {
-    let field = &FIELDS[index];
-    let converted =
-        app.tab.case.text(index).and_then(|text| field.converted(text, app.settings.units));
+    let (field, units) = (&FIELDS[index], app.settings.units);
+    let converted = app.tab.case.text(index).and_then(|text| field.converted(text, units));
     let inputs = &app.tab.inputs_so_far;
     let idle = match relevance(index, inputs) {
         Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => {
@@ -237,12 +211,9 @@ fn about_field(app: &App, index: usize) -> String {
         }
         _ => partial_relevance(index, inputs).map(|why| format!("Limited effect: {why}.")),
     };
-    let about = about(field, app.look.ascii, app.settings.units);
-    [converted.map(|value| value + "."), idle, material(app, field), Some(about)]
-        .into_iter()
-        .flatten()
-        .collect::<Vec<_>>()
-        .join(" ")
+    let about = about(field, app.look.ascii, units);
+    let parts = [converted.map(|value| value + "."), idle, material(app, field), Some(about)];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
 // The source of a value, if it is that of a material.
@@ -255,26 +226,15 @@ fn material(app: &App, field: &Field) -> Option<String> {
 }
 
 fn about_limit(app: &App, limit: &Limit) -> String {
-    let solution = app
-        .tab
-        .answer
-        .as_ref()
-        .and_then(|answer| answer.of(answer.active))
-        .filter(|_| !app.tab.is_stale());
-    let of_case = |solution| {
-        verdicts(&app.tab.case, solution)
-            .into_iter()
-            .find(|verdict| verdict.limit.quantity == limit.quantity)
-    };
-    let verdict = solution.filter(|_| !limit.text.is_empty()).and_then(of_case);
+    let (tab, name) = (&app.tab, rows::label(&app.tab.case, app.tab.form.focus));
+    let answer = tab.answer.as_ref().filter(|_| !tab.is_stale() && !limit.text.is_empty());
+    let solution = answer.and_then(|answer| answer.of(answer.active));
+    let verdicts = solution.map_or_else(Vec::new, |solution| verdicts(&tab.case, solution));
+    let verdict = verdicts.iter().find(|verdict| verdict.limit.quantity == limit.quantity);
     let sentence = verdict.map(|verdict| {
         format!("{} {}. ", verdict.standing.word(), verdict.sentence(app.settings.units))
     });
-    format!(
-        "{}Upper limit of {}; empty: no limit.",
-        sentence.unwrap_or_default(),
-        rows::label(&app.tab.case, app.tab.form.focus)
-    )
+    format!("{}Upper limit of {name}; empty: no limit.", sentence.unwrap_or_default())
 }
 
 fn at_cursor(app: &App) -> String {
@@ -298,11 +258,4 @@ fn progress(app: &App) -> Option<(String, f64)> {
     }
     let method = app.tab.answer.as_ref().and_then(|answer| answer.pending).map_or("", Method::name);
     app.tab.solving.map(|part| (format!("solving {method}"), part))
-}
-
-fn bar(what: &str, part: f64) -> String {
-    let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 };
-    let full = (part * BAR as f64).floor() as usize;
-    let bar = "█".repeat(full) + &"░".repeat(BAR - full);
-    format!("{bar} {:3.0} % {what}", part * 100.0)
 }

@@ -608,9 +608,7 @@ fn assert_charts(desk: &mut Desk) {
                 assert_round(&beside, desk);
             }
             desk.keys(&["j"]);
-            if desk.app.chart.worker_chart.take().is_some() {
-                desk.app.chart.graph = 0;
-            }
+            desk.app.chart.selected = desk.app.chart.graph();
         }
     }
     desk.act(Action::Resize(SMALL));
@@ -679,7 +677,7 @@ fn bytes(before: &Buffer, after: &Buffer, area: Rect) -> usize {
 fn all_charts(desk: &mut Desk) -> Vec<Buffer> {
     let size = desk.app.layout.size();
     let charts = (0..GRAPHS.len()).map(|graph| {
-        desk.app.chart.graph = graph;
+        desk.app.chart.selected = graph;
         desk.buffer(size)
     });
     charts.collect()
@@ -826,12 +824,25 @@ fn the_mesh_stiffness_appears_as_soon_as_it_is_computed() {
 }
 
 #[test]
-fn a_chart_with_its_own_axes_offers_no_key_of_the_roll_angle() {
+fn a_chart_with_its_own_axes_has_a_cursor_of_its_own() {
     let mut desk = at_method(SMALL, "exact");
     desk.keys(&["k"]);
-    desk.assert_shows("N is the mesh frequency over");
+    desk.assert(desk.shows("N is the mesh frequency over"));
     desk.assert(desk.shows("j next chart") && !desk.shows("Space play"));
-    desk.keys(&["l"]);
-    desk.assert_shows("l is not a command in Chart");
+    desk.keys(&["l", "L"]);
+    desk.assert(desk.shows("speed of the driver") && desk.shows(": speed rising 1."));
+    desk.keys(&["k", "l", "l"]);
+    desk.assert(desk.shows("harmonic of the mesh frequency 2.000: at rest "));
+    desk.keys(&["c"]);
+    desk.assert(desk.shows("The amplitude of each harmonic"));
     assert_eq!(desk.app.cursor, None);
+}
+
+#[test]
+fn the_curve_of_paper_is_drawn_on_request() {
+    let mut desk = at_method(SMALL, "exact");
+    assert!(!desk.shows("· paper"), "{}", desk.screen());
+    desk.keys(&["f"]);
+    assert!(desk.shows("· paper"), "{}", desk.screen());
+    assert!(at_method(SMALL, "paper").shows("⠒ paper"));
 }

@@ -219,7 +219,7 @@ fn speed(scope: &CursorScope<'_>) -> f64 {
 
 // The angle at which the curve of the active method in the selected chart is farthest from 0.
 fn peak(scope: &CursorScope<'_>) -> Option<f64> {
-    let curves = curves(&scope.charts, &GRAPHS[scope.charts.pane.graph]);
+    let curves = curves(&scope.charts, &GRAPHS[scope.charts.pane.graph()]);
     let own = curves.iter().find(|curve| matches!(curve.source, CurveSource::Active(_)))?;
     let highest =
         own.pieces.iter().flatten().max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;

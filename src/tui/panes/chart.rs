@@ -5,7 +5,7 @@ pub(crate) mod curves;
 pub(crate) mod range;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
 
@@ -15,6 +15,7 @@ use crate::case::units::System;
 pub use crate::model::contact_state::first_contact_of_driver as first_contact;
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Solution};
+use crate::numeric::decimal::significant;
 use crate::report::absence::without_contact;
 use crate::report::chart::{Axis, Chart, Kind, Span};
 use crate::report::graphs::{GRAPHS, Graph};
@@ -25,9 +26,9 @@ use crate::tui::text;
 use crate::tui::theme::Look;
 
 pub use curves::readout;
-use curves::{Curve, CurveSource, curves};
+use curves::{Curve, curves, value_at};
 pub(crate) use range::last_contact;
-use range::{ChartView, Frame, Occasion, Scale, angle_range_of, path, way_of_all};
+use range::{ChartView, Frame, Occasion, Scale};
 
 /// Least height of each chart, in rows; it decides the number of charts.
 const ROWS: u16 = 16;
@@ -40,43 +41,42 @@ const USUAL_COLUMNS: u16 = 71;
 const MOST_MICROS: f64 = 5000.0;
 /// The part of the approach that the strike shows after E.
 const AFTER_E: f64 = 0.5;
+/// Significant digits of a value of a chart with its own axes.
+const DIGITS: usize = 4;
 
 /// The state of the pane, common to all open cases.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ChartPane {
-    /// The selected chart, as an index of the table.
-    pub graph: usize,
-    /// The chart of a worker that replaces it.
-    pub worker_chart: Option<WorkerChart>,
+    /// The selected chart: an index of the table of charts, or after it of the worker's charts.
+    pub selected: usize,
     /// Whether the x axis is the time after E.
     pub(crate) by_time: bool,
     /// The visible roll angles.
     pub view: ChartView,
+    /// The cursor of a chart with its own axes, on its x axis.
+    pub(crate) place: Option<f64>,
 }
 
 /// The number of charts: those of the table, and those of the worker.
 const CHARTS: usize = GRAPHS.len() + WorkerChart::ALL.len();
 
 impl ChartPane {
-    /// The index of the selected chart among all charts.
-    fn place(&self) -> usize {
-        let of_worker = |chart| WorkerChart::ALL.iter().position(|own| *own == chart);
-        let place = self.worker_chart.and_then(of_worker);
-        place.map_or(self.graph, |place| GRAPHS.len() + place)
+    /// The selected chart of the table; the first one beside a chart of the worker.
+    #[must_use]
+    pub fn graph(&self) -> usize {
+        if self.selected < GRAPHS.len() { self.selected } else { 0 }
     }
 
-    /// Selects the chart with an index among all charts.
-    fn select(&mut self, at: usize) {
-        self.worker_chart = at.checked_sub(GRAPHS.len()).map(|at| WorkerChart::ALL[at]);
-        if self.worker_chart.is_none() {
-            self.graph = at;
-        }
+    /// The selected chart of the worker, if any.
+    #[must_use]
+    pub fn worker_chart(&self) -> Option<WorkerChart> {
+        WorkerChart::ALL.get(self.selected.checked_sub(GRAPHS.len())?).copied()
     }
 
     /// The key of the selected chart, as in `plot --chart`.
     #[must_use]
     pub fn key(&self) -> &'static str {
-        self.worker_chart.map_or(GRAPHS[self.graph].key, WorkerChart::key)
+        self.worker_chart().map_or(GRAPHS[self.graph()].key, WorkerChart::key)
     }
 }
 
@@ -95,6 +95,8 @@ pub(crate) enum ChartCommand {
     Strike,
     /// Switches the x axis between roll angle and time.
     Time,
+    /// Moves the cursor of a chart with its own axes by points.
+    Move(isize),
 }
 
 /// The pane with the results that it shows.
@@ -112,8 +114,10 @@ pub struct Charts<'a> {
     pub(crate) cursor: Option<f64>,
     /// Whether the results are older than the form.
     pub(crate) is_stale: bool,
-    /// The key that shows the notes.
-    pub(crate) notes_key: &'static str,
+    /// The prefix of a letter key: a field takes letters as text.
+    pub(crate) leave: &'static str,
+    /// Whether method `paper` has a curve beside the other methods.
+    pub(crate) shows_every_method: bool,
     /// The chart that the worker computes for the case.
     pub work: &'a ChartWork,
     /// The first request after the last undo.
@@ -143,101 +147,128 @@ impl Charts<'_> {
 
     /// The view of the pane. A chart of the path of contact starts with the whole contact.
     fn view(&self) -> ChartView {
-        match self.pane.view.frame {
-            Frame::Opening if self.is_by_model() => {
-                ChartView { frame: Frame::Whole, ..self.pane.view }
-            }
-            _ => self.pane.view,
-        }
+        let view = self.pane.view;
+        let is_whole = view.frame == Frame::Opening && self.is_by_model();
+        ChartView { frame: if is_whole { Frame::Whole } else { view.frame }, ..view }
     }
 
     /// Whether the selected chart has a curve for each compliance model.
     fn is_by_model(&self) -> bool {
-        GRAPHS[self.pane.graph].by_model.is_some()
+        GRAPHS[self.pane.graph()].by_model.is_some()
     }
 
     /// The state after a command, with a message.
     #[must_use]
     pub(crate) fn run(&self, command: ChartCommand) -> (ChartPane, Option<&'static str>) {
+        const WHOLE: &str = "the charts show the whole contact";
         let mut pane = *self.pane;
         let message = match command {
             ChartCommand::Step(by) => {
-                let at = (pane.place() + CHARTS).saturating_add_signed(by) % CHARTS;
-                pane.select(at);
+                let selected = (pane.selected + CHARTS).saturating_add_signed(by) % CHARTS;
+                pane = ChartPane { selected, place: None, ..pane };
                 None
             }
             ChartCommand::Select(at) => {
-                pane.select(at.min(CHARTS - 1));
+                pane = ChartPane { selected: at.min(CHARTS - 1), place: None, ..pane };
                 None
             }
+            ChartCommand::Move(by) => {
+                pane.place = self.moved(by);
+                pane.place.is_none().then_some("no chart to move in")
+            }
             ChartCommand::Zoom(steps) => {
-                pane.view = self.zoomed(steps);
-                let end =
-                    if steps > 0 { "closest zoom" } else { "the charts show the whole contact" };
+                let start = self.solution().and_then(first_contact);
+                let around = 0.0 - self.cursor.or(start).unwrap_or(0.0).to_degrees();
+                pane.view = self.view().zoomed(steps, around, self.scale);
+                let end = if steps > 0 { "closest zoom" } else { WHOLE };
                 (pane.view == self.view()).then_some(end)
             }
             ChartCommand::Whole => {
                 pane.view = ChartView::whole();
-                Some("the charts show the whole contact")
+                Some(WHOLE)
             }
             ChartCommand::Strike => {
                 pane.view = self.view().strike_or_whole(self.scale);
-                Some(match pane.view.frame {
-                    Frame::Strike if self.scale.strike.is_empty() => {
-                        "no corner contact: no strike to show"
-                    }
-                    Frame::Strike => "the charts show the strike",
-                    Frame::Opening | Frame::Whole => "the charts show the whole contact",
+                let has_strike = !self.scale.strike.is_empty();
+                Some(match (pane.view.frame, has_strike) {
+                    (Frame::Strike, true) => "the charts show the strike",
+                    (Frame::Strike, false) => "no corner contact: no strike to show",
+                    _ => WHOLE,
                 })
             }
             ChartCommand::Time => {
                 pane.by_time = !pane.by_time;
-                Some(if pane.by_time {
-                    "x axis: time after E"
-                } else {
-                    "x axis: driver roll angle before E"
-                })
+                let [angle, time] = ["driver roll angle before E", "time after E"];
+                return (pane, Some(if pane.by_time { time } else { angle }));
             }
         };
         (pane, message)
     }
 
-    fn zoomed(&self, steps: i32) -> ChartView {
-        let start = self.solution().and_then(first_contact);
-        let around = 0.0 - self.cursor.or(start).unwrap_or(0.0).to_degrees();
-        self.view().zoomed(steps, around, self.scale)
+    /// The chart of the worker with its own axes, as far as it is computed.
+    fn own_chart(&self) -> Option<&Chart> {
+        self.work.drawn(self.pane.worker_chart()?)
+    }
+
+    /// The point `by` points from the cursor of that chart; its first point without a cursor.
+    fn moved(&self, by: isize) -> Option<f64> {
+        let series = self.own_chart()?.series.iter();
+        let mut points: Vec<f64> =
+            series.flat_map(|series| series.pieces.iter().flatten()).map(|point| point.0).collect();
+        points.sort_by(f64::total_cmp);
+        points.dedup();
+        let now = self.pane.place.map(|place| points.partition_point(|point| *point < place));
+        let at = now.map_or(0, |now| now.saturating_add_signed(by)).min(points.len().max(1) - 1);
+        points.get(at).copied()
+    }
+
+    /// The values of that chart at its cursor, or its description without a cursor.
+    pub(crate) fn own_readout(&self) -> String {
+        let Some((chart, place)) = self.own_chart().zip(self.pane.place) else {
+            return self.pane.worker_chart().map_or("", |chart| chart.words()[2]).to_owned();
+        };
+        let value = |value: f64, unit: &str| {
+            let unit = unit.split(';').next().unwrap_or_default();
+            format!("{} {unit}", significant(value, DIGITS)).trim_end().to_owned()
+        };
+        let series = chart.series.iter().filter(|series| !matches!(series.kind, Kind::Marks(_)));
+        let values = series.filter_map(|series| {
+            let name = series.name.split([',', ':']).next().unwrap_or_default();
+            let y = value_at(&series.pieces, place)?;
+            Some(format!("{name} {}", value(y, &chart.up.unit)))
+        });
+        let values: Vec<String> = values.collect();
+        let across = value(place, &chart.across.unit);
+        format!("{} {across}: {}.", chart.across.name, values.join(", "))
     }
 
     /// Axes that contain every visible curve, and what they are fitted to. Keeps the present axes
     /// while they fit.
     pub(crate) fn fitted(&self, before: Occasion) -> (Occasion, Scale) {
         let mut scale = *self.scale;
-        let mut occasion = Occasion {
-            shown: (self.pane.graph, self.count(), self.units),
-            ground: (self.answer.map(|answer| answer.active), self.undone),
-        };
         let Some(answer) = self.answer.filter(|_| !self.area.is_empty()) else {
             return (before, scale);
         };
+        let mut ground = (Some(answer.active), self.undone);
         // While an answer is incomplete, the method and the undo of the earlier occasion remain.
-        if answer.pending.is_some() || answer.serial < occasion.ground.1 {
-            occasion.ground = before.ground;
+        if answer.pending.is_some() || answer.serial < self.undone {
+            ground = before.ground;
         }
-        let is_new = occasion.ground != before.ground;
+        let shown = (self.pane.graph(), self.count(), self.units);
+        let is_new = ground != before.ground;
         let fitted = |axis: Span, values: Span| {
             if is_new { axis.refit(values) } else { axis.fitted(values) }
         };
-        let pinned = self.baseline.map(|baseline| (baseline, baseline.beside(answer.active)));
-        let way = pinned.map_or(Span::NONE, |(base, method)| angle_range_of(base, method));
-        let way = way.and(way_of_all(answer));
-        let way = if self.is_by_model() { way.and(path(answer)) } else { way };
+        let pinned = self.baseline.and_then(|base| base.of(base.beside(answer.active)));
+        let solved = answer.methods.iter().filter_map(|(_, found)| found.as_ref().ok());
+        let ways = solved.chain(pinned).map(range::way).fold(Span::NONE, Span::and);
+        let ways = if self.is_by_model() { ways.and(range::path(answer)) } else { ways };
         // The axis does not shrink while the worker still solves a method.
         scale.across = match answer.pending {
-            Some(_) => scale.across.grown(way),
-            None => fitted(scale.across, way),
+            Some(_) => scale.across.grown(ways),
+            None => fitted(scale.across, ways),
         };
-        let touches = [Some((answer, answer.active)), pinned].into_iter().flatten();
-        let touches = touches.filter_map(|(answer, method)| first_contact(answer.of(method)?));
+        let touches = self.solution().into_iter().chain(pinned).filter_map(first_contact);
         let first = touches.fold(0.0, f64::max).to_degrees();
         let strike = Span::new(-first, AFTER_E * first);
         scale.strike =
@@ -247,27 +278,28 @@ impl Charts<'_> {
             let curves = curves(self, &GRAPHS[graph]);
             let values = curves.iter().map(|curve| curve.upright_within(window));
             let values = values.fold(Span::NONE, Span::and);
-            let now = scale.upright[graph];
-            let start =
-                if is_new || occasion.shown != before.shown { Span::default() } else { now };
+            let is_new = is_new || shown != before.shown;
+            let start = if is_new { Span::default() } else { scale.upright[graph] };
             let axis = match GRAPHS[graph].by_model {
                 Some(_) => start.fitted_closely(values),
                 None => start.fitted(values),
             };
-            scale.upright[graph] = if axis.is_empty() { now } else { axis };
+            if !axis.is_empty() {
+                scale.upright[graph] = axis;
+            }
         }
-        (occasion, scale)
+        (Occasion { shown, ground }, scale)
     }
 
     /// The visible charts: the selected chart, and below it the next charts of the active method.
     #[must_use]
     pub fn shown(&self) -> Vec<usize> {
-        let chosen = self.pane.graph;
-        let method = self.answer.map(|answer| answer.active);
+        let chosen = self.pane.graph();
         let others = (1..GRAPHS.len()).map(|by| (chosen + by) % GRAPHS.len());
         let has_curve = |graph: &usize| {
-            let graph = &GRAPHS[*graph];
-            graph.by_model.is_none() && method.is_some_and(|method| graph.column(method).is_some())
+            let (graph, answer) = (&GRAPHS[*graph], self.answer);
+            graph.by_model.is_none()
+                && answer.is_some_and(|answer| graph.column(answer.active).is_some())
         };
         std::iter::once(chosen).chain(others.filter(has_curve)).take(self.count()).collect()
     }
@@ -292,31 +324,25 @@ impl Charts<'_> {
 
     /// The visible charts from top to bottom, each with its plot below its title.
     fn plots(&self) -> Vec<(usize, Rect, Plot)> {
-        let (shown, area) = (self.shown(), self.area);
-        let height = area.height / u16::try_from(shown.len().max(1)).unwrap_or(1);
+        let shown = self.shown();
+        let areas = Layout::vertical(vec![Constraint::Fill(1); shown.len()]).split(self.area);
+        let areas: Vec<_> = shown.into_iter().zip(areas.iter().map(|area| below(*area))).collect();
         let up = |graph: usize| self.scale.upright[graph];
-        let margins = shown
-            .iter()
-            .map(|&graph| label_margin(&Axis::default(), up(graph), height.saturating_sub(1)));
-        let margin = margins.max().unwrap_or(0).max(MARGIN);
-        let below = |at: usize| {
-            let y = area.y + height * at as u16;
-            let height = if at + 1 == shown.len() { area.bottom() - y } else { height };
-            Rect { y: y + 1, height: height.saturating_sub(1), ..area }
+        let margin = |(graph, area): &(usize, Rect)| {
+            label_margin(&Axis::default(), up(*graph), area.height)
         };
-        let plot = |(at, &graph): (usize, &usize)| {
-            (graph, below(at), Plot::new(below(at), margin, (self.window(), up(graph))))
+        let margin = areas.iter().map(margin).fold(MARGIN, u16::max);
+        let plot = |(graph, area): (usize, Rect)| {
+            (graph, area, Plot::new(area, margin, (self.window(), up(graph))))
         };
-        shown.iter().enumerate().map(plot).collect()
+        areas.into_iter().map(plot).collect()
     }
 
     /// The chart of the curves, with their looks.
     fn chart(&self, graph: &Graph, curves: &[Curve], width: u16) -> (Chart, Vec<SeriesLook>) {
         let own = self.answer.and_then(|answer| graph.column(answer.active));
-        let is_free = own.is_none()
-            && !curves.is_empty()
-            && self.answer.is_some_and(|answer| answer.active.shares_load());
-        let label = if is_free {
+        let shares_load = self.answer.is_some_and(|answer| answer.active.shares_load());
+        let label = if own.is_none() && shares_load && !curves.is_empty() {
             format!("Free impact: {}", graph.label.to_lowercase())
         } else {
             graph.label.to_owned()
@@ -331,15 +357,9 @@ impl Charts<'_> {
         let ends = Span::NONE.with(factor * window.from).with(factor * window.to);
         let labels = ends.ticks(width / LABEL_COLUMNS).into_iter();
         let labels = labels.map(|(value, label)| (value / factor, label)).collect();
-        let series = curves.iter().rev().map(|curve| curve.series(self));
-        let looks = curves.iter().rev().map(|curve| curves::look(self, curve.source));
-        let chart = Chart {
-            across: Axis { labels, ..across },
-            up: up.unwrap_or_default(),
-            series: series.collect(),
-            ..Chart::default()
-        };
-        (chart, looks.collect())
+        let (series, looks) = curves.iter().rev().map(|curve| curve.series(self)).unzip();
+        let across = Axis { labels, ..across };
+        (Chart { across, up: up.unwrap_or_default(), series, ..Chart::default() }, looks)
     }
 
     // The reason why the active method has no curve.
@@ -347,36 +367,31 @@ impl Charts<'_> {
         let Some(answer) = self.answer else {
             return Some("No results yet.".to_owned());
         };
-        let is_main = |curve: &Curve| {
-            matches!(curve.source, CurveSource::Active(_) | CurveSource::Model { .. })
-        };
-        if curves.iter().any(is_main) {
+        if curves.iter().any(Curve::is_main) {
             return None;
         }
-        if self.is_stale {
-            return Some("The charts are not redrawn while a field is invalid.".to_owned());
-        }
         let (label, active) = (graph.label.to_lowercase(), answer.active);
-        if graph.by_model.is_some() {
-            return Some(match &answer.stiffness {
-                Some(Err(refusal)) => format!("No {label}: {refusal}."),
-                Some(Ok(_)) => format!("No {label}: no model covers the pair."),
-                None => format!("Computing the {label}."),
-            });
-        }
-        if graph.column(active).is_none() {
-            let methods: Vec<_> = graph.methods().map(Method::name).collect();
-            let (name, methods) = (active.name(), methods.join(" and "));
-            return Some(format!("Method {name} does not compute the {label}; {methods} do."));
-        }
-        Some(match answer.of(active) {
-            None => "This method has no valid results.".to_owned(),
-            Some(solution) if solution.outcome == Outcome::NoCornerContact => {
+        Some(match (answer.of(active), &answer.stiffness) {
+            _ if self.is_stale => {
+                "The charts are not redrawn while a field is invalid.".to_owned()
+            }
+            (_, Some(Err(refusal))) if graph.by_model.is_some() => {
+                format!("No {label}: {refusal}.")
+            }
+            (_, Some(Ok(_))) if graph.by_model.is_some() => {
+                format!("No {label}: no model covers the pair.")
+            }
+            _ if graph.by_model.is_some() => format!("Computing the {label}."),
+            _ if graph.column(active).is_none() => {
+                let methods: Vec<_> = graph.methods().map(Method::name).collect();
+                let (name, methods) = (active.name(), methods.join(" and "));
+                format!("Method {name} does not compute the {label}; {methods} do.")
+            }
+            (None, _) => "This method has no valid results.".to_owned(),
+            (Some(solution), _) if solution.outcome == Outcome::NoCornerContact => {
                 format!("No corner contact: {}; no impact.", without_contact(solution))
             }
-            Some(_) => {
-                format!("No {label} between D and E; {} shows the reason.", self.notes_key)
-            }
+            _ => format!("No {label} between D and E; {}n shows the reason.", self.leave),
         })
     }
 }
@@ -384,33 +399,28 @@ impl Charts<'_> {
 /// Draws the title of the pane and the charts.
 pub(crate) fn draw(charts: &Charts, title: &Title, buffer: &mut Buffer) {
     let stale = if charts.is_stale { "LAST VALID, " } else { "" };
-    if let Some(chart) = charts.pane.worker_chart {
-        let running = if charts.work.is_running { "computing: " } else { "" };
-        let drawn = charts.work.drawn(chart);
-        let words = drawn.map_or_else(|| chart.words()[0].to_owned(), Chart::quantities);
-        let state = if stale.is_empty() { running } else { stale };
-        let inner = title.draw(&format!("{state}{words}"), charts.area, buffer);
-        match drawn {
-            Some(drawn) => draw_worker_chart(charts, chart, drawn, inner, buffer),
-            None => text::draw_words(&charts.work.missing(chart), inner, buffer),
-        }
-        return;
-    }
-    if charts.answer.is_none() {
-        title.draw("Chart", charts.area, buffer);
+    if let Some(of) = charts.pane.worker_chart() {
+        return draw_worker_chart(charts, of, (title, stale), buffer);
     }
     for (at, (graph, area, plot)) in charts.plots().into_iter().enumerate() {
         let graph = &GRAPHS[graph];
         let curves = curves(charts, graph);
         let (chart, looks) = charts.chart(graph, &curves, plot.cells.width);
-        if at == 0 && charts.answer.is_some() {
-            title.draw(&format!("{stale}{}", chart.quantities()), charts.area, buffer);
-        } else if at > 0 {
+        if at > 0 {
             let above = Rect { y: area.y - 1, height: 1, ..area };
             text::titled(&chart.quantities(), above, charts.look.theme, buffer);
+        } else if charts.answer.is_some() {
+            title.draw(&format!("{stale}{}", chart.quantities()), charts.area, buffer);
+        } else {
+            title.draw("Chart", charts.area, buffer);
         }
         draw_panel(charts, (graph, &curves), (&chart, looks), (area, plot), buffer);
     }
+}
+
+/// The area below a title.
+fn below(area: Rect) -> Rect {
+    Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
 }
 
 /// The width of the visible chart in columns, or of a default chart if none is visible.
@@ -425,7 +435,7 @@ pub(crate) fn angle_at(charts: &Charts, at: Position) -> Option<f64> {
     let plots = charts.plots();
     let (.., plot) = plots.iter().find(|(.., plot)| plot.cells.contains(at))?;
     let angle = 0.0 - plot.value(at.x).to_radians();
-    (charts.pane.worker_chart.is_none() && angle.is_finite()).then_some(angle)
+    (charts.pane.worker_chart().is_none() && angle.is_finite()).then_some(angle)
 }
 
 fn draw_panel(
@@ -437,25 +447,17 @@ fn draw_panel(
 ) {
     let theme = charts.look.theme;
     let missing = charts.missing(graph, curves);
-    let width = usize::from(area.width).saturating_sub(2);
-    let rows = missing.as_ref().map_or(0, |words| text::wrap(words, width).len() as u16);
-    if let Some(words) = &missing {
-        text::draw_words(words, area, buffer);
-    }
+    let lines = |words: &String| text::wrap(words, usize::from(area.width).saturating_sub(2)).len();
+    let rows = missing.as_ref().map_or(0, lines) as u16;
+    text::draw_words(missing.as_deref().unwrap_or_default(), area, buffer);
     if curves.is_empty() || charts.window().is_empty() {
         return;
     }
+    let margin = plot.cells.x.saturating_sub(area.x);
     let area = Rect { y: area.y + rows, height: area.height.saturating_sub(rows), ..area };
-    if Plot::new(area, MARGIN, (plot.across, plot.up)).cells.is_empty() {
-        if missing.is_none() {
-            text::draw_words("The pane is too small for a chart.", area, buffer);
-        }
-        return;
-    }
     let is_compared = graph.by_model.is_some();
     let words = vec![("time ->".to_owned(), Style::new())];
     let drawn = TerminalChart { chart, looks, words, is_compared, theme };
-    let margin = plot.cells.x - area.x;
     let plot = drawn.draw(area, (plot.across, plot.up), margin, buffer);
     if plot.cells.is_empty() {
         return;
@@ -474,7 +476,7 @@ fn marks(charts: &Charts) -> Vec<(f64, &'static str, Style)> {
     let (Some(answer), theme) = (charts.answer, charts.look.theme) else {
         return Vec::new();
     };
-    let own = answer.of(answer.active).map(|solution| {
+    let own = charts.solution().map(|solution| {
         let geometry = &solution.geometry;
         let end = (geometry.start - geometry.end) / geometry.driver.base;
         [
@@ -485,6 +487,7 @@ fn marks(charts: &Charts) -> Vec<(f64, &'static str, Style)> {
         ]
     });
     let others = answer.methods.iter().filter(|(method, _)| *method != answer.active);
+    let others = others.filter(|(method, _)| charts.shows_beside(*method));
     let others = others.filter_map(|(_, found)| found.as_ref().ok());
     let others = others.map(|solution| (first_contact(solution), "d", theme.other));
     let all = own.into_iter().flatten().chain(others);
@@ -494,11 +497,19 @@ fn marks(charts: &Charts) -> Vec<(f64, &'static str, Style)> {
 fn draw_worker_chart(
     charts: &Charts,
     of: WorkerChart,
-    chart: &Chart,
-    area: Rect,
+    (title, stale): (&Title, &str),
     buffer: &mut Buffer,
 ) {
     const SIGNS: [char; 4] = ['*', '+', '×', '∘'];
+    let drawn = charts.own_chart();
+    let words = drawn.map_or_else(|| of.words()[0].to_owned(), Chart::quantities);
+    let running = charts.work.is_running && stale.is_empty();
+    let state = if running { "computing: " } else { stale };
+    let inner = title.draw(&format!("{state}{words}"), charts.area, buffer);
+    let Some(chart) = drawn else {
+        text::draw_words(&charts.work.missing(of), inner, buffer);
+        return;
+    };
     let theme = charts.look.theme;
     let look = |(at, kind): (usize, Kind)| {
         let style = if at == 0 { theme.active } else { theme.other };
@@ -512,5 +523,8 @@ fn draw_worker_chart(
     let looks = chart.series.iter().map(|series| series.kind).enumerate().map(look).collect();
     let is_compared = matches!(of, WorkerChart::ToothCompliance(_));
     let drawn = TerminalChart { chart, looks, words: Vec::new(), is_compared, theme };
-    drawn.draw(area, chart.spans(), 0, buffer);
+    let plot = drawn.draw(inner, chart.spans(), 0, buffer);
+    if let Some(place) = charts.pane.place.filter(|_| !plot.cells.is_empty()) {
+        plot.draw_cursor(place, theme, buffer);
+    }
 }

@@ -3,6 +3,8 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::style::{Modifier, Style};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::Title;
@@ -16,11 +18,10 @@ use crate::tui::line::Line as Text;
 use crate::tui::theme::Look;
 use crate::tui::{rows, text};
 
-const MARK: u16 = 2;
+/// Widths of the marks and of a symbol, and the usual width of a label.
+const MARKS: u16 = 2;
 const SYMBOL: u16 = 6;
-/// The greatest width of a label, and the least width of a label beside a symbol.
 const LABEL: u16 = 20;
-const LEAST_LABEL: u16 = 6;
 /// The least width of a value.
 const VALUE: u16 = 11;
 
@@ -93,15 +94,16 @@ impl Form<'_> {
     /// The lines below the title.
     fn rows(&self) -> Vec<Row> {
         let groups = rows::groups(self.case);
-        let mut lines = Vec::new();
-        for index in 0..rows::count(self.case) {
-            if groups.contains(&index) {
-                lines.push(Row::Group(index));
-            }
-            lines.push(Row::Line(index));
-            lines.extend(reasons(self, index));
-        }
-        lines
+        let row = |index: usize| {
+            let group = groups.contains(&index).then_some(Row::Group(index));
+            group.into_iter().chain([Row::Line(index)]).chain(reasons(self, index))
+        };
+        (0..rows::count(self.case)).flat_map(row).collect()
+    }
+
+    /// The number of lines that fit below the title.
+    fn height(&self) -> usize {
+        usize::from(self.area.height.saturating_sub(1)).max(1)
     }
 }
 
@@ -143,8 +145,7 @@ pub(crate) fn top_for(pane: &Form<'_>) -> usize {
     if pane.area.is_empty() {
         return pane.state.top;
     }
-    let height = usize::from(pane.area.height.saturating_sub(1)).max(1);
-    let rows = pane.rows();
+    let (height, rows) = (pane.height(), pane.rows());
     let focused = rows.iter().position(|row| *row == Row::Line(pane.state.focus)).unwrap_or(0);
     let reasons =
         rows[focused + 1..].iter().take_while(|row| matches!(row, Row::Reason(_))).count();
@@ -159,17 +160,15 @@ pub(crate) fn top_for(pane: &Form<'_>) -> usize {
 /// The field at a cell, if any.
 pub(crate) fn field_at(pane: &Form<'_>, at: Position) -> Option<usize> {
     let line = usize::from(at.y.checked_sub(pane.area.y + 1)?);
-    match pane.rows().get(pane.state.top + line)? {
-        Row::Line(index) => Some(*index),
-        Row::Group(_) | Row::Reason(_) => None,
-    }
+    let rows = pane.rows();
+    if let Row::Line(index) = rows.get(pane.state.top + line)? { Some(*index) } else { None }
 }
 
 /// The first visible line after scrolling by lines downwards.
 #[must_use]
 pub(crate) fn scrolled(pane: &Form<'_>, by: isize) -> usize {
-    let height = usize::from(pane.area.height.saturating_sub(1));
-    pane.state.top.saturating_add_signed(by).min(pane.rows().len().saturating_sub(height))
+    let last = pane.rows().len().saturating_sub(pane.height());
+    pane.state.top.saturating_add_signed(by).min(last)
 }
 
 // The title of a group; for a gear with its material, if known.
@@ -199,8 +198,9 @@ fn reasons(pane: &Form<'_>, row: usize) -> Vec<Row> {
     .collect()
 }
 
+// Draws a text; the last column separates it from the next text.
 fn put(text: &str, area: Rect, style: Style, buffer: &mut Buffer) {
-    let width = usize::from(area.width);
+    let width = usize::from(area.width).saturating_sub(1);
     buffer.set_stringn(area.x, area.y, text::cut(text, width), width, style);
 }
 
@@ -208,70 +208,68 @@ fn put(text: &str, area: Rect, style: Style, buffer: &mut Buffer) {
 // long value that is not edited.
 fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> Option<Position> {
     let theme = pane.look.theme;
-    let row = rows::row(pane.case, index);
-    let kind = rows::field(pane.case, index).map(|field| field.kind);
-    let is_idle = kind.is_some() && matches!(relevance(index, pane.inputs), Acting::No(_));
+    let field = rows::field(pane.case, index);
+    let kind = field.map(|field| field.kind);
+    let is_idle = field.is_some() && matches!(relevance(index, pane.inputs), Acting::No(_));
     let (mark, of_mark, style) = match (pane.state.focus == index, is_idle) {
         (true, _) => ("▸", theme.focus, theme.focus),
         // The reason below the row has a mark of its own.
         (false, _) if pane.is_faulty(index) => ("!", theme.problem, Style::new()),
         (false, true) => ("-", theme.faint, theme.faint),
-        (false, false) => ("", Style::new(), Style::new()),
+        (false, false) => (" ", Style::new(), Style::new()),
     };
     let written = rows::text(pane.case, index);
-    let (value, verdict) = match row {
+    let (default, verdict) = match rows::row(pane.case, index) {
         rows::Row::Field(field) => (rows::unwritten(pane.case, pane.inputs, field), None),
         rows::Row::Limit(limit) => ("(no limit)".to_owned(), verdict_on(pane, limit)),
     };
-    let value = written.map_or(value, |text| ascii::printable(text).into_owned());
+    let value = written.map_or(default, |text| ascii::printable(text).into_owned());
     let (verdict, of_verdict) = verdict.unwrap_or_default();
-    let (symbol, label) = (rows::symbol(pane.case, index), rows::label(pane.case, index));
+    let label = rows::label(pane.case, index);
     let [symbol, label] = match kind {
         // A text has no symbol; its value needs the room.
         Some(Kind::Text) => [label, ""],
-        _ => [&ascii::symbol(symbol, pane.look.ascii), label],
+        _ => [&ascii::symbol(rows::symbol(pane.case, index), pane.look.ascii), label],
     };
-    let is_edited = pane.is_edited(index);
-    let is_typed = is_edited && written.is_some() && !matches!(kind, Some(Kind::Choice(..)));
-    let needed = if is_typed { VALUE } else { VALUE.max(value.width() as u16) };
-    let symbol_width = SYMBOL.max(symbol.width() as u16 + 1);
-    let room = line.width.saturating_sub(MARK + symbol_width + 1 + needed + verdict.width() as u16);
-    let label_width = match (label.width() as u16, row) {
-        (0, _) => 0,
-        (full, _) if symbol.is_empty() => LABEL.min(room.max(full)) + 1,
-        (full, rows::Row::Limit(_)) => LABEL.max(full).min(room.max(LEAST_LABEL)) + 1,
-        (full, rows::Row::Field(_)) => LABEL.min(room.max(LEAST_LABEL.min(full))) + 1,
+    let (is_edited, is_choice) = (pane.is_edited(index), matches!(kind, Some(Kind::Choice(..))));
+    let is_typed = is_edited && written.is_some() && !is_choice;
+    let width = |text: &str| text.width() as u16 + 1;
+    let of_label = match field {
+        _ if label.is_empty() => 0,
+        Some(_) => width(label).max(LABEL + 1),
+        None => width(label),
     };
-    let widths = [1, 1, symbol_width, label_width].map(Constraint::Length);
-    let ends = [Constraint::Fill(1), Constraint::Length(verdict.width() as u16)];
-    let areas = Layout::horizontal(widths.into_iter().chain(ends)).split(line);
-    put(mark, areas[0], of_mark, buffer);
-    if rows::differs(pane.case, pane.saved, index) {
-        put("*", areas[1], theme.note, buffer);
-    }
-    put(symbol, shortened(areas[2]), style, buffer);
-    put(label, shortened(areas[3]), style, buffer);
-    put(&verdict, areas[5], of_verdict, buffer);
-    let area = if verdict.is_empty() { areas[4] } else { shortened(areas[4]) };
+    let (of_symbol, end) = (SYMBOL.max(width(symbol)), verdict.width() as u16);
+    let of_value = if is_typed { VALUE } else { VALUE.max(width(&value)) };
+    let of_value = of_value.min(line.width.saturating_sub(MARKS + of_symbol + end));
+    let [marks, of_symbol, of_label, area, end] = Layout::horizontal([
+        Constraint::Length(MARKS),
+        Constraint::Length(of_symbol),
+        Constraint::Max(of_label),
+        Constraint::Min(of_value),
+        Constraint::Length(end),
+    ])
+    .areas(line);
+    let unsaved = if rows::differs(pane.case, pane.saved, index) { "*" } else { "" };
+    let spans = vec![Span::styled(mark, of_mark), Span::styled(unsaved, theme.note)];
+    Line::from(spans).render(marks, buffer);
+    Line::styled(verdict, of_verdict).render(end, buffer);
+    put(symbol, of_symbol, style, buffer);
+    put(label, of_label, style, buffer);
     if is_typed {
-        let cursor =
-            text::edited(&pane.state.input, area, style.add_modifier(Modifier::UNDERLINED), buffer);
-        let typed = pane.state.input.value().width();
-        text::ending(pane.ending.as_deref(), typed, area, theme, buffer);
+        let (input, style) = (&pane.state.input, style.add_modifier(Modifier::UNDERLINED));
+        let cursor = text::edited(input, area, style, buffer);
+        text::ending(pane.ending.as_deref(), input.value().width(), area, theme, buffer);
         return cursor;
     }
-    if is_edited && matches!(kind, Some(Kind::Choice(..))) {
-        put(&format!("‹ {value} ›"), area, style, buffer);
-        return None;
-    }
     let is_default = written.is_none() && !rows::lacks(pane.case, index);
-    put(&value, area, if is_default { theme.faint } else { style }, buffer);
-    is_edited.then_some(area.as_position())
-}
-
-// The last column separates two texts.
-fn shortened(area: Rect) -> Rect {
-    Rect { width: area.width.saturating_sub(1), ..area }
+    let (value, style) = match (is_edited && is_choice, is_default) {
+        (true, _) => (format!("‹ {value} ›"), style),
+        (false, true) => (value, theme.faint),
+        (false, false) => (value, style),
+    };
+    put(&value, area, style, buffer);
+    (is_edited && !is_choice).then_some(area.as_position())
 }
 
 // The verdict of the present result, with its style. The sign (!) marks a free impact within the

@@ -3,13 +3,13 @@
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Modifier, Style};
+use ratatui::style::{Color, Style};
 use ratatui::symbols::Marker;
 use ratatui::widgets::canvas::{Canvas, Line, Points};
 use ratatui::widgets::{Block, Borders, Widget};
 use unicode_width::UnicodeWidthStr;
 
-use crate::report::chart::{Axis, Chart, Kind, Point, Series, Span};
+use crate::report::chart::{Axis, Chart, Kind, Labels, Point, Series, Span};
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
@@ -19,8 +19,6 @@ pub(crate) const LABEL_COLUMNS: u16 = 9;
 const LABEL_ROWS: u16 = 2;
 /// The smallest plot.
 const LEAST: (u16, u16) = (12, 2);
-/// Colour that marks the cells of a curve until they get its style.
-const OWN: Color = Color::Indexed(1);
 
 /// The marker and the style of a series.
 pub(crate) type Look = (Marker, Style);
@@ -58,8 +56,8 @@ impl TerminalChart<'_> {
         margin: u16,
         buffer: &mut Buffer,
     ) -> Plot {
-        let series = self.chart.series.iter().zip(&self.looks);
-        let names = series.map(|(series, look)| {
+        let Chart { across, up, series, marks, .. } = self.chart;
+        let names = series.iter().zip(&self.looks).map(|(series, look)| {
             let missing = if series.pieces.is_empty() { " (no value)" } else { "" };
             let name = series.name.split(',').next().unwrap_or_default();
             (format!("{} {name}{missing}", sample(look.0)), look.1)
@@ -68,16 +66,16 @@ impl TerminalChart<'_> {
         let most = area.height.saturating_sub(2 + LEAST.1);
         let rows = draw_legend(&words, Rect { height: most, ..area }, buffer);
         let area = Rect { y: area.y + rows, height: area.height - rows, ..area };
-        let unit = unit_of(&self.chart.across).width() as u16 + 1;
-        let margin = margin.max(label_margin(&self.chart.up, spans.1, area.height)).max(unit);
+        let unit = unit_of(across).width() as u16 + 1;
+        let margin = margin.max(label_margin(up, spans.1, area.height)).max(unit);
         let plot = Plot::new(area, margin, spans);
         if !plot.cells.is_empty() {
-            plot.draw_axes(&self.chart.across, &self.chart.up, self.theme, buffer);
+            plot.draw_axes(across, up, self.theme, buffer);
             self.draw_series(&plot, buffer);
             if spans.1.from < 0.0 && spans.1.to > 0.0 {
                 plot.draw_level(0.0, "┄", self.theme.faint, buffer);
             }
-            for (x, name) in &self.chart.marks {
+            for (x, name) in marks {
                 plot.draw_upright(*x, "┊", self.theme.faint, buffer);
                 plot.draw_mark(*x, name, self.theme.focus, buffer);
             }
@@ -85,25 +83,30 @@ impl TerminalChart<'_> {
         plot
     }
 
-    // Bars, then curves, then points; the first series is on top.
+    /// Bars, then curves, then points; the first series is on top. Compared curves alternate in the
+    /// columns of cells that several of them cross, so that each is visible without colour.
     fn draw_series(&self, plot: &Plot, buffer: &mut Buffer) {
-        let all = self.chart.series.len();
-        let series = || self.chart.series.iter().zip(&self.looks).enumerate().rev();
-        for (at, (series, look)) in series().filter(|(_, (series, _))| series.kind == Kind::Bars) {
-            plot.draw_bars(series, Series::bar(at, all), *look, buffer);
+        let all = || self.chart.series.iter().zip(&self.looks).enumerate().rev();
+        for (at, (series, look)) in all().filter(|(_, (series, _))| series.kind == Kind::Bars) {
+            let (width, from) = Series::bar(at, self.chart.series.len());
+            plot.draw_bars(series, (width, from), *look, buffer);
         }
-        let curves =
-            series().filter(|(_, (series, _))| !matches!(series.kind, Kind::Bars | Kind::Marks(_)));
-        let curves = curves.map(|(_, (series, look))| (&series.pieces[..], *look));
-        if self.is_compared {
-            plot.draw_compared(&curves.collect::<Vec<_>>(), buffer);
-        } else {
-            curves.for_each(|(pieces, look)| plot.draw_pieces(pieces, look, buffer));
+        let is_curve = |kind| matches!(kind, Kind::Curve | Kind::Bound);
+        let curves = all().filter(|(_, (series, _))| is_curve(series.kind));
+        let layers: Vec<Buffer> =
+            curves.map(|(_, (series, look))| plot.layer(&series.pieces, *look)).collect();
+        for position in plot.cells.positions() {
+            let drawn = layers.iter().filter_map(|layer| layer.cell(position));
+            let drawn: Vec<&Cell> = drawn.filter(|cell| cell.symbol() != " ").collect();
+            let turn = if self.is_compared { position.x.into() } else { drawn.len().max(1) - 1 };
+            if let Some(own) = drawn.get(turn % drawn.len().max(1)) {
+                buffer[position] = (*own).clone();
+            }
         }
-        for (_, (series, look)) in series() {
+        for (_, (series, look)) in all() {
             if matches!(series.kind, Kind::Marks(_)) {
-                for &(x, y) in series.pieces.iter().flatten() {
-                    plot.draw_point((x, y), &sample(look.0), look.1, buffer);
+                for &point in series.pieces.iter().flatten() {
+                    plot.draw_point(point, &sample(look.0), look.1, buffer);
                 }
             }
         }
@@ -151,19 +154,18 @@ impl Plot {
         let (cells, rule) = (self.cells, theme.rule);
         let (left, bottom) = (cells.x - 1, cells.bottom());
         let frame = Rect { x: left, width: cells.width + 1, height: cells.height + 1, ..cells };
-        Block::new()
-            .borders(Borders::LEFT | Borders::BOTTOM)
-            .border_style(rule)
-            .render(frame, buffer);
-        let mut labels = beside(up, self.up, cells.height);
-        // Where labels would share a row, those far from 0 are left out: the others stay evenly apart.
-        while labels.windows(2).any(|pair| self.row(pair[0].0) == self.row(pair[1].0)) {
-            let is_first_farther = labels.first().map(|label| label.0.abs())
-                > labels.last().map(|label| label.0.abs());
-            labels.remove(if is_first_farther { 0 } else { labels.len() - 1 });
-        }
-        for (value, label) in labels {
-            let (y, room) = (self.row(value), label.width() as u16 + 1);
+        let lines = Block::new().borders(Borders::LEFT | Borders::BOTTOM).border_style(rule);
+        lines.render(frame, buffer);
+        // In a low plot only every second label, or fewer, has a row.
+        let labels = beside(up, self.up, cells.height);
+        let rows = |step: &usize| {
+            let mut rows = labels.iter().step_by(*step).map(|label| self.row(label.0));
+            let first = rows.next();
+            rows.try_fold(first, |last, row| (last != Some(row)).then_some(Some(row))).is_some()
+        };
+        let step = (1..=labels.len()).find(rows).unwrap_or(1);
+        for (value, label) in labels.iter().step_by(step) {
+            let (y, room) = (self.row(*value), label.width() as u16 + 1);
             buffer.set_string(left.saturating_sub(room), y, label, Style::new());
             buffer.set_string(left, y, "┤", rule);
         }
@@ -177,9 +179,8 @@ impl Plot {
         let mut free = cells.x;
         for (column, label) in labels {
             let width = label.width() as u16;
-            let centred = column.saturating_sub(width / 2);
-            let start =
-                centred.min((cells.right() + 1).saturating_sub(width)).max(free.min(column));
+            let last = (cells.right() + 1).saturating_sub(width);
+            let start = column.saturating_sub(width / 2).min(last).max(free.min(column));
             if start >= free {
                 buffer.set_string(column, bottom, "┴", rule);
                 buffer.set_string(start, bottom + 1, &label, Style::new());
@@ -209,18 +210,16 @@ impl Plot {
 
     /// Draws a vertical line on blank cells.
     pub(crate) fn draw_upright(&self, x: f64, symbol: &str, style: Style, buffer: &mut Buffer) {
-        let Some(column) = self.column(x) else { return };
-        for y in self.cells.top()..self.cells.bottom() {
-            put_where_free((column, y), symbol, style, buffer);
+        if let Some(x) = self.column(x) {
+            fill_blank(Rect { x, width: 1, ..self.cells }, symbol, style, buffer);
         }
     }
 
     /// Draws a horizontal line on blank cells.
     pub(crate) fn draw_level(&self, y: f64, symbol: &str, style: Style, buffer: &mut Buffer) {
         if (0.0..=1.0).contains(&self.up.part(y)) {
-            for x in self.cells.left()..self.cells.right() {
-                put_where_free((x, self.row(y)), symbol, style, buffer);
-            }
+            let row = Rect { y: self.row(y), height: 1, ..self.cells };
+            fill_blank(row, symbol, style, buffer);
         }
     }
 
@@ -243,64 +242,46 @@ impl Plot {
         for (x, y) in series.pieces.iter().flatten() {
             let ends = [x + from, x + from + width].map(|x| self.column(x));
             let ([Some(left), Some(right)], top) = (ends, self.row(*y)) else { continue };
-            let columns = left..right.max(left + 1);
-            let rows = (top..=bottom).filter(|_| top < bottom);
-            for row in rows {
-                let bar = sample(look.0).repeat(columns.len());
-                buffer.set_string(left, row, bar, look.1);
+            let bar = sample(look.0).repeat(usize::from((right - left).max(1)));
+            for row in (top..=bottom).filter(|_| top < bottom) {
+                buffer.set_string(left, row, &bar, look.1);
             }
         }
     }
 
-    // The columns of cells that several curves cross alternate between these curves, so that each
-    // of them is visible without colour.
-    fn draw_compared(&self, curves: &[(&[Vec<Point>], Look)], buffer: &mut Buffer) {
-        let layer = |(pieces, look): &(&[Vec<Point>], Look)| {
-            let mut layer = Buffer::empty(self.cells);
-            self.draw_pieces(pieces, *look, &mut layer);
-            layer
-        };
-        let layers: Vec<Buffer> = curves.iter().map(layer).collect();
-        for position in self.cells.positions() {
-            let drawn = layers.iter().filter_map(|layer| layer.cell(position));
-            let drawn: Vec<&Cell> = drawn.filter(|cell| cell.symbol() != " ").collect();
-            let turn = usize::from(position.x) % drawn.len().max(1);
-            if let (Some(own), Some(cell)) = (drawn.get(turn), buffer.cell_mut(position)) {
-                *cell = (*own).clone();
-            }
-        }
-    }
-
-    /// Draws the pieces of a curve; a piece with one point is a dot. A sign is in the cells that a
-    /// Braille curve crosses, so that a curve covers those that coincide with it.
-    pub(crate) fn draw_pieces(
-        &self,
-        pieces: &[Vec<Point>],
-        (marker, style): Look,
-        buffer: &mut Buffer,
-    ) {
-        let sign = if let Marker::Custom(sign) = marker { Some(sign) } else { None };
+    /// The pieces of a curve in cells of their own; a piece with one point is a dot. A sign is in
+    /// the cells that a Braille curve crosses, so that a curve covers those that coincide with it.
+    fn layer(&self, pieces: &[Vec<Point>], (marker, style): Look) -> Buffer {
+        let mut layer = Buffer::empty(self.cells);
+        let is_sign = matches!(marker, Marker::Custom(_));
         let canvas = Canvas::default()
-            .marker(if sign.is_some() { Marker::Braille } else { marker })
+            .marker(if is_sign { Marker::Braille } else { marker })
             .x_bounds(widened(self.across))
             .y_bounds(widened(self.up))
             .paint(|context| {
                 for piece in pieces {
-                    context.draw(&Points {
-                        coords: if piece.len() == 1 { piece } else { &[] },
-                        color: OWN,
-                    });
+                    if let [point] = piece[..] {
+                        context.draw(&Points { coords: &[point], color: Color::White });
+                    }
                     for ends in piece.windows(2) {
-                        context.draw(&Line::new(ends[0].0, ends[0].1, ends[1].0, ends[1].1, OWN));
+                        let [(x1, y1), (x2, y2)] = [ends[0], ends[1]];
+                        context.draw(&Line::new(x1, y1, x2, y2, Color::White));
                     }
                 }
             });
-        canvas.render(self.cells, buffer);
-        for position in self.cells.positions() {
-            if let Some(cell) = buffer.cell_mut(position) {
-                finish(cell, sign, style);
-            }
+        canvas.render(self.cells, &mut layer);
+        for cell in layer.content.iter_mut().filter(|cell| cell.symbol() != " ") {
+            // A half block has two colours, for its upper and its lower half.
+            let is_full = cell.bg == Color::White;
+            let symbol = match marker {
+                Marker::Custom(_) => sample(marker),
+                _ if is_full => "█".to_owned(),
+                _ => cell.symbol().to_owned(),
+            };
+            *cell = Cell::default();
+            cell.set_symbol(&symbol).set_style(style);
         }
+        layer
     }
 }
 
@@ -315,7 +296,7 @@ pub(crate) fn label_margin(up: &Axis, span: Span, height: u16) -> u16 {
     labels.map(|(_, label)| label.width() as u16).max().unwrap_or(0) + 2
 }
 
-fn beside(up: &Axis, span: Span, height: u16) -> Vec<(f64, String)> {
+fn beside(up: &Axis, span: Span, height: u16) -> Labels {
     up.ticks(span, height.saturating_sub(1) / LABEL_ROWS)
 }
 
@@ -366,25 +347,12 @@ fn widened(span: Span) -> [f64; 2] {
     bounds(span.from - rounding, span.to + rounding)
 }
 
-fn put_where_free(at: (u16, u16), symbol: &str, style: Style, buffer: &mut Buffer) {
-    if buffer.cell(at).is_some_and(|cell| cell.symbol() == " ") {
-        buffer.set_string(at.0, at.1, symbol, style);
+fn fill_blank(area: Rect, symbol: &str, style: Style, buffer: &mut Buffer) {
+    for position in area.positions() {
+        if let Some(cell) = buffer.cell_mut(position).filter(|cell| cell.symbol() == " ") {
+            cell.set_symbol(symbol).set_style(style);
+        }
     }
-}
-
-// A half block has two colours, for its upper and its lower half.
-fn finish(cell: &mut Cell, sign: Option<char>, style: Style) {
-    if cell.fg != OWN && cell.bg != OWN {
-        return;
-    }
-    match sign {
-        Some(sign) => _ = cell.set_char(sign),
-        None if cell.bg == OWN => _ = cell.set_symbol("█"),
-        None => (),
-    }
-    (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
-    cell.modifier = Modifier::empty();
-    cell.set_style(style);
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
-//! The results pane: the outcome, figures and notes as sentences above the table of quantities.
+//! The results pane: faults, verdict, limits, figures and notes as sentences above the table of
+//! quantities.
 
-mod sentences;
 mod table;
+
+use std::collections::BTreeSet;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
@@ -12,19 +14,25 @@ use ratatui::widgets::{StatefulWidget, TableState, Widget};
 use super::Title;
 use crate::case::units::System;
 use crate::case::{Case, Problem};
-use crate::model::{Quantity, Refusal};
+use crate::model::inputs::Method;
+use crate::model::{Quantity, Refusal, Solution, Stage};
+use crate::report::digest;
+use crate::report::verdict::{Verdict, verdicts};
+use crate::tui::ascii::symbol;
+use crate::tui::keys::NEXT_FAULT;
+use crate::tui::rows;
 use crate::tui::solver::{Answer, Baseline, Values, Variants};
 use crate::tui::text;
 use crate::tui::theme::Look;
 
-pub(crate) use sentences::in_full;
 pub(crate) use table::{compared, label};
 
-/// Figures and notes get at most this part of the lines beside the outcome.
-const SENTENCES: usize = 2;
-/// Least number of visible quantities, below the outcome and below a fault.
+/// Number of quantities that stay visible below the sentences, and below a long verdict or fault.
+const USUAL_ROWS: usize = 12;
 const LEAST_ROWS: usize = 4;
-const LEAST_BELOW_FAULT: usize = 2;
+/// The notes that a method prints for nearly every case; only the page has them.
+const USUAL_NOTES: [&str; 3] =
+    ["deflection-given", "deflection-ignored", "impact-outlasts-approach"];
 
 /// The state of the pane, separate for each open case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -56,10 +64,12 @@ pub struct Results<'a> {
     pub(crate) problems: &'a [(usize, Problem)],
     /// The case in the form.
     pub(crate) case: &'a Case,
+    /// Whether the free impact and the other methods are shown beside the method of the case.
+    pub(crate) shows_every_method: bool,
     /// Whether the title shows the cost of the solve.
     pub(crate) shows_cost: bool,
-    /// The key that shows the outcome and every note in full.
-    pub(crate) notes_key: &'static str,
+    /// The prefix of a letter key: a field takes letters as text.
+    pub(crate) leave: &'static str,
     pub(crate) units: System,
     pub(crate) look: Look,
     pub(crate) title: Title,
@@ -71,7 +81,7 @@ impl Results<'_> {
     /// The quantities in their order.
     #[must_use]
     pub fn listed(&self) -> Vec<&'static Quantity> {
-        self.answer.map_or_else(Vec::new, table::order)
+        self.answer.map_or_else(Vec::new, |answer| table::order(self, answer))
     }
 
     /// The selected line among the quantities.
@@ -164,48 +174,177 @@ pub(crate) fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
     StatefulWidget::render(table::table(pane, answer), body, buffer, &mut state);
 }
 
-/// The lines above the table, and the number of quantities that fit below them: the fault, or the
-/// outcome, in full, then as many sentences as fit into their part, and the number of the others.
+/// A sentence above the table.
+struct Sentence {
+    text: String,
+    style: Style,
+    place: Place,
+}
+
+/// Where a sentence is shown besides the page of notes.
+#[derive(PartialEq, Eq)]
+enum Place {
+    /// Always.
+    Pane,
+    /// If there is room.
+    Room,
+    /// Nowhere else.
+    Page,
+}
+
+/// The lines above the table, and the number of quantities that fit below them.
 fn parts(pane: &Results<'_>) -> (Vec<Line<'static>>, usize) {
     let width = usize::from(pane.area.width.saturating_sub(1));
     let height = usize::from(pane.area.height.saturating_sub(1));
-    let wrapped = |(text, style): (String, Style)| -> Vec<Line<'static>> {
-        text::wrap(&text, width).into_iter().map(|line| Line::styled(line, style)).collect()
-    };
-    let (first, others) = sentences::of(pane);
-    let mut head: Vec<_> = first.into_iter().flat_map(wrapped).collect();
-    let others: Vec<_> = others.into_iter().map(wrapped).collect();
-    let has_fault = pane.refusal.is_some() || !pane.problems.is_empty();
-    let most = match pane.answer {
-        None => height,
-        Some(_) if has_fault => height.saturating_sub(LEAST_BELOW_FAULT + 2),
-        Some(_) => height.saturating_sub(LEAST_ROWS + 2),
-    };
+    let (mut head, mut hidden) = (Vec::new(), 0);
+    let kept = |rows: usize| height.saturating_sub(rows + 1);
+    let most = if pane.answer.is_some() { kept(LEAST_ROWS) } else { height };
+    for Sentence { text, style, place } in sentences(pane) {
+        let lines = text::wrap(&text, width).into_iter().map(|line| Line::styled(line, style));
+        // The last line counts the hidden sentences.
+        let room = kept(USUAL_ROWS).saturating_sub(head.len() + 1);
+        match place {
+            Place::Pane => head.extend(lines),
+            Place::Room if hidden == 0 && lines.len() <= room => head.extend(lines),
+            Place::Room | Place::Page => hidden += 1,
+        }
+    }
     if head.len() > most {
         head.truncate(most);
         head.iter_mut().last().into_iter().for_each(|line| line.push_span("…"));
     }
-    let mut room = height.saturating_sub(head.len() + 1) / SENTENCES;
-    let all: usize = others.iter().map(Vec::len).sum();
-    if all > room {
-        // The last line counts the hidden sentences.
-        room = room.saturating_sub(1);
+    let notes = match hidden {
+        0 => None,
+        1 => Some(format!("1 more note ({}n)", pane.leave)),
+        _ => Some(format!("{hidden} more notes ({}n)", pane.leave)),
+    };
+    let folded = pane.answer.and_then(|answer| folded(pane, answer));
+    let last: Vec<String> = notes.into_iter().chain(folded).collect();
+    if !last.is_empty() {
+        let last = text::cut(&last.join("; "), width);
+        head.push(Line::styled(last, pane.look.theme.note));
     }
-    let mut hidden = others.len();
-    for lines in others {
-        if lines.len() > room {
-            break;
-        }
-        (room, hidden) = (room - lines.len(), hidden - 1);
-        head.extend(lines);
-    }
-    if hidden > 0 {
-        let noun = if hidden == 1 { "note" } else { "notes" };
-        let words = format!("{hidden} more {noun} ({})", pane.notes_key);
-        head.push(Line::styled(words, pane.look.theme.note));
-    }
-    let rows = if pane.answer.is_some() { height.saturating_sub(head.len() + 1) } else { 0 };
+    let rows = if pane.answer.is_some() { kept(head.len()) } else { 0 };
     (head, rows)
+}
+
+/// The folded rows and columns, with the key that shows them.
+fn folded(pane: &Results<'_>, answer: &Answer) -> Option<String> {
+    let name = if answer.active.shares_load() { "free impact" } else { "other methods" };
+    let is_folded = !pane.shows_every_method && pane.variants.is_none();
+    is_folded.then(|| format!("{name} ({}f)", pane.leave))
+}
+
+/// Every sentence in full, one per line: the page of notes.
+#[must_use]
+pub(crate) fn in_full(pane: &Results<'_>) -> Vec<String> {
+    sentences(pane).into_iter().flat_map(|sentence| [sentence.text, String::new()]).collect()
+}
+
+/// Faults, limits that are not met, verdict, figures, limits that are met, and notes, the most
+/// important first.
+fn sentences(pane: &Results<'_>) -> Vec<Sentence> {
+    let theme = pane.look.theme;
+    let mut all = Vec::new();
+    let mut add = |text: String, style: Style, place: Place| {
+        let text = symbol(&text, pane.look.ascii).into_owned();
+        all.push(Sentence { text, style, place });
+    };
+    let faults = faults(pane);
+    let has_fault = !faults.is_empty();
+    for (fault, style) in faults.into_iter().zip([theme.problem, Style::new()]) {
+        add(fault, style, Place::Pane);
+    }
+    let Some(answer) = pane.answer else { return all };
+    let fresh = |style: Style| if pane.is_stale { theme.faint } else { style };
+    if let Some(solution) = answer.of(answer.active) {
+        let verdicts = if pane.is_stale { Vec::new() } else { verdicts(pane.case, solution) };
+        let written = verdicts.iter().filter(|verdict| !verdict.limit.text.is_empty());
+        let (met, unmet): (Vec<_>, Vec<_>) = written.partition(|verdict| is_met(verdict));
+        let limit = |verdict: &Verdict<'_>| {
+            format!("Limit {}: {}.", verdict.standing.word(), verdict.sentence(pane.units))
+        };
+        for verdict in unmet {
+            add(format!("! {}", limit(verdict)), theme.problem, Place::Pane);
+        }
+        let place = if has_fault { Place::Room } else { Place::Pane };
+        let age = if pane.shows_last_valid() { "LAST VALID: " } else { "" };
+        let verdict = digest::sentence(solution, pane.units);
+        add(format!("{age}{verdict}"), fresh(theme.focus), place);
+        let figures = [
+            relief(pane, answer, solution),
+            differing(answer, solution),
+            digest::whine(solution),
+        ];
+        for figure in figures.into_iter().flatten() {
+            add(format!("{figure}."), fresh(Style::new()), Place::Room);
+        }
+        for verdict in met {
+            add(limit(verdict), fresh(Style::new()), Place::Room);
+        }
+        if pane.case.limits.is_empty() {
+            add("No limits.".to_owned(), Style::new(), Place::Page);
+        }
+    }
+    for note in &answer.notes {
+        let is_usual = USUAL_NOTES.contains(&note.code);
+        let place = if is_usual { Place::Page } else { Place::Room };
+        add(format!("Note: {}.", note.message), fresh(theme.note), place);
+    }
+    for (name, found) in pane.variants.into_iter().flat_map(|(variants, _)| &variants.columns) {
+        if let Err(reason) = found {
+            let text = format!("Note: variant {name} is refused: {reason}.");
+            add(text, fresh(theme.note), Place::Room);
+        }
+    }
+    all
+}
+
+/// Why the results belong to an earlier state of the form: the cause, then the fix.
+fn faults(pane: &Results<'_>) -> Vec<String> {
+    let key = NEXT_FAULT;
+    if let Some(refusal) = pane.refusal {
+        return vec![
+            format!("! Not solved: {refusal}."),
+            format!("Correction: {} ({key}).", refusal.fix()),
+        ];
+    }
+    let rows: BTreeSet<usize> = pane.problems.iter().map(|(row, _)| *row).collect();
+    let Some((row, problem)) = pane.problems.iter().min_by_key(|(row, _)| *row) else {
+        return Vec::new();
+    };
+    if rows.len() > 1 && rows.iter().all(|&row| rows::lacks(pane.case, row)) {
+        return vec![format!("! {} required values are missing ({key})", rows.len())];
+    }
+    let name = format!("{} {}", rows::symbol(pane.case, *row), rows::label(pane.case, *row));
+    let more = if rows.len() > 1 { format!("; {} more", rows.len() - 1) } else { String::new() };
+    vec![format!("! {}: {}{more} ({key})", name.trim_start(), problem.cause)]
+}
+
+/// Whether the limit is met; also by the method's own quantity, unless that quantity has a limit.
+fn is_met(verdict: &Verdict<'_>) -> bool {
+    let is_own_limited = verdict.beside.is_some_and(|beside| beside.is_limited);
+    verdict.standing.holds() && (is_own_limited || !verdict.is_exceeded_beside())
+}
+
+// The required relief, or a placeholder while the worker computes it.
+fn relief(pane: &Results<'_>, answer: &Answer, solution: &Solution) -> Option<String> {
+    let relief = digest::relief(solution, &[], pane.units);
+    if relief.is_none() && answer.strikes() && answer.lacks(Stage::Clearing) {
+        let given = answer.inputs.driven.tip_relief;
+        return Some(digest::pending(solution.method, given, pane.units));
+    }
+    relief
+}
+
+// The other methods with another outcome. `paper` is not compared: it repeats `exact` with
+// misprints. A slow method is not compared before its own result is present.
+fn differing(answer: &Answer, solution: &Solution) -> Option<String> {
+    let others = answer.methods.iter().rev().filter(|(method, _)| {
+        answer.pending.is_none() && *method != answer.active && *method != Method::Paper
+    });
+    let others: Vec<&Solution> = others.filter_map(|(_, found)| found.as_ref().ok()).collect();
+    digest::differing(solution, &others)
 }
 
 fn title(pane: &Results<'_>, rows: usize) -> String {

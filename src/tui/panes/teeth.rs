@@ -5,12 +5,13 @@ mod view;
 use std::fmt;
 
 use nalgebra::{Point2, Vector2};
-use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::{Position, Rect};
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
+use ratatui::text::Line;
 use ratatui::widgets::Widget;
-use ratatui::widgets::canvas::{Canvas, Context, Line};
+use ratatui::widgets::canvas::{Canvas, Context, Line as Segment};
 use unicode_width::UnicodeWidthStr;
 
 use super::plot::bounds;
@@ -20,6 +21,7 @@ use crate::model::{ContactState, Inputs, Solution, contact_state};
 use crate::report::stations::{COLUMNS, Column};
 use crate::report::teeth::{Ink, Scene, Window, scale_bar};
 use crate::tui::ascii::symbol;
+use crate::tui::text;
 use crate::tui::theme::Look;
 
 pub use view::{Centre, TeethView};
@@ -32,6 +34,8 @@ const TWO_LINES_FROM: u16 = 13;
 const THREE_LINES_FROM: u16 = 20;
 /// Cells of a value with its symbol and unit.
 const VALUE: u16 = 18;
+/// The least distance of points with names, in columns.
+const APART: f64 = 5.0;
 /// The greatest length of the scale bar, as a fraction of the width.
 const BAR: f64 = 0.25;
 
@@ -56,14 +60,6 @@ const VALUES: [&str; 12] = [
 ];
 /// The text of a missing number.
 const NONE: &str = "–";
-
-/// Letters with similar patterns of dots.
-#[rustfmt::skip]
-const LETTERS: [(char, &str); 14] = [
-    ('.', "⡀⢀⠄⠠"), ('\'', "⠁⠈⠂⠐⠃⠘"), (',', "⡄⢠⡠"), ('`', "⠑"), ('"', "⠉"), ('_', "⣀"), ('-', "⠒⠤⠔⠢⠖⠲"),
-    ('|', "⡇⢸⠇⠸⡆⢰"), ('/', "⡜⡸⡎⡰⠜⠎⡔⡼"), ('\\', "⢣⢇⢱⢆⠣⠱⢢⢧"), (':', "⠆⠰"), ('=', "⣒⠭⣉⠶"),
-    ('+', "⡗⢺⡧⢼⣇⣸"), ('#', "⣿"),
-];
 
 /// A command of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -177,26 +173,25 @@ pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
         .as_ref()
         .map(|moment| readings(moment, (inputs, solution), picture.units))
         .unwrap_or_default();
-    let in_line = (area.width.saturating_sub(1) / VALUE).max(1);
-    let lines = (values.len() as u16).div_ceil(in_line).max(1).min(
-        1 + u16::from(area.height >= TWO_LINES_FROM) + u16::from(area.height >= THREE_LINES_FROM),
-    );
-    let plot = Rect { height: area.height.saturating_sub(lines), ..area };
-    for (value, place) in values.iter().zip(0..lines * in_line) {
-        let (column, row) = (1 + place % in_line * VALUE, place / in_line);
-        if row < area.height && column < area.width {
+    let in_line = usize::from(area.width.saturating_sub(1) / VALUE).max(1);
+    let most =
+        1 + u16::from(area.height >= TWO_LINES_FROM) + u16::from(area.height >= THREE_LINES_FROM);
+    let lines = (values.len().div_ceil(in_line).max(1) as u16).min(most);
+    let [plot, below] =
+        Layout::vertical([Constraint::Fill(1), Constraint::Length(lines)]).areas(area);
+    for (values, row) in values.chunks(in_line).zip(below.rows()) {
+        let values = values.iter().map(|value| {
             let text = symbol(&value.to_string(), picture.look.ascii).into_owned();
-            let room = usize::from(area.width - column);
-            buffer.set_stringn(area.x + column, plot.bottom() + row, text, room, Style::new());
-        }
+            text::padded(&text, usize::from(VALUE))
+        });
+        Line::raw(format!(" {}", values.collect::<String>())).render(row, buffer);
     }
     if plot.width >= SMALLEST.0 && plot.height >= SMALLEST.1 {
         Painter::new(picture, plot).draw(moment.as_ref(), buffer);
     }
 }
 
-/// Draws a picture into an area: with the canvas of ratatui and the selected marker, or with letters
-/// in ASCII, which are chosen from the dots of Braille.
+/// Draws a picture into an area with the canvas of ratatui.
 struct Painter<'a> {
     picture: &'a Picture<'a>,
     area: Rect,
@@ -204,43 +199,25 @@ struct Painter<'a> {
     /// The dots of a cell, horizontally and vertically.
     dots: (u16, u16),
     window: Window,
-    /// The canvas stores only colours: the number of a colour is an index into these styles until
-    /// the cells get their style.
-    styles: [Style; 8],
 }
 
-/// Indices of the styles of marks and contacts.
-const MARK: usize = 6;
-const CONTACT: usize = 7;
+/// Indices of the styles of marks and contacts, after those of the lines.
+const MARK: u8 = 6;
+const CONTACT: u8 = 7;
 
 /// A word on the picture.
-type Word = (Rect, String, Style);
+type Word = (Position, String, Style);
 
 impl<'a> Painter<'a> {
     fn new(picture: &'a Picture<'a>, area: Rect) -> Painter<'a> {
         let marker = if picture.look.ascii { Marker::Braille } else { picture.marker };
         let dots = match marker {
-            Marker::Braille | Marker::Octant => (2, 4),
-            Marker::Sextant => (2, 3),
-            Marker::Quadrant => (2, 2),
+            Marker::Braille => (2, 4),
             Marker::HalfBlock => (1, 2),
             _ => (1, 1),
         };
-        let theme = picture.look.theme;
-        let bold = |style: Style| style.add_modifier(Modifier::BOLD);
-        let [driven, driver] = [theme.driven, theme.driver];
-        let styles = [
-            theme.faint,
-            theme.path,
-            driven,
-            bold(driven),
-            driver,
-            bold(driver),
-            theme.focus,
-            theme.active,
-        ];
         let window = picture.view.window(picture.inputs, picture.solution, area.as_size(), dots);
-        Painter { picture, area, marker, dots, window, styles }
+        Painter { picture, area, marker, dots, window }
     }
 
     fn draw(&self, moment: Option<&ContactState>, buffer: &mut Buffer) {
@@ -255,17 +232,10 @@ impl<'a> Painter<'a> {
             .y_bounds([low, high])
             .paint(|context| self.draw_scene(&scene, context));
         canvas.render(self.area, buffer);
-        for position in self.area.positions() {
-            self.finish(&mut buffer[position]);
-        }
-        for (room, word, style) in self.words(&scene, moment.map(|_| factor)) {
-            buffer.set_stringn(
-                room.x,
-                room.y,
-                word,
-                room.width.into(),
-                Style::reset().patch(style),
-            );
+        self.set_styles(buffer);
+        for (at, word, style) in self.words(&scene, moment.map(|_| factor)) {
+            let room = self.area.right().saturating_sub(at.x).into();
+            buffer.set_stringn(at.x, at.y, word, room, Style::reset().patch(style));
         }
     }
 
@@ -304,18 +274,13 @@ impl<'a> Painter<'a> {
         let arm = f64::from(u8::from(self.dots.0 > 1));
         let arms =
             [Vector2::new(arm * self.window.dot, 0.0), Vector2::new(0.0, arm * self.dot_height())];
-        let marks = self.named(scene).into_iter().map(|(_, at)| (at, MARK));
+        let marks = scene.distinct_points(&self.window, 2.0 * self.column());
+        let marks = marks.into_iter().map(|(_, at)| (at, MARK));
         let contacts = scene.contacts.iter().filter(|at| self.window.sees(**at));
         for (at, style) in marks.chain(contacts.map(|at| (*at, CONTACT))) {
             for arm in arms {
                 stroke(context, at - arm, at + arm, style);
             }
-        }
-        let (from, to) = self.bar().0;
-        stroke(context, from, to, MARK);
-        let up = Vector2::new(0.0, self.dot_height());
-        for end in [from, to] {
-            stroke(context, end, end + up, MARK);
         }
     }
 
@@ -324,7 +289,7 @@ impl<'a> Painter<'a> {
         &self,
         points: &[Point2<f64>],
         (on, off): (f64, f64),
-        style: usize,
+        style: u8,
         context: &mut Context,
     ) {
         let mut before = 0.0;
@@ -343,66 +308,38 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// The ends of the scale bar in the lower left corner, and its length as text.
-    fn bar(&self) -> ((Point2<f64>, Point2<f64>), String) {
-        let Window { centre, half, dot } = self.window;
-        let (length, text) = scale_bar(BAR * 2.0 * half.x, self.picture.units);
-        let from = centre - half + Vector2::new(2.0 * dot, 0.25 * self.dot_height());
-        ((from, from + Vector2::new(length, 0.0)), text)
-    }
-
-    fn named(&self, scene: &Scene) -> Vec<(&'static str, Point2<f64>)> {
-        scene.distinct_points(&self.window, 2.0 * self.column())
-    }
-
     /// The words of the picture: the gears, the scale and the factor of the gap in the corners, and
-    /// each name beside its point where it covers no mark and no other word.
+    /// names beside their points, of points close together only the most important one.
     fn words(&self, scene: &Scene, factor: Option<f64>) -> Vec<Word> {
         let (area, theme) = (self.area, self.picture.look.theme);
-        let corner = |text: String, x: u16, y: u16, style: Style| {
-            let width = (text.width() as u16).min(area.right().saturating_sub(x));
-            (Rect { x, y, width, height: 1 }, text, style)
+        let beside = |(name, point): (&str, Point2<f64>), style: Style| {
+            let at = self.cell(point)?;
+            // A name at the right edge is before its point.
+            let width = name.width() as u16;
+            let has_room = at.x + 1 + width <= area.right();
+            let x = if has_room { at.x + 1 } else { at.x.saturating_sub(width).max(area.x) };
+            Some((Position { x, ..at }, name.to_owned(), style))
         };
-        let ending = |text: &str| area.right().saturating_sub(text.len() as u16 + 1);
-        let ((from, to), length) = self.bar();
-        let [from, to] = [from, to].map(|end| self.cell(end).map_or(area.x, |cell| cell.x));
-        let bottom = area.bottom() - 1;
-        let mut words = vec![
-            corner(" driver ".to_owned(), area.x, area.y, theme.driver),
-            corner(" driven".to_owned(), ending(" driven"), area.y, theme.driven),
-            corner(length, to + 2, bottom, theme.focus),
+        let names = scene.distinct_points(&self.window, APART * self.column());
+        let names = names.into_iter().filter_map(|name| beside(name, theme.focus));
+        let exits = scene.exits.iter().filter_map(|exit| beside(*exit, theme.faint));
+        let (length, name) = scale_bar(BAR * 2.0 * self.window.half.x, self.picture.units);
+        let columns = (length / self.column()).round() as usize;
+        let bar = format!("├{}┤ {name}", "─".repeat(columns.max(2) - 2));
+        let gap = factor.map(|factor| format!("gap x{}", (10.0 * factor).round() / 10.0));
+        let gap = gap.unwrap_or_default();
+        let at = |word: &str, is_right: bool, y: u16| {
+            let right = area.right().saturating_sub(word.len() as u16 + 1).max(area.x);
+            Position { x: if is_right { right } else { area.x }, y }
+        };
+        let (top, bottom) = (area.y, area.bottom() - 1);
+        let corners = [
+            (at("", false, top), " driver ".to_owned(), theme.driver),
+            (at(" driven", true, top), " driven".to_owned(), theme.driven),
+            (at("", false, bottom), bar, theme.focus),
+            (at(&gap, true, bottom), gap, theme.focus),
         ];
-        words.extend(factor.map(|factor| {
-            let text = format!("gap x{}", (10.0 * factor).round() / 10.0);
-            let x = ending(&text);
-            corner(text, x, bottom, theme.focus)
-        }));
-        let mut taken = vec![Rect { x: from, y: bottom, width: to + 1 - from, height: 1 }];
-        taken.extend(words.iter().map(|(room, ..)| *room));
-        let named = self.named(scene);
-        let marks: Vec<Position> = named.iter().filter_map(|(_, at)| self.cell(*at)).collect();
-        let points = named.iter().map(|point| (*point, theme.focus));
-        for ((name, at), style) in points.chain(scene.exits.iter().map(|exit| (*exit, theme.faint)))
-        {
-            let width = i32::try_from(name.width()).unwrap_or_default();
-            let sides = [(1, 0), (-width, 0), (2, -1), (2, 1), (-width - 1, -1), (-width - 1, 1)];
-            let room = |(right, down): (i32, i32)| {
-                let at = self.cell(at)?;
-                let x = u16::try_from(i32::from(at.x) + right).ok()?;
-                let y = u16::try_from(i32::from(at.y) + down).ok()?;
-                let room = Rect { x, y, width: width as u16, height: 1 };
-                let spaced = Rect { x: x.saturating_sub(1), width: room.width + 2, ..room };
-                let is_free = area.intersection(room) == room
-                    && !marks.iter().any(|mark| room.contains(*mark))
-                    && !taken.iter().any(|word| word.intersects(spaced));
-                is_free.then_some(room)
-            };
-            if let Some(room) = sides.into_iter().find_map(room) {
-                taken.push(room);
-                words.push((room, name.to_owned(), style));
-            }
-        }
-        words
+        exits.chain(names).chain(corners).collect()
     }
 
     /// The cell of a visible point.
@@ -415,44 +352,46 @@ impl<'a> Painter<'a> {
         })
     }
 
-    /// Sets the style of a cell of the canvas, and its letter in ASCII mode.
-    fn finish(&self, cell: &mut Cell) {
-        let faint =
-            if self.picture.is_stale { self.picture.look.theme.faint } else { Style::new() };
+    /// Sets the styles of the cells. The canvas stores only colours: the number of a colour is the
+    /// index of its style.
+    fn set_styles(&self, buffer: &mut Buffer) {
+        let theme = self.picture.look.theme;
+        let bold = |style: Style| style.add_modifier(Modifier::BOLD);
+        let (driven, driver) = (theme.driven, theme.driver);
+        let (marks, contacts) = (theme.focus, theme.active);
+        let styles = [
+            theme.faint,
+            theme.path,
+            driven,
+            bold(driven),
+            driver,
+            bold(driver),
+            marks,
+            contacts,
+        ];
+        let faint = if self.picture.is_stale { theme.faint } else { Style::new() };
         let style_of = |colour: Color| match colour {
-            Color::Indexed(number) => self.styles.get(usize::from(number)).copied(),
+            Color::Indexed(number) => styles.get(usize::from(number)).copied(),
             _ => None,
         };
-        let Some(style) = style_of(cell.fg).map(|style| style.patch(faint)) else { return };
-        // A half block has two colours, for its upper and its lower half.
-        let below = style_of(cell.bg).map(|style| style.fg);
-        (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
-        cell.set_style(style);
-        match below {
-            Some(Some(colour)) if Some(colour) != style.fg => {
-                cell.set_bg(colour);
+        for position in self.area.positions() {
+            let cell = &mut buffer[position];
+            let Some(style) = style_of(cell.fg) else { continue };
+            // A half block has two colours, for its upper and its lower half.
+            let below = style_of(cell.bg).map(|style| style.fg);
+            (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
+            cell.set_style(style.patch(faint));
+            match below {
+                Some(Some(colour)) if Some(colour) != style.fg => _ = cell.set_bg(colour),
+                Some(_) => _ = cell.set_symbol("█"),
+                None => (),
             }
-            Some(_) => {
-                cell.set_symbol("█");
-            }
-            None => (),
-        }
-        if self.picture.look.ascii {
-            cell.set_char(cell.symbol().chars().next().map_or(' ', letter));
         }
     }
 }
 
-fn stroke(context: &mut Context, from: Point2<f64>, to: Point2<f64>, style: usize) {
-    context.draw(&Line::new(from.x, from.y, to.x, to.y, Color::Indexed(style as u8)));
-}
-
-/// The letter most similar to a pattern of dots.
-fn letter(pattern: char) -> char {
-    let off = |dots: char| (u32::from(dots) ^ u32::from(pattern)).count_ones();
-    let least_off = |dots: &str| dots.chars().map(off).min();
-    let nearest = LETTERS.iter().min_by_key(|(_, dots)| least_off(dots));
-    nearest.filter(|_| !matches!(pattern, ' ' | '\u{2800}')).map_or(' ', |(letter, _)| *letter)
+fn stroke(context: &mut Context, from: Point2<f64>, to: Point2<f64>, style: u8) {
+    context.draw(&Segment::new(from.x, from.y, to.x, to.y, Color::Indexed(style)));
 }
 
 /// Every value of the method at a contact state, and the opening, in a fixed order.
@@ -481,22 +420,17 @@ fn reading(
     system: System,
 ) -> Option<Reading> {
     let column: &Column = COLUMNS.iter().find(|column| column.key == key)?;
-    let interpolated =
-        moment.interpolated.as_ref().and_then(|one| column.of(solution, &one.station));
-    let value = interpolated.or_else(|| without_contact(moment, key));
+    let interpolated = moment.interpolated.as_ref();
+    let value = interpolated.and_then(|one| column.of(solution, &one.station));
+    let value = value.or_else(|| without_contact(moment, key));
     if value.is_none() && !column.methods.contains(&solution.method) {
         return None;
     }
-    let digits = moment
-        .interpolated
-        .as_ref()
-        .map_or(column.digits, |interpolated| column.digits_of(interpolated));
-    let usual = if column.shown == "1" { "" } else { system.unit(column.shown) };
-    let (number, unit) = value.map_or((None, usual), |value| {
-        let (number, unit) =
-            shown(column.resolved(value, inputs, solution), column.shown, digits, system);
-        (Some(number), unit)
+    let digits = interpolated.map_or(column.digits, |one| column.digits_of(one));
+    let shown = value.map(|value| {
+        shown(column.resolved(value, inputs, solution), column.shown, digits, system)
     });
+    let (number, unit) = shown.map_or((None, ""), |(number, unit)| (Some(number), unit));
     Some(Reading { symbol: column.symbol, number, unit })
 }
 
@@ -520,14 +454,6 @@ mod tests {
     use super::*;
     use crate::case::Case;
     use crate::model::{self, Stages};
-
-    #[test]
-    fn letters_follow_the_direction_of_a_line() {
-        let drawn = "⣀⠤⠒⠉⢸⡇⡜⢣⣿⠈⡀".chars().map(letter).collect::<String>();
-        assert_eq!(drawn, r#"_--"||/\#'."#);
-        assert!(('\u{2801}'..='\u{28ff}').all(|pattern| letter(pattern).is_ascii_graphic()));
-        assert_eq!((letter('\u{2800}'), letter(' ')), (' ', ' '));
-    }
 
     /// Calls a function with painters of Table 1: every view, marker and size.
     fn for_each_painter(mut call: impl FnMut(&Painter<'_>)) {
@@ -589,11 +515,15 @@ mod tests {
         for_each_painter(|painter| {
             let Picture { inputs, solution, .. } = *painter.picture;
             let scene = Scene::of(inputs, solution, None, 0.0, &painter.window);
+            let points = scene.distinct_points(&painter.window, APART * painter.column());
             let words = painter.words(&scene, Some(20.0));
-            for (at, (room, word, _)) in words.iter().enumerate() {
-                assert_eq!(painter.area.intersection(*room), *room, "{word}");
-                let names = words[..at].iter().filter(|_| at >= 4);
-                assert!(names.into_iter().all(|(other, ..)| !other.intersects(*room)), "{word}");
+            let room = |(at, word, _): &Word| Rect::new(at.x, at.y, word.width() as u16, 1);
+            for (at, word) in words.iter().enumerate() {
+                assert!(painter.area.contains(word.0), "{word:?}");
+                let names = at.saturating_sub(points.len())..at;
+                let is_name = points.iter().any(|point| point.0 == word.1);
+                let covers = |other: &Word| room(other).intersects(room(word));
+                assert!(!is_name || !words[names].iter().any(covers), "{word:?}");
             }
         });
     }

@@ -2,20 +2,20 @@
 //! compliances.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Constraint, Rect};
+use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Style;
+use ratatui::symbols::Marker;
 use ratatui::text::Line;
 use ratatui::widgets::{Row, Table, Widget};
 
 use super::Title;
-use super::plot::{Plot, Words, draw_legend, label_margin};
+use super::plot::TerminalChart;
 use crate::model::Inputs;
-use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
-use crate::report::chart::Axis;
+use crate::report::chart::{Axis, Chart, Kind, Point, Series};
 use crate::report::trade::{
-    Cell, NO_CONTACT, build, compliance_name, compliances, parts, percent, plotted_error,
-    power_of_time, summary,
+    NO_CONTACT, build, compliance_name, compliances, parts, percent, plotted_error, power_of_time,
+    summary,
 };
 use crate::study::trade::{METHODS, MeasuredSetting, Setting, Trade};
 use crate::tui::jobs::{TradeView, Traded};
@@ -26,9 +26,6 @@ use crate::tui::theme::Look;
 const TALL: u16 = 8;
 const INVITATION: &str = "runs every method with its settings on this case for a few seconds. Esc stops the \
     benchmark and keeps its results. Enter then applies the selected setting to the case.";
-
-/// The line of the accepted error.
-const LEVEL: &str = "╌";
 
 /// Width of a compliance with its mark.
 const COMPLIANCE_NAME: u16 = 23;
@@ -54,47 +51,39 @@ pub(crate) struct TradePane<'a> {
 
 pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
     let inner = pane.title.draw(&title(pane), pane.area, buffer);
-    if inner.is_empty() {
-        return;
-    }
     let traded = pane.traded.and_then(|traded| Some((traded, traded.trade.as_ref()?)));
     let Some((traded, trade)) = traded.filter(|(_, trade)| !trade.settings.is_empty()) else {
-        let words = if pane.traded.is_some() {
-            "Computing the reference.".to_owned()
-        } else {
-            format!("No benchmark yet: {} {INVITATION}", pane.title.key_to("m"))
+        let words = match pane.traded {
+            Some(_) => "Computing the reference.".to_owned(),
+            None => format!("No benchmark yet: {} {INVITATION}", pane.title.key_to("m")),
         };
         return text::draw_words(&words, inner, buffer);
     };
-    let words = inner.height.min(if inner.height > TALL { 2 } else { 1 });
-    let (above, below) = (inner.height - words, Rect { height: words, ..inner });
-    let area = Rect { height: above, ..inner };
+    let lines = if inner.height > TALL { 2 } else { 1 };
+    let [above, below] =
+        Layout::vertical([Constraint::Fill(1), Constraint::Length(lines)]).areas(inner);
     match pane.view {
-        TradeView::Table => draw_table(pane, traded, trade, area, buffer),
-        TradeView::Chart => draw_chart(pane, traded, trade, area, buffer),
+        TradeView::Table => draw_table(pane, traded, trade, above, buffer),
+        TradeView::Chart => draw_chart(pane, traded, trade, above, buffer),
     }
-    let (below, width) = (Rect { y: area.bottom(), ..below }, usize::from(inner.width));
-    let lines = text::fitted(&about(pane, traded, trade), width.saturating_sub(2), words.into());
-    for (line, row) in lines.iter().zip(below.rows()) {
-        buffer.set_stringn(row.x + 1, row.y, line, width - 1, Style::new());
-    }
+    let width = usize::from(below.width).saturating_sub(2);
+    let about = text::fitted(&about(pane, traded, trade), width, lines.into()).join(" ");
+    text::draw_words(&about, below, buffer);
 }
 
 /// The meaning of the signs in the pane.
 #[must_use]
-pub(crate) fn signs(pane: &TradePane<'_>) -> String {
-    let within =
-        pane.traded.and_then(|traded| traded.trade.as_ref()).map(|trade| percent(trade.within));
-    if pane.view == TradeView::Table {
-        return "Time of a solve with 64 stations and tolerance 1e-6, and its greatest difference from the reference \
-            in %; * compliance of the case, ▸ selected."
-            .to_owned();
+pub(crate) fn signs(pane: &TradePane<'_>) -> &'static str {
+    match pane.view {
+        TradeView::Table => {
+            "Time of a solve with 64 stations and tolerance 1e-6, and its greatest difference from \
+                the reference in %; * compliance of the case, ▸ selected."
+        }
+        TradeView::Chart => {
+            "Each letter is a setting of a method; on the dotted line, no other setting is both \
+                faster and more accurate."
+        }
     }
-    let level = within.map_or_else(String::new, |within| format!("; {LEVEL} tolerance {within} %"));
-    format!(
-        "p paper, e exact, s static, d dynamic, a auto. Capitals and ·: no other setting is both \
-            faster and more accurate. (x): setting of the case. [x]: selected setting{level}."
-    )
 }
 
 /// The visible setting nearest to the selected one: that setting itself, otherwise one of its
@@ -136,35 +125,27 @@ fn title(pane: &TradePane<'_>) -> String {
 /// The text about the selected setting, the most important part first; without a selection the
 /// progress of the benchmark.
 fn about(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> String {
-    let selected = traded
-        .marked
-        .and_then(|marked| trade.settings.iter().find(|measured| measured.setting == marked));
-    let without_contact = trade.is_without_contact().then(|| NO_CONTACT.to_owned());
-    let refused = trade.settings.iter().filter(|measured| measured.found.is_err()).count();
-    let refused = (refused > 0).then(|| format!("{refused} settings refuse the case"));
-    let words = match selected {
-        None => {
-            let (measured, planned) = (trade.settings.len(), trade.planned);
-            vec![
-                without_contact,
-                Some(format!("{measured} of {planned} settings measured")),
-                refused,
-            ]
-        }
+    let is_selected = |measured: &&MeasuredSetting| traded.marked == Some(measured.setting);
+    let selected = trade.settings.iter().find(is_selected);
+    let first = match selected {
+        None => format!("{} of {} settings measured", trade.settings.len(), trade.planned),
         Some(measured) => {
             let qualifies = if measured.qualifies { "within" } else { "not within" };
-            let own = own(pane) == Some(measured.setting);
-            let front = "no other setting is both faster and more accurate".to_owned();
-            vec![
-                Some(format!("[{}] {qualifies} {} %", summary(measured), percent(trade.within))),
-                without_contact,
-                own.then(|| "setting of the case".to_owned()),
-                parts(trade, measured),
-                measured.is_on_front.then_some(front),
-                refused,
-            ]
+            format!("[{}] {qualifies} {} %", summary(measured), percent(trade.within))
         }
     };
+    let refused = trade.settings.iter().filter(|measured| measured.found.is_err()).count();
+    let said = |holds: bool, words: &str| holds.then(|| words.to_owned());
+    let is_own = selected.is_some_and(|measured| own(pane) == Some(measured.setting));
+    let is_best = selected.is_some_and(|measured| measured.is_on_front);
+    let words = [
+        Some(first),
+        said(trade.is_without_contact(), NO_CONTACT),
+        said(is_own, "setting of the case"),
+        selected.and_then(|measured| parts(trade, measured)),
+        said(is_best, "no other setting is both faster and more accurate"),
+        said(refused > 0, &format!("{refused} settings refuse the case")),
+    ];
     words.into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
@@ -194,19 +175,8 @@ fn own(pane: &TradePane<'_>) -> Option<Setting> {
     pane.inputs.map(Setting::of)
 }
 
-/// The letter of a method, with its colour.
-fn mark_of(pane: &TradePane<'_>, method: Method) -> (char, Style) {
-    let theme = pane.look.theme;
-    match method {
-        Method::Paper => ('p', theme.faint),
-        Method::Exact => ('e', theme.other),
-        Method::Static => ('s', theme.path),
-        Method::Dynamic => ('d', theme.active),
-        Method::Auto => ('a', theme.note),
-    }
-}
-
-/// Draws the legend, the meaning of the letters, and the settings below it.
+/// Draws the settings over the line of the tolerance, and the steps of the least error for each
+/// time, below which is no setting.
 fn draw_chart(
     pane: &TradePane<'_>,
     traded: &Traded,
@@ -214,88 +184,58 @@ fn draw_chart(
     area: Rect,
     buffer: &mut Buffer,
 ) {
-    let theme = pane.look.theme;
-    let methods = METHODS.into_iter().chain([Method::Auto]);
-    let methods = methods.map(|method| (method.name().to_owned(), mark_of(pane, method).1));
-    let words: Vec<Words> = methods.collect();
-    let legend = Rect { height: u16::from(area.height >= TALL - 2), ..area };
-    draw_legend(&words, legend, buffer);
-    let area = Rect { y: area.y + legend.height, height: area.height - legend.height, ..area };
-    let mut found = ordered(trade);
+    let (theme, within, found) = (pane.look.theme, trade.within, ordered(trade));
     let across = found.iter().map(|measured| measured.seconds().log10());
     let across = Axis::logarithmic("", across, power_of_time);
     let errors = found.iter().filter_map(|measured| measured.total());
-    let errors = errors.chain([trade.within]).map(|error| plotted_error(error).log10());
-    let up = Axis::logarithmic("", errors, in_percent);
-    let spans = (across.span(), up.span());
-    let plot = Plot::new(area, label_margin(&up, spans.1, area.height), spans);
-    if plot.cells.is_empty() {
-        return;
-    }
-    plot.draw_axes(&across, &up, theme, buffer);
-    let level = level(&plot, trade, &found);
-    let label =
-        format!("{:>1$} ┤", percent(trade.within) + " %", usize::from(plot.cells.x - area.x) - 2);
-    buffer.set_string(area.x, level, label, Style::new());
-    buffer.set_string(plot.cells.x, level, LEVEL.repeat(plot.cells.width.into()), theme.rule);
-    // Greater errors are above the accepted one and smaller ones below.
-    let place = |measured: &MeasuredSetting| {
-        let error = measured.total()?;
-        let row = plot.row(plotted_error(error).log10());
-        let row = if error > trade.within {
-            row.min(level.saturating_sub(1))
-        } else {
-            row.max(level + 1)
+    // There is room on both sides of the tolerance.
+    let errors = errors.chain([10.0 * within, within / 10.0]);
+    let up = Axis::logarithmic("", errors.map(|error| plotted_error(error).log10()), in_percent);
+    let (level, spans) = (plotted_error(within).log10(), (across.span(), up.span()));
+    let row = spans.1.length() / f64::from(area.height.saturating_sub(4).max(1));
+    let points = |is_drawn: &dyn Fn(&MeasuredSetting) -> bool| -> Vec<Point> {
+        let drawn = found.iter().filter(|measured| is_drawn(measured));
+        let point = |measured: &&MeasuredSetting| {
+            let (error, time) = (measured.total()?, measured.seconds().log10());
+            let place = plotted_error(error).log10();
+            // A point is not on the line of the tolerance.
+            let is_above = error > within;
+            Some((time, if is_above { place.max(level + row) } else { place.min(level - row) }))
         };
-        let row = row.clamp(plot.cells.top(), plot.cells.bottom() - 1);
-        Some((plot.column(measured.seconds().log10())?, row))
+        drawn.filter_map(point).collect()
     };
-    let front = found.iter().filter(|measured| measured.is_on_front);
-    draw_front(pane, &front.filter_map(|one| place(one)).collect::<Vec<_>>(), plot.cells, buffer);
-    // The selected setting and the setting of the case are drawn on top.
-    let own = own(pane);
-    let weight = |measured: &MeasuredSetting| {
-        let setting = Some(measured.setting);
-        (traded.marked == setting, own == setting, measured.is_on_front)
-    };
-    found.sort_by_key(|measured| weight(measured));
-    for measured in found {
-        if let Some((x, y)) = place(measured) {
-            let (is_marked, is_own, is_on_front) = weight(measured);
-            let (letter, style) = mark_of(pane, measured.setting.method);
-            let letter = if is_on_front { letter.to_ascii_uppercase() } else { letter };
-            let (mark, style) = match (is_marked, is_own) {
-                (true, _) => (format!("[{letter}]"), theme.key),
-                (false, true) => (format!("({letter})"), theme.focus),
-                (false, false) => (letter.to_string(), style),
-            };
-            let width = mark.len() as u16;
-            let x = (x - width / 2).clamp(plot.cells.left(), plot.cells.right() - width);
-            buffer.set_string(x, y, mark, style);
-        }
+    let mut steps: Vec<Point> = Vec::new();
+    for (x, y) in points(&|measured| measured.is_on_front).into_iter().chain([(spans.0.to, 0.0)]) {
+        steps.extend(steps.last().map(|last| (x, last.1)));
+        steps.push((x, y));
     }
-}
-
-/// The row of the accepted error, with room for greater errors above it and smaller ones below.
-fn level(plot: &Plot, trade: &Trade, found: &[&MeasuredSetting]) -> u16 {
-    let has = |is_above: bool| {
-        let mut errors = found.iter().filter_map(|measured| measured.total());
-        u16::from(errors.any(|error| (error > trade.within) == is_above))
+    steps.pop();
+    let marks = |name: &str, points, look: (char, Style)| {
+        let series = Series { name: name.to_owned(), pieces: vec![points], kind: Kind::Marks(None) };
+        (series, (Marker::Custom(look.0), look.1))
     };
-    let (first, last) = (plot.cells.top() + has(true), plot.cells.bottom() - 1 - has(false));
-    plot.row(plotted_error(trade.within).log10()).clamp(first, last.max(first))
-}
-
-/// Draws the steps of the least error for each time; no setting is below them.
-fn draw_front(pane: &TradePane<'_>, front: &[(u16, u16)], field: Rect, buffer: &mut Buffer) {
-    let mut dot = |x: u16, y: u16| {
-        buffer.set_string(x, y, "·", pane.look.theme.note);
-    };
-    for (at, &(x, y)) in front.iter().enumerate() {
-        let next = front.get(at + 1).copied().unwrap_or((field.right() - 1, y));
-        (x..=next.0).for_each(|x| dot(x, y));
-        (y.min(next.1)..=y.max(next.1)).for_each(|y| dot(next.0, y));
-    }
+    let of_setting = |setting| points(&move |measured| Some(measured.setting) == setting);
+    let selected = marks("selected", of_setting(traded.marked), ('◆', theme.key));
+    let own = marks("case", of_setting(own(pane)), ('◇', theme.focus));
+    let methods = [
+        (Method::Paper, 'p', theme.faint),
+        (Method::Exact, 'e', theme.other),
+        (Method::Static, 's', theme.path),
+        (Method::Dynamic, 'd', theme.active),
+        (Method::Auto, 'a', theme.note),
+    ];
+    let methods = methods.map(|(method, letter, style)| {
+        let points = points(&|measured| measured.setting.method == method);
+        marks(method.name(), points, (letter, style))
+    });
+    let mut best = marks("best", steps, ('·', theme.note));
+    best.0.kind = Kind::Curve;
+    let (series, looks) = [selected, own].into_iter().chain(methods).chain([best]).unzip();
+    let chart = Chart { across, up, series, ..Chart::default() };
+    let words = vec![(format!("╌ tolerance {} %", percent(within)), theme.rule)];
+    let drawn = TerminalChart { chart: &chart, looks, words, is_compared: false, theme };
+    let plot = drawn.draw(area, spans, 0, buffer);
+    plot.draw_level(level, "╌", theme.rule, buffer);
 }
 
 /// An error as a power of ten in percent.
@@ -318,10 +258,13 @@ fn draw_table(
     let is_wide = COMPLIANCE_NAME + CELL[0] * METHODS.len() as u16 <= area.width;
     let own = own(pane).and_then(|own| own.models);
     let rows = compliances(trade);
-    let row = |(models, cells): &(StiffnessModels, [Option<Cell>; METHODS.len()])| {
-        let mark = if own == Some(*models) { '*' } else { ' ' };
-        let name = Line::raw(format!("{mark}{}", compliance_name(*models)));
-        let cells = cells.iter().map(|cell| {
+    let [above, below] =
+        Layout::vertical([Constraint::Length(rows.len() as u16 + 2), Constraint::Fill(1)])
+            .areas(area);
+    let table = rows.into_iter().map(|(models, cells)| {
+        let mark = if own == Some(models) { '*' } else { ' ' };
+        let name = Line::raw(format!("{mark}{}", compliance_name(models)));
+        let cells = cells.into_iter().map(|cell| {
             let Some(cell) = cell else { return Line::default() };
             let text = if is_wide { cell.to_string() } else { cell.total.clone() };
             if traded.marked == Some(cell.setting) {
@@ -331,15 +274,14 @@ fn draw_table(
             }
         });
         Row::new(std::iter::once(name).chain(cells))
-    };
+    });
     let names = METHODS.map(|method| Line::styled(method.name(), theme.title).right_aligned());
-    let widths = [[COMPLIANCE_NAME].as_slice(), &[CELL[usize::from(!is_wide)]; METHODS.len()]];
-    Table::new(rows.iter().map(row), widths.concat().into_iter().map(Constraint::Length))
+    let mut widths = vec![Constraint::Length(COMPLIANCE_NAME)];
+    widths.extend([Constraint::Length(CELL[usize::from(!is_wide)]); METHODS.len()]);
+    Table::new(table, widths)
         .header(Row::new(std::iter::once(Line::default()).chain(names)))
         .column_spacing(0)
-        .render(area, buffer);
-    let below = (rows.len() as u16 + 2).min(area.height);
-    let below = Rect { y: area.y + below, height: area.height - below, ..area };
+        .render(above, buffer);
     text::draw_words(&build(trade), below, buffer);
 }
 

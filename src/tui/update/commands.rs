@@ -23,6 +23,7 @@ use crate::tui::keys::{
 };
 use crate::tui::layout::Pane;
 use crate::tui::panes::chart::ChartCommand as Chart;
+use crate::tui::panes::results::Results;
 use crate::tui::panes::teeth::TeethCommand as Teeth;
 use crate::tui::rows;
 use crate::tui::session::save::Next;
@@ -232,7 +233,15 @@ pub static BINDINGS: &[Binding] = &[
         "Move the cursor to E, where the normal path of contact begins."),
     listed(Place::OUTSIDE, &[letter('a')], panes::ask_cursor, "cursor to angle",
         "Move the cursor to a roll angle, a time, D, E, B, L or the peak."),
-    listed(Place::CURSOR, &[letter('c')], panes::hide_cursor, "hide cursor", "Hide the cursor."),
+    helped(Place::WORKER_CHART, &[letter('h'), key(Left)], |app| panes::run_chart(app, Chart::Move(-1)),
+        "Move the cursor of a chart with its own axes one point left."),
+    shown(Place::WORKER_CHART, &[letter('l'), key(Right)], |app| panes::run_chart(app, Chart::Move(1)), "point",
+        "Move the cursor of a chart with its own axes one point right."),
+    helped(Place::WORKER_CHART, &[letter('H'), with(SHIFT, Left)], |app| panes::run_chart(app, Chart::Move(-10)),
+        "Move that cursor ten points left."),
+    helped(Place::WORKER_CHART, &[letter('L'), with(SHIFT, Right)], |app| panes::run_chart(app, Chart::Move(10)),
+        "Move that cursor ten points right."),
+    listed(Place::CURSOR.or(Place::WORKER_CHART), &[letter('c')], panes::hide_cursor, "hide cursor", "Hide the cursor."),
     shown(Place::CHARTS, &[letter('j'), key(Down)], |app| panes::run_chart(app, Chart::Step(1)), "next chart", "Show the next chart."),
     listed(Place::CHARTS, &[letter('k'), key(Up)], |app| panes::run_chart(app, Chart::Step(-1)), "previous chart",
         "Show the previous chart."),
@@ -295,6 +304,8 @@ pub static BINDINGS: &[Binding] = &[
         "Give this gear, or both gears, a material of the catalogue."),
     shown_in(Place::RESULTS, Place::OUTSIDE, &[letter('n')], dialogs::notes, "notes",
         "Show the outcome, the limits and every note in full."),
+    shown_in(Place::RESULTS, Place::OUTSIDE, &[letter('f')], |app| app.shows_every_method = !app.shows_every_method, "other methods",
+        "Show the free impact and the other methods beside the method of the case, or fold them."),
     shown_in(Place::RESULTS, Place::WORK, &[alt('l')], edit::ask_limit, "limit",
         "Set a limit on the selected result, or on a result from a list."),
     shown_in(Place::OUTSIDE, Place::COMMANDED, &[letter(':')], |app| list(app, Picker::commands, ""), "commands",
@@ -532,8 +543,9 @@ fn help_page(app: &mut App) {
 fn list(app: &mut App, list: fn(&Context) -> Picker, typed: &str) {
     let inputs = &app.tab.inputs_so_far;
     let idle = |field: &usize| matches!(relevance(*field, inputs), Acting::No(_));
+    let every = Results { shows_every_method: true, ..app.results() };
     let context = Context {
-        results: app.results().listed().iter().map(|quantity| quantity.key).collect(),
+        results: every.listed().iter().map(|quantity| quantity.key).collect(),
         are_results_first: app.layout.focus() == Pane::Results,
         idle: (0..FIELDS.len()).filter(idle).collect(),
         commands: items(app),

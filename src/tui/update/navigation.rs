@@ -181,8 +181,10 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) {
             }
         }
         Pane::Chart => {
+            // The focus may widen the pane.
+            let angle = angle_at(&app.charts(), at);
             panes::show(app, pane);
-            if let Some(angle) = angle_at(&app.charts(), at) {
+            if let Some(angle) = angle {
                 app.cursor = Some(angle);
                 panes::stop_playing(app);
             }

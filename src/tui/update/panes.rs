@@ -70,8 +70,10 @@ pub(super) fn go_to(app: &mut App, field: usize) {
 
 /// Goes to the result with a key.
 pub(super) fn show_result(app: &mut App, key: &str) {
-    let listed = app.results().listed();
-    if let Some(quantity) = listed.iter().find(|quantity| quantity.key == key) {
+    let find = |app: &App| app.results().listed().into_iter().find(|known| known.key == key);
+    // A folded result is shown.
+    app.shows_every_method |= find(app).is_none();
+    if let Some(quantity) = find(app) {
         app.tab.results.selected = Some(quantity.key);
     }
     show(app, Pane::Results);
@@ -110,8 +112,9 @@ pub(super) fn run_chart(app: &mut App, command: ChartCommand) {
     }
 }
 
-/// Shows the chart with an index.
+/// Goes to the chart with an index.
 pub(super) fn select_chart(app: &mut App, at: usize) {
+    show(app, Pane::Chart);
     run_chart(app, ChartCommand::Select(at));
 }
 
@@ -180,7 +183,7 @@ pub(super) fn cursor_to_end(app: &mut App) {
 }
 
 pub(super) fn hide_cursor(app: &mut App) {
-    app.cursor = None;
+    (app.cursor, app.chart.place) = (None, None);
     stop_playing(app);
 }
 
@@ -224,7 +227,7 @@ pub(super) fn stop_playing(app: &mut App) -> bool {
 /// Requests the visible chart, unless it is the last request; stops a hidden one.
 pub(super) fn request_chart(app: &mut App) {
     let is_visible = app.layout.plan().shows(Pane::Chart);
-    let chart = app.chart.worker_chart.filter(|_| is_visible);
+    let chart = app.chart.worker_chart().filter(|_| is_visible);
     let Some((chart, inputs)) = chart.zip(app.tab.inputs().cloned()) else {
         if app.cancel(Slot::Chart) {
             let work = &mut app.tab.chart_work;

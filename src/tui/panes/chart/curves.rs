@@ -4,7 +4,7 @@
 use ratatui::symbols::Marker;
 
 use super::Charts;
-use crate::case::units::{self, System};
+use crate::case::units;
 use crate::model::compliance::model_of;
 use crate::model::contact_state::DIGITS_BETWEEN;
 use crate::model::inputs::{Method, ToothCompliance};
@@ -60,59 +60,101 @@ pub struct Curve<'a> {
 }
 
 impl Curve<'_> {
-    /// The curve with its name in the legend.
-    pub(crate) fn series(&self, charts: &Charts) -> Series {
+    /// Whether the curve is one of those that the chart is about.
+    pub(crate) fn is_main(&self) -> bool {
+        matches!(self.source, CurveSource::Active(_) | CurveSource::Model { .. })
+    }
+
+    /// The curve with its name in the legend, and its look.
+    pub(crate) fn series(&self, charts: &Charts) -> (Series, Look) {
         let name = match self.source {
             CurveSource::Active(method) => method.name().to_owned(),
             CurveSource::Model { model, is_own: true } => format!("{} (case)", model.name()),
             _ => self.name(charts),
         };
-        Series { name, pieces: self.pieces.clone(), kind: Kind::Curve }
+        let theme = charts.look.theme;
+        let (marker, style) = match self.source {
+            CurveSource::Active(_) => (charts.marker, theme.active),
+            source if is_field(source) => (charts.marker, theme.active),
+            CurveSource::Other(method) => (sign_of(method), theme.other),
+            CurveSource::Model { model, .. } => {
+                let is_first = Some(&model) == ToothCompliance::ALL.first();
+                (Marker::Custom(if is_first { '×' } else { '∘' }), theme.other)
+            }
+            CurveSource::Pinned(_) => (Marker::Custom('+'), theme.baseline),
+            CurveSource::Bound(_) => (Marker::Custom('╌'), theme.rule),
+        };
+        let style = if charts.is_stale { style.patch(theme.faint) } else { style };
+        (Series { name, pieces: self.pieces.clone(), kind: Kind::Curve }, (marker, style))
     }
 
     /// The name of the value: the symbol for the active method.
     fn name(&self, charts: &Charts) -> String {
-        let name = |text: &'static str| symbol(text, charts.look.ascii).into_owned();
+        let active = charts.answer.map(|answer| answer.active);
         match self.source {
-            CurveSource::Active(_) => name(self.column.symbol),
+            CurveSource::Active(_) => symbol(self.column.symbol, charts.look.ascii).into_owned(),
+            CurveSource::Bound(bound) => symbol(bound, charts.look.ascii).into_owned(),
             CurveSource::Other(method) => method.name().to_owned(),
-            CurveSource::Pinned(method)
-                if charts.answer.is_some_and(|answer| answer.active != method) =>
-            {
-                format!("baseline ({})", method.name())
-            }
-            CurveSource::Pinned(_) => "baseline".to_owned(),
-            CurveSource::Bound(bound) => name(bound),
             CurveSource::Model { model, .. } => model.name().to_owned(),
+            CurveSource::Pinned(method) if active == Some(method) => "baseline".to_owned(),
+            CurveSource::Pinned(method) => format!("baseline ({})", method.name()),
         }
     }
 
     /// The least and the greatest value within a range of the angle.
     pub(crate) fn upright_within(&self, window: Span) -> Span {
-        let ends = [window.from, window.to].into_iter().filter_map(|x| self.at(x));
-        let inside =
-            self.points().filter(|(x, _)| (window.from..=window.to).contains(x)).map(|(_, y)| y);
-        ends.chain(inside).fold(Span::NONE, Span::with)
+        let ends = [window.from, window.to].into_iter().filter_map(|x| value_at(&self.pieces, x));
+        let points = self.pieces.iter().flatten();
+        let inside = points.filter(|(x, _)| (window.from..=window.to).contains(x)).map(|(_, y)| *y);
+        Span::of(ends.chain(inside))
     }
 
-    /// The value at an angle, interpolated between stations. At a jump, the value after it.
-    #[must_use]
-    pub(crate) fn at(&self, x: f64) -> Option<f64> {
-        self.pieces.iter().find_map(|piece| {
-            let after = piece.partition_point(|point| point.0 <= x);
-            let (before, last) = (piece.get(after.checked_sub(1)?)?, piece.len() - 1);
-            let rounding = 1e-12 * x.abs();
-            match piece.get(after) {
-                Some(next) => {
-                    Some(before.1 + (next.1 - before.1) * (x - before.0) / (next.0 - before.0))
-                }
-                None => (x <= piece[last].0 + rounding).then_some(before.1),
+    /// The value in SI at the cursor, from the same evaluation as in the teeth pane, not from the
+    /// drawn line, with its number of significant digits.
+    fn reading(&self, graph: &Graph, cursor: f64) -> Option<(f64, usize)> {
+        let (column, factor) = (self.column, units::factor(self.unit).unwrap_or(1.0));
+        let Some((inputs, solution)) = self.solved else {
+            let value = value_at(&self.pieces, 0.0 - cursor.to_degrees())?;
+            return Some((value * factor, column.digits));
+        };
+        let interpolated = Interpolated::at(inputs, solution, cursor)?;
+        let station = &interpolated.station;
+        let (value, digits) = match self.source {
+            CurveSource::Bound(_) if interpolated.is_between => {
+                ((graph.bound?.value)(solution, station)?, DIGITS_BETWEEN)
             }
-        })
+            CurveSource::Bound(_) => ((graph.bound?.value)(solution, station)?, column.digits),
+            _ => {
+                let value = column.resolved(column.of(solution, station)?, inputs, solution);
+                (value, column.digits_of(&interpolated))
+            }
+        };
+        let most = self.pieces.iter().flatten().map(|(_, y)| y.abs()).fold(0.0, f64::max);
+        let is_zero = (value / factor).abs() < ROUNDING * most;
+        Some((if is_zero { 0.0 } else { value }, digits))
     }
+}
 
-    fn points(&self) -> impl Iterator<Item = Point> {
-        self.pieces.iter().flatten().copied()
+/// The value of a curve at a place, interpolated between its points. At a jump, the value after it.
+#[must_use]
+pub(crate) fn value_at(pieces: &[Vec<Point>], x: f64) -> Option<f64> {
+    pieces.iter().find_map(|piece| {
+        let after = piece.partition_point(|point| point.0 <= x);
+        let before = piece.get(after.checked_sub(1)?)?;
+        let rounding = 1e-12 * x.abs();
+        match piece.get(after) {
+            Some(next) => {
+                Some(before.1 + (next.1 - before.1) * (x - before.0) / (next.0 - before.0))
+            }
+            None => (x <= before.0 + rounding).then_some(before.1),
+        }
+    })
+}
+
+impl Charts<'_> {
+    /// Whether another method has a curve beside the active one: `paper` only on request.
+    pub(super) fn shows_beside(&self, method: Method) -> bool {
+        method != Method::Paper || self.shows_every_method
     }
 }
 
@@ -122,14 +164,13 @@ pub fn curves<'a>(charts: &Charts<'a>, graph: &Graph) -> Vec<Curve<'a>> {
     let Some(answer) = charts.answer else {
         return Vec::new();
     };
-    let system = charts.units;
     if let Some(column) = graph.by_model {
-        return models(answer, column, system);
+        return models(answer, column, charts.units.unit(column.shown));
     }
     let of = |answer: &'a Answer, method: Method, source: CurveSource| {
         let (inputs, solution) = (&answer.inputs, answer.of(method)?);
         let column = graph.column(method)?;
-        let unit = system.unit(column.shown);
+        let unit = charts.units.unit(column.shown);
         let is_bound = matches!(source, CurveSource::Bound(_));
         let kind = if is_bound { Kind::Bound } else { Kind::Curve };
         let (symbol, pieces) = curve(graph, inputs, solution, (unit, kind))?;
@@ -143,7 +184,7 @@ pub fn curves<'a>(charts: &Charts<'a>, graph: &Graph) -> Vec<Curve<'a>> {
         of(baseline, method, CurveSource::Pinned(method))
     });
     let others = answer.methods.iter().map(|(method, _)| *method);
-    let others = others.filter(|method| *method != active);
+    let others = others.filter(|&method| method != active && charts.shows_beside(method));
     let others = others.filter_map(|method| of(answer, method, CurveSource::Other(method)));
     let bound = of(answer, active, CurveSource::Bound(""));
     let own = of(answer, active, CurveSource::Active(active));
@@ -152,13 +193,11 @@ pub fn curves<'a>(charts: &Charts<'a>, graph: &Graph) -> Vec<Curve<'a>> {
 
 /// The mesh stiffness by every compliance model: that of the case is last, on top of the others, and
 /// the elastic field is below it.
-fn models<'a>(answer: &Answer, column: &'static Column, system: System) -> Vec<Curve<'a>> {
+fn models<'a>(answer: &Answer, column: &'static Column, unit: &'static str) -> Vec<Curve<'a>> {
     let Some(Ok(found)) = &answer.stiffness else {
         return Vec::new();
     };
-    let unit = system.unit(column.shown);
-    let factor = units::factor(unit).unwrap_or(1.0);
-    let own = model_of(&answer.inputs);
+    let (factor, own) = (units::factor(unit).unwrap_or(1.0), model_of(&answer.inputs));
     let of_model = |(at, &model): (usize, &ToothCompliance)| {
         let points = found.mesh_curve(at);
         let points = points.map(|(angle, value)| (angle.to_degrees(), Some(value / factor)));
@@ -180,24 +219,6 @@ pub fn is_field(source: CurveSource) -> bool {
     matches!(source, CurveSource::Model { model, .. } if model.model().has_coupling)
 }
 
-/// The marker and the style of a curve.
-#[must_use]
-pub(crate) fn look(charts: &Charts, source: CurveSource) -> Look {
-    let theme = charts.look.theme;
-    let (marker, style) = match source {
-        CurveSource::Active(_) => (charts.marker, theme.active),
-        source if is_field(source) => (charts.marker, theme.active),
-        CurveSource::Other(method) => (sign_of(method), theme.other),
-        CurveSource::Model { model, .. } => {
-            let is_first = Some(&model) == ToothCompliance::ALL.first();
-            (Marker::Custom(if is_first { '×' } else { '∘' }), theme.other)
-        }
-        CurveSource::Pinned(_) => (Marker::Custom('+'), theme.baseline),
-        CurveSource::Bound(_) => (Marker::Custom('╌'), theme.rule),
-    };
-    (marker, if charts.is_stale { style.patch(theme.faint) } else { style })
-}
-
 /// The sign of a method beside the active one.
 pub(crate) fn sign_of(method: Method) -> Marker {
     Marker::Custom(match method {
@@ -212,12 +233,12 @@ pub(crate) fn sign_of(method: Method) -> Marker {
 #[must_use]
 pub fn readout(charts: &Charts, cursor: f64) -> String {
     let graphs = charts.shown();
-    let chosen = if graphs.is_empty() { vec![charts.pane.graph] } else { graphs };
+    let chosen = if graphs.is_empty() { vec![charts.pane.graph()] } else { graphs };
     let values = |graph: usize, is_seen: bool| {
         let (graph, all) = (&GRAPHS[graph], curves(charts, &GRAPHS[graph]));
         let all = all.iter().rev();
         let all = all.filter(|curve| is_seen || matches!(curve.source, CurveSource::Active(_)));
-        let readings = all.filter_map(|curve| Some((curve, reading(graph, curve, cursor)?)));
+        let readings = all.filter_map(|curve| Some((curve, curve.reading(graph, cursor)?)));
         in_words(charts, &readings.collect::<Vec<_>>())
     };
     let mut parts: Vec<String> = chosen.iter().filter_map(|&graph| values(graph, true)).collect();
@@ -229,11 +250,10 @@ pub fn readout(charts: &Charts, cursor: f64) -> String {
 }
 
 fn place_of_cursor(charts: &Charts, cursor: f64) -> String {
-    let (side, degrees) =
-        (if cursor < 0.0 { "after" } else { "before" }, cursor.abs().to_degrees());
-    if degrees == 0.0 {
+    if cursor == 0.0 {
         return "At E".to_owned();
     }
+    let side = if cursor < 0.0 { "after" } else { "before" };
     let speed = charts.answer.map_or(0.0, |answer| answer.inputs.speed);
     let micros = 1e6 * cursor.abs() / speed;
     let time = if charts.pane.by_time && micros.is_finite() {
@@ -241,7 +261,7 @@ fn place_of_cursor(charts: &Charts, cursor: f64) -> String {
     } else {
         String::new()
     };
-    format!("{degrees:.4} deg of the driver {side} E{time}")
+    format!("{:.4} deg of the driver {side} E{time}", cursor.abs().to_degrees())
 }
 
 /// Values in SI with their numbers of significant digits, in the unit of the greatest value.
@@ -257,30 +277,6 @@ fn in_words(charts: &Charts, readings: &[(&Curve, (f64, usize))]) -> Option<Stri
         format!("{} {}", curve.name(charts), value.trim_end())
     });
     Some(words.collect::<Vec<_>>().join(", "))
-}
-
-/// The value in SI from the same evaluation as in the teeth pane, not from the drawn line, with its
-/// number of significant digits.
-fn reading(graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
-    let (column, factor) = (curve.column, units::factor(curve.unit).unwrap_or(1.0));
-    let (value, digits) = match curve.solved {
-        None => (curve.at(0.0 - cursor.to_degrees())? * factor, column.digits),
-        Some((inputs, solution)) => {
-            let interpolated = Interpolated::at(inputs, solution, cursor)?;
-            let station = &interpolated.station;
-            if let CurveSource::Bound(_) = curve.source {
-                let is_between = interpolated.is_between;
-                let digits = if is_between { DIGITS_BETWEEN } else { column.digits };
-                ((graph.bound?.value)(solution, station)?, digits)
-            } else {
-                let value = column.resolved(column.of(solution, station)?, inputs, solution);
-                (value, column.digits_of(&interpolated))
-            }
-        }
-    };
-    let most = curve.points().map(|(_, y)| y.abs()).fold(0.0, f64::max);
-    let is_zero = (value / factor).abs() < ROUNDING * most;
-    Some((if is_zero { 0.0 } else { value }, digits))
 }
 
 #[cfg(test)]
@@ -306,7 +302,7 @@ mod tests {
             (1.1, None),
             (-1.1, None),
         ] {
-            assert_eq!(curve.at(x), y, "{x}");
+            assert_eq!(value_at(&curve.pieces, x), y, "{x}");
         }
         assert_eq!(curve.upright_within(Span::new(-0.5, 0.5)), Span::new(2.0, 8.0));
     }

@@ -1,7 +1,7 @@
 //! The axes of the charts, the range of roll angles of the incoming tooth, and the visible range.
 
 use crate::case::units::System;
-use crate::model::Solution;
+use crate::model::{Solution, Station};
 use crate::model::inputs::Method;
 use crate::report::chart::Span;
 use crate::report::graphs::GRAPHS;
@@ -136,37 +136,19 @@ pub(crate) fn last_contact(solution: &Solution) -> Option<f64> {
     last.map(|station| station.roll_angle_driver)
 }
 
-/// The range from the first to the last station of all methods, in deg after E.
-pub(super) fn way_of_all(answer: &Answer) -> Span {
-    answer
-        .methods
-        .iter()
-        .filter_map(|(_, found)| found.as_ref().ok())
-        .map(way_of)
-        .fold(Span::NONE, Span::and)
-}
-
 /// The range of the path of contact with its mesh stiffness, in deg after E.
-pub(crate) fn path(answer: &Answer) -> Span {
+pub(super) fn path(answer: &Answer) -> Span {
     let Some(Ok(found)) = &answer.stiffness else {
         return Span::NONE;
     };
-    let ways = found.points.iter().map(|point| point.way / found.base_radius);
-    ways.fold(Span::NONE, |span, angle| span.with(angle.to_degrees()))
+    Span::of(found.points.iter().map(|point| (point.way / found.base_radius).to_degrees()))
 }
 
-/// The range of the stations of one method, in deg after E.
-pub(crate) fn angle_range_of(answer: &Answer, method: Method) -> Span {
-    answer.of(method).map_or(Span::NONE, way_of)
-}
-
-fn way_of(solution: &Solution) -> Span {
+/// The range of the stations of a method, in deg after E.
+pub(super) fn way(solution: &Solution) -> Span {
     let rows = solution.own_stations();
-    [rows.first(), rows.last()]
-        .into_iter()
-        .flatten()
-        .map(crate::model::stations::Station::angle_after_e)
-        .fold(Span::NONE, Span::with)
+    let ends = [rows.first(), rows.last()].into_iter().flatten();
+    Span::of(ends.map(Station::angle_after_e))
 }
 
 #[cfg(test)]

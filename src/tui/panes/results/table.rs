@@ -15,7 +15,7 @@ use crate::model::quantities::Need;
 use crate::model::{QUANTITIES, Quantity, Solution, Stages};
 use crate::report::compare::difference;
 use crate::report::verdict::{Standing, verdict};
-use crate::report::{self, Shown, value_as_in};
+use crate::report::{self, value_as_in};
 use crate::tui::ascii::symbol;
 use crate::tui::solver::Answer;
 use crate::tui::text;
@@ -42,33 +42,16 @@ const FIRST: [&str; 15] = [
 /// Marks after a value that the last edit changed, and after a value above its limit.
 const CHANGED: &str = "←";
 const EXCEEDED: &str = "!";
-/// Texts of an absent value and of a refused variant.
+/// The text of an absent value.
 const NONE: &str = "–";
-const REFUSED: &str = "refused";
 /// A longer name of a variant is cut.
 const LONGEST_NAME: usize = 18;
-/// Least widths of the equations and of the units, which are cut in a narrow pane.
-const LEAST_EQUATION: usize = 12;
-const LEAST_UNIT: usize = 5;
 
-/// In a narrow pane columns give way in this order; the last ones remain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Rank {
-    Equation,
-    /// A method or a variant beyond the second one.
-    Further,
-    Label,
-    /// The second method, or the case beside its variants.
-    Second,
-    Baseline,
-    Kept,
-    /// The units are cut before the second method or the baseline gives way.
-    Unit,
-}
-
-/// A column with a cell for each quantity.
+/// A column with a cell for each quantity. In a narrow pane, the columns of the highest rank are
+/// removed first, and those of rank 0 remain; a column is cut to its least width before.
 struct Column {
-    rank: Rank,
+    rank: usize,
+    least: usize,
     heading: String,
     cells: Vec<String>,
     alignment: Alignment,
@@ -76,37 +59,41 @@ struct Column {
     styles: [Style; 2],
 }
 
+/// The rank of the units, which are cut but not removed.
+const UNITS: usize = 1;
+
 impl Column {
-    fn words(rank: Rank, cells: impl Iterator<Item = String>, style: Style) -> Column {
+    fn words(rank: usize, least: usize, cells: Vec<String>, style: Style) -> Column {
         let (heading, alignment) = (String::new(), Alignment::Left);
-        Column { rank, heading, cells: cells.collect(), alignment, styles: [style; 2] }
+        Column { rank, least, heading, cells, alignment, styles: [style; 2] }
     }
 
-    fn numbers(rank: Rank, heading: String, cells: Vec<String>, styles: [Style; 2]) -> Column {
-        Column { rank, heading, cells, alignment: Alignment::Right, styles }
+    fn numbers(rank: usize, heading: String, cells: Vec<String>, styles: [Style; 2]) -> Column {
+        let (least, alignment) = (usize::MAX, Alignment::Right);
+        Column { rank, least, heading, cells, alignment, styles }
     }
 
     fn width(&self) -> usize {
         let texts = self.cells.iter().chain([&self.heading]);
         texts.map(|text| text.width()).max().unwrap_or(0)
     }
-
-    fn cell(&self, text: &str, style: Style) -> Text<'static> {
-        Text::styled(text.to_owned(), style).alignment(self.alignment)
-    }
 }
 
-/// The quantities that at least one method has: first those with a value, the most important ones
-/// before the others in the order of the active method.
-pub(super) fn order(answer: &Answer) -> Vec<&'static Quantity> {
+/// The visible quantities: those of the method, the most important ones first and those without a
+/// value last. The free impact beside a method that resolves the impact is folded away unless
+/// every method is shown.
+pub(super) fn order(pane: &Results<'_>, answer: &Answer) -> Vec<&'static Quantity> {
     let methods = || answer.methods.iter().map(|(method, _)| *method);
     let stages = methods().fold(Stages::NONE, |stages, method| stages.and(method.stages()));
     let has_friction = answer.inputs.friction_coefficient.is_some();
+    let is_folded = answer.active.shares_load() && !pane.shows_every_method;
     let first = FIRST.iter().filter_map(|key| Quantity::find(key));
     let rest = report::quantities(answer.active).filter(|quantity| {
         !FIRST.contains(&quantity.key) && (has_friction || quantity.needs != Need::Friction)
     });
-    let listed = first.chain(rest).filter(|quantity| stages.has(quantity.stage));
+    let listed = first.chain(rest).filter(|quantity| {
+        stages.has(quantity.stage) && !(is_folded && quantity.is_of_free_impact())
+    });
     let has_value =
         |quantity: &&Quantity| methods().any(|method| value(answer, method, quantity).is_some());
     let (mut known, unknown): (Vec<_>, Vec<_>) = listed.partition(has_value);
@@ -126,18 +113,19 @@ pub(crate) fn label(quantity: &Quantity, active: Method) -> Cow<'static, str> {
 
 /// The table in the width of the pane.
 pub(super) fn table(pane: &Results<'_>, answer: &Answer) -> Table<'static> {
-    let columns = Content::of(pane, answer).fitting();
     let theme = pane.look.theme;
     let is_outdated = pane.variants.is_some_and(|(variants, _)| variants.serial != answer.serial);
-    let heading = columns.iter().map(|column| column.cell(&column.heading, column.styles[0]));
-    let row = |at: usize| {
-        let cells = columns.iter().map(|column| column.cell(&column.cells[at], column.styles[1]));
-        Row::new(cells.collect::<Vec<_>>())
+    let columns = fitting(pane, answer);
+    let row = |text: fn(&Column, usize) -> &str, part: usize, at: usize| {
+        Row::new(columns.iter().map(|column| {
+            let text = text(column, at).to_owned();
+            Text::styled(text, column.styles[part]).alignment(column.alignment)
+        }))
     };
-    let count = columns.first().map_or(0, |column| column.cells.len());
+    let rows = 0..columns.first().map_or(0, |column| column.cells.len());
     let widths = columns.iter().map(|column| Constraint::Length(column.width() as u16));
-    Table::new((0..count).map(row), widths)
-        .header(Row::new(heading.collect::<Vec<_>>()))
+    Table::new(rows.map(|at| row(|column, at| &column.cells[at], 1, at)), widths)
+        .header(row(|column, _| &column.heading, 0, 0))
         .style(if pane.is_stale || is_outdated { theme.faint } else { Style::new() })
         .highlight_symbol(Text::styled("▸", theme.focus))
         .highlight_spacing(HighlightSpacing::Always)
@@ -146,7 +134,7 @@ pub(super) fn table(pane: &Results<'_>, answer: &Answer) -> Table<'static> {
 /// The number of variants that fit side by side: the columns after the one of the units, which has
 /// no heading.
 pub(super) fn variants_page(pane: &Results<'_>) -> usize {
-    let shown = pane.answer.map(|answer| Content::of(pane, answer).fitting());
+    let shown = pane.answer.map(|answer| fitting(pane, answer));
     let is_variant = |column: &&Column| !column.heading.is_empty();
     shown.map_or(1, |shown| shown.iter().rev().take_while(is_variant).count().max(1))
 }
@@ -156,8 +144,9 @@ pub(super) fn variants_page(pane: &Results<'_>) -> usize {
 pub(crate) fn compared(pane: &Results<'_>, quantity: &Quantity) -> Option<String> {
     let answer = pane.answer?;
     let (method, base) = base(pane, answer, quantity)?;
-    let printed = |value: Option<f64>| {
-        value.map_or_else(|| "none".to_owned(), |value| shown_in(pane, quantity, value).to_string())
+    let printed = |value: Option<f64>| match value {
+        Some(value) => report::shown_in(quantity, value, pane.units).to_string(),
+        None => "none".to_owned(),
     };
     let whose =
         if method == answer.active { String::new() } else { format!(" ({})", method.name()) };
@@ -165,161 +154,116 @@ pub(crate) fn compared(pane: &Results<'_>, quantity: &Quantity) -> Option<String
     Some(format!("{own}; baseline{whose}: {}.", printed(base)))
 }
 
-/// The quantities with the methods that have a column and the units of the values.
-struct Content<'a> {
-    pane: &'a Results<'a>,
-    answer: &'a Answer,
-    known: Vec<&'static Quantity>,
-    methods: Vec<Method>,
-    units: Vec<&'static str>,
+/// The columns that fit, each after a blank.
+fn fitting(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
+    let mut columns = columns(pane, answer);
+    loop {
+        let taken: usize = columns.iter().map(|column| column.width() + 1).sum();
+        let over = taken.saturating_sub(pane.area.width.into());
+        let last = columns.iter().enumerate().max_by_key(|(_, column)| column.rank);
+        let Some((at, last)) = last.filter(|(_, last)| over > 0 && last.rank > 0) else {
+            return columns;
+        };
+        let room = last.width().saturating_sub(over);
+        if room >= last.least {
+            columns[at].cells.iter_mut().for_each(|cell| *cell = text::cut(cell, room));
+        } else if last.rank == UNITS {
+            return columns;
+        } else {
+            columns.remove(at);
+        }
+    }
 }
 
-impl<'a> Content<'a> {
-    fn of(pane: &'a Results<'a>, answer: &'a Answer) -> Content<'a> {
-        let (known, active) = (order(answer), answer.active);
-        // Results of `static` are among the rows of `dynamic`.
-        let is_column = |method: Method| match pane.variants {
-            Some(_) => method == active,
-            None => active != Method::Dynamic || method != Method::Static,
-        };
-        let methods: Vec<Method> = answer.methods.iter().map(|(method, _)| *method).collect();
-        let methods: Vec<Method> =
-            methods.into_iter().filter(|method| is_column(*method)).collect();
-        let variants = pane.variants.map_or(&[][..], |(variants, _)| &variants.columns);
-        let unit = |quantity: &&'static Quantity| {
-            let of_methods = methods.iter().filter_map(|&method| value(answer, method, quantity));
-            let of_variants = variants
-                .iter()
-                .filter_map(|(_, found)| value_as_in(quantity, found.as_ref().ok()?, active));
-            report::common_unit(quantity, of_methods.chain(of_variants), pane.units)
-        };
-        let units = known.iter().map(unit).collect();
-        Content { pane, answer, known, methods, units }
-    }
-
-    /// The columns that fit, each after a blank. The fastest method, which is the least accurate
-    /// one, and the last variant give way first.
-    fn fitting(&self) -> Vec<Column> {
-        let mut columns = self.columns();
-        let width = usize::from(self.pane.area.width);
-        loop {
-            let taken: usize = columns.iter().map(|column| column.width() + 1).sum();
-            let over = taken.saturating_sub(width);
-            let ranks = columns.iter().map(|column| column.rank);
-            let Some(least) = ranks.min().filter(|least| over > 0 && *least < Rank::Kept) else {
-                return columns;
-            };
-            let (cut, narrowest) = match least {
-                Rank::Equation => (Rank::Equation, LEAST_EQUATION),
-                Rank::Further | Rank::Label => (Rank::Unit, usize::MAX),
-                _ => (Rank::Unit, LEAST_UNIT),
-            };
-            let cut = columns.iter_mut().find(|column| column.rank == cut);
-            if let Some(column) = cut
-                && column.width().saturating_sub(over) >= narrowest
-            {
-                let room = column.width() - over;
-                column.cells.iter_mut().for_each(|cell| *cell = text::cut(cell, room));
-                continue;
+fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
+    let (theme, active, known) = (pane.look.theme, answer.active, order(pane, answer));
+    // Results of `static` are among the rows of `dynamic`.
+    let shows_others = pane.shows_every_method && pane.variants.is_none();
+    let is_shown = |method: Method| {
+        let is_among_rows = active == Method::Dynamic && method == Method::Static;
+        method == active || (shows_others && !is_among_rows)
+    };
+    let methods = answer.methods.iter().map(|(method, _)| *method);
+    let methods: Vec<Method> = methods.filter(|method| is_shown(*method)).collect();
+    let variants = pane.variants.map_or(&[][..], |(variants, _)| &variants.columns);
+    let unit = |quantity: &&'static Quantity| {
+        let of_methods = methods.iter().filter_map(|&method| value(answer, method, quantity));
+        let of_variants = variants
+            .iter()
+            .filter_map(|(_, found)| value_as_in(quantity, found.as_ref().ok()?, active));
+        report::common_unit(quantity, of_methods.chain(of_variants), pane.units)
+    };
+    let units: Vec<&str> = known.iter().map(unit).collect();
+    let own = |at: usize| value(answer, active, known[at]);
+    let number = |at: usize, value: Option<f64>| {
+        let shown = |value| report::shown_with(known[at], value, units[at]).number;
+        value.map_or_else(|| NONE.to_owned(), shown)
+    };
+    let cells = |cell: &dyn Fn(usize) -> String| (0..known.len()).map(cell).collect::<Vec<_>>();
+    let symbols =
+        cells(&|at| symbol(known[at].symbol_in(active), pane.look.ascii).into_owned());
+    let labels = cells(&|at| label(known[at], active).into_owned());
+    let mut columns = vec![
+        Column::words(0, 0, symbols, Style::new()),
+        Column::words(90, 10, labels, Style::new()),
+    ];
+    for (at, &method) in methods.iter().enumerate() {
+        let numbers = cells(&|at| number(at, value(answer, method, known[at])));
+        let (rank, heading, styles) = match pane.variants {
+            Some(_) => (2, "case".to_owned(), [theme.active, theme.focus]),
+            None if method == active => {
+                (0, format!("▸{}", method.name()), [theme.active, theme.focus])
             }
-            let is_least = |column: &Column| column.rank == least;
-            let found = match self.pane.variants {
-                Some(_) => columns.iter().rposition(is_least),
-                None => columns.iter().position(is_least),
-            };
-            columns.remove(found.unwrap_or(0));
-        }
-    }
-
-    fn columns(&self) -> Vec<Column> {
-        let (pane, answer, known) = (self.pane, self.answer, &self.known);
-        let (theme, active) = (pane.look.theme, answer.active);
-        let symbols = known.iter().map(|known| symbol(known.symbol_in(active), pane.look.ascii));
-        let labels = known.iter().map(|known| label(known, active));
-        let plain = Style::new();
-        let mut columns = vec![
-            Column::words(Rank::Kept, symbols.map(Cow::into_owned), plain),
-            Column::words(Rank::Label, labels.map(Cow::into_owned), plain),
-        ];
-        columns.extend((0..self.methods.len()).map(|at| self.of_method(at)));
-        let units = known.iter().zip(&self.units).map(|(known, &unit)| {
-            let has_value =
-                self.methods.iter().any(|&method| value(answer, method, known).is_some());
-            let unit = if has_value { report::shown_with(known, 0.0, unit).unit } else { "" };
-            let mark = if pane.variants.is_some() { "" } else { mark(pane, answer, known) };
-            [unit, mark].join(" ").trim().to_owned()
-        });
-        columns.push(Column::words(Rank::Unit, units, plain));
-        if let Some((variants, first)) = pane.variants {
-            let variants = variants.columns.iter().skip(first).enumerate();
-            columns.extend(variants.map(|(at, (name, found))| self.of_variant(at, name, found)));
-        } else if pane.baseline.is_some() {
-            let cells = (0..known.len()).map(|at| self.difference_to_base(at)).collect();
-            let styles = [theme.baseline; 2];
-            columns.push(Column::numbers(Rank::Baseline, "baseline".to_owned(), cells, styles));
-        } else {
-            let equations = known.iter().map(|quantity| quantity.equation.to_owned());
-            columns.push(Column::words(Rank::Equation, equations, theme.faint));
-        }
-        columns
-    }
-
-    fn of_method(&self, at: usize) -> Column {
-        let (theme, method) = (self.pane.look.theme, self.methods[at]);
-        let is_active = method == self.answer.active;
-        let (rank, heading) = match (self.pane.variants, self.methods.len() - at) {
-            (Some(_), _) => (Rank::Second, "case".to_owned()),
-            (None, _) if is_active => (Rank::Kept, format!("▸{}", method.name())),
-            (None, left) => {
-                let rank = if left > 2 { Rank::Further } else { Rank::Second };
-                (rank, method.name().to_owned())
-            }
+            // The fastest method, which is the least accurate one, is removed first.
+            None => (50 - at, method.name().to_owned(), [theme.other, Style::new()]),
         };
-        let value = |at: usize| self.number(at, value(self.answer, method, self.known[at]));
-        let cells = (0..self.known.len()).map(value).collect();
-        let styles =
-            if is_active { [theme.active, theme.focus] } else { [theme.other, Style::new()] };
-        Column::numbers(rank, heading, cells, styles)
+        columns.push(Column::numbers(rank, heading, numbers, styles));
     }
-
-    /// The values of a variant and their differences from the case.
-    fn of_variant(&self, at: usize, name: &str, found: &Result<Solution, String>) -> Column {
-        let cell = |at: usize| {
-            let Ok(found) = found else { return [REFUSED.to_owned(), String::new()] };
-            let quantity = self.known[at];
-            let now = value_as_in(quantity, found, self.answer.active);
-            let now = now.filter(|now| now.is_finite());
-            let by = now.zip(self.own(at));
-            let by = by.map(|(now, own)| difference(quantity, now, own, self.units[at]));
-            [self.number(at, now), by.unwrap_or_default()]
-        };
-        let cells: Vec<[String; 2]> = (0..self.known.len()).map(cell).collect();
-        let widest = |part: usize| cells.iter().map(|cell| cell[part].width()).max().unwrap_or(0);
-        let (left, right) = (widest(0), widest(1));
-        let cells = cells.iter().map(|[now, by]| format!("{now:>left$} {by:>right$}")).collect();
-        let rank = [Rank::Kept, Rank::Second].get(at).copied().unwrap_or(Rank::Further);
-        let styles = [self.pane.look.theme.other, Style::new()];
-        Column::numbers(rank, text::cut(name, LONGEST_NAME), cells, styles)
-    }
-
-    fn difference_to_base(&self, at: usize) -> String {
-        let quantity = self.known[at];
-        match (self.own(at), base(self.pane, self.answer, quantity)) {
-            (Some(now), Some((_, Some(base)))) => difference(quantity, now, base, self.units[at]),
-            (None, Some((_, Some(base)))) => format!("was {}", self.number(at, Some(base))),
+    let of_unit = |at: usize| {
+        let has_value = methods.iter().any(|&method| value(answer, method, known[at]).is_some());
+        let unit =
+            if has_value { report::shown_with(known[at], 0.0, units[at]).unit } else { "" };
+        let mark = if pane.variants.is_some() { "" } else { mark(pane, answer, known[at]) };
+        [unit, mark].join(" ").trim().to_owned()
+    };
+    columns.push(Column::words(UNITS, 5, cells(&of_unit), Style::new()));
+    if let Some((variants, first)) = pane.variants {
+        let plain = [theme.other, Style::new()];
+        for (at, (name, found)) in variants.columns.iter().skip(first).enumerate() {
+            let pair = |at: usize| variant_cell(found, known[at], (own(at), active, units[at]));
+            let pairs: Vec<_> = (0..known.len()).map(pair).collect();
+            let right = pairs.iter().map(|pair| pair[1].width()).max().unwrap_or(0);
+            let pairs = pairs.iter().map(|[now, by]| format!("{now} {by:>right$}")).collect();
+            let rank = if at == 0 { 0 } else { 2 + at };
+            columns.push(Column::numbers(rank, text::cut(name, LONGEST_NAME), pairs, plain));
+        }
+    } else if pane.baseline.is_some() {
+        let difference = |at: usize| match (own(at), base(pane, answer, known[at])) {
+            (Some(now), Some((_, Some(base)))) => difference(known[at], now, base, units[at]),
+            (None, Some((_, Some(base)))) => format!("was {}", number(at, Some(base))),
             (Some(_), _) => "was none".to_owned(),
             (None, _) => String::new(),
-        }
+        };
+        let heading = "baseline".to_owned();
+        columns.push(Column::numbers(0, heading, cells(&difference), [theme.baseline; 2]));
+    } else {
+        let equations = cells(&|at| known[at].equation.to_owned());
+        columns.push(Column::words(99, 12, equations, theme.faint));
     }
+    columns
+}
 
-    fn own(&self, at: usize) -> Option<f64> {
-        value(self.answer, self.answer.active, self.known[at])
-    }
-
-    fn number(&self, at: usize, value: Option<f64>) -> String {
-        let shown = |value| report::shown_with(self.known[at], value, self.units[at]).number;
-        value.map_or_else(|| NONE.to_owned(), shown)
-    }
+/// The value of a quantity in a variant and its difference from the value of the case.
+fn variant_cell(
+    found: &Result<Solution, String>,
+    quantity: &Quantity,
+    (own, active, unit): (Option<f64>, Method, &'static str),
+) -> [String; 2] {
+    let Ok(found) = found else { return ["refused".to_owned(), String::new()] };
+    let now = value_as_in(quantity, found, active).filter(|now| now.is_finite());
+    let Some(now) = now else { return [NONE.to_owned(), String::new()] };
+    let by = own.map_or_else(String::new, |own| difference(quantity, now, own, unit));
+    [report::shown_with(quantity, now, unit).number, by]
 }
 
 // The mark of a quantity: above its limit, or changed.
@@ -333,13 +277,10 @@ fn mark(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> &'static st
     // Whether the present visit of a field changed the printed value of the quantity.
     let at = QUANTITIES.iter().position(|known| known.key == quantity.key);
     let before = pane.earlier.zip(at).map(|(earlier, at)| earlier.get(at).copied().flatten());
-    let printed = |value: Option<f64>| value.map(|value| shown_in(pane, quantity, value));
+    let printed =
+        |value: Option<f64>| value.map(|value| report::shown_in(quantity, value, pane.units));
     let is_changed = |before| printed(before) != printed((quantity.value)(solution));
     if before.is_some_and(is_changed) { CHANGED } else { "" }
-}
-
-fn shown_in(pane: &Results<'_>, quantity: &Quantity, value: f64) -> Shown {
-    report::shown_in(quantity, value, pane.units)
 }
 
 fn value(answer: &Answer, method: Method, quantity: &Quantity) -> Option<f64> {
