@@ -88,14 +88,8 @@ impl Pane {
     /// The place of keys while the pane has the focus and no field is edited.
     #[must_use]
     pub(crate) const fn place(self) -> Place {
-        [
-            Place::FIELD,
-            Place::RESULTS,
-            Place::CHART,
-            Place::TEETH,
-            Place::TRADE,
-            Place::STUDY,
-        ][self as usize]
+        [Place::FIELD, Place::RESULTS, Place::CHART, Place::TEETH, Place::TRADE, Place::STUDY]
+            [self as usize]
     }
 
     /// The pane `by` places further, wrapping around.

@@ -9,7 +9,7 @@ use directories::ProjectDirs;
 use ratatui::symbols::Marker;
 use toml_edit::{DocumentMut, Item, Value};
 
-use super::theme::{Look, ThemeName};
+use super::theme::{Look, Theme};
 use crate::case::file::{self, SaveError};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
@@ -29,7 +29,7 @@ pub struct Settings {
     /// Whether the workbench uses the mouse.
     pub mouse: bool,
     /// The colours; by default those of the environment.
-    pub(crate) theme: Option<ThemeName>,
+    pub(crate) theme: Option<&'static Theme>,
     /// The display units.
     pub units: System,
     /// Whether the screen uses only ASCII, even if the terminal supports Unicode.
@@ -61,8 +61,7 @@ impl Settings {
         Settings {
             marker: word("marker").and_then(marker_of).unwrap_or(usual.marker),
             mouse: flag("mouse").unwrap_or(usual.mouse),
-            theme: word("theme")
-                .and_then(|name| ThemeName::ALL.into_iter().find(|theme| theme.name() == name)),
+            theme: word("theme").and_then(Theme::find),
             units: word("units").and_then(System::find).unwrap_or(usual.units),
             ascii: flag("ascii").unwrap_or(usual.ascii),
         }
@@ -89,7 +88,7 @@ impl Settings {
         };
         set("marker", Some(marker_name(self.marker).into()));
         set("mouse", Some(self.mouse.into()));
-        set("theme", self.theme.map(|theme| theme.name().into()));
+        set("theme", self.theme.map(|theme| theme.name.into()));
         set("units", Some(self.units.name().into()));
         set("ascii", self.ascii.then(|| true.into()));
         Ok(file.to_string())
@@ -137,8 +136,7 @@ impl Settings {
     /// characters that the environment lacks.
     #[must_use]
     pub(crate) fn look(self, able: Look, variable: impl Fn(&str) -> bool) -> Look {
-        let theme =
-            self.theme.filter(|_| !variable("NO_COLOR")).map_or(able.theme, ThemeName::theme);
+        let theme = self.theme.filter(|_| !variable("NO_COLOR")).unwrap_or(able.theme);
         Look { theme, ascii: self.ascii || able.ascii }
     }
 }
@@ -177,7 +175,7 @@ mod tests {
     use std::fs::Permissions;
     use std::os::unix::fs::{PermissionsExt, symlink};
 
-    use crate::tui::theme::{MONO, QUIET};
+    use crate::tui::theme::{MONO, QUIET, THEMES};
 
     #[test]
     fn unknown_settings_remain_in_the_file() {
@@ -195,7 +193,7 @@ mod tests {
 
     #[test]
     fn every_setting_is_saved_and_read() {
-        for theme in ThemeName::ALL.map(Some).into_iter().chain([None]) {
+        for theme in THEMES.map(Some).into_iter().chain([None]) {
             for (units, ascii) in
                 [(System::Metric, false), (System::Inch, true), (System::Inch, false)]
             {
@@ -246,7 +244,7 @@ mod tests {
 
     #[test]
     fn no_color_overrides_the_theme_of_the_settings() {
-        let settings = Settings { theme: Some(ThemeName::Quiet), ..Settings::default() };
+        let settings = Settings { theme: Some(&QUIET), ..Settings::default() };
         assert_eq!(settings.look(Look { theme: &MONO, ascii: false }, |_| true).theme, &MONO);
         assert_eq!(settings.look(Look { theme: &MONO, ascii: false }, |_| false).theme, &QUIET);
     }

@@ -7,6 +7,8 @@ use ratatui::style::{Color, Modifier, Style};
 /// The style of each kind of text. No meaning depends on colour alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Theme {
+    /// The name in the settings.
+    pub(crate) name: &'static str,
     /// Titles of panes and groups.
     pub(crate) title: Style,
     /// Rules and axes.
@@ -35,44 +37,19 @@ pub struct Theme {
     pub(crate) path: Style,
 }
 
-/// The names of the themes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ThemeName {
-    /// A few of the terminal's own colours.
-    Quiet,
-    /// Bright colours and bold letters.
-    Contrast,
-    /// No colours.
-    Mono,
-}
+/// Every theme.
+pub(crate) static THEMES: [&Theme; 3] = [&QUIET, &CONTRAST, &MONO];
 
-impl ThemeName {
-    /// Every theme.
-    pub(crate) const ALL: [ThemeName; 3] = [ThemeName::Quiet, ThemeName::Contrast, ThemeName::Mono];
-
-    /// The name in the settings.
-    #[must_use]
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            ThemeName::Quiet => "quiet",
-            ThemeName::Contrast => "contrast",
-            ThemeName::Mono => "mono",
-        }
+impl Theme {
+    /// The theme with a name in the settings.
+    pub(crate) fn find(name: &str) -> Option<&'static Theme> {
+        THEMES.into_iter().find(|theme| theme.name == name)
     }
 
-    #[must_use]
-    pub(crate) fn theme(self) -> &'static Theme {
-        match self {
-            ThemeName::Quiet => &QUIET,
-            ThemeName::Contrast => &CONTRAST,
-            ThemeName::Mono => &MONO,
-        }
-    }
-
-    /// The name of a theme.
-    #[must_use]
-    pub(crate) fn of(theme: &Theme) -> ThemeName {
-        ThemeName::ALL.into_iter().find(|name| name.theme() == theme).unwrap_or(ThemeName::Quiet)
+    /// The next theme, wrapping around.
+    pub(crate) fn next(&self) -> &'static Theme {
+        let at = THEMES.iter().position(|theme| *theme == self).unwrap_or(0);
+        THEMES[(at + 1) % THEMES.len()]
     }
 }
 
@@ -87,6 +64,7 @@ pub struct Look {
 
 /// Attributes and a few of the terminal's own colours.
 pub(crate) static QUIET: Theme = Theme {
+    name: "quiet",
     title: Style::new().fg(Color::Cyan).add_modifier(Modifier::BOLD),
     rule: Style::new(),
     focus: Style::new().add_modifier(Modifier::BOLD),
@@ -105,6 +83,7 @@ pub(crate) static QUIET: Theme = Theme {
 
 /// Bright colours and bold letters, for terminals on which the quiet ones are hard to read.
 pub static CONTRAST: Theme = Theme {
+    name: "contrast",
     title: Style::new().fg(Color::LightCyan).add_modifier(Modifier::BOLD),
     focus: Style::new().add_modifier(Modifier::BOLD).add_modifier(Modifier::UNDERLINED),
     faint: Style::new(),
@@ -121,6 +100,7 @@ pub static CONTRAST: Theme = Theme {
 
 /// Attributes only.
 pub static MONO: Theme = Theme {
+    name: "mono",
     title: Style::new().add_modifier(Modifier::BOLD),
     problem: Style::new().add_modifier(Modifier::BOLD),
     note: Style::new(),

@@ -94,11 +94,9 @@ pub(crate) fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
 #[must_use]
 pub(crate) fn about(field: &Field, ascii: bool, units: System) -> String {
     let name = [symbol(field.symbol, ascii).as_ref(), &field.full_label()].join(" ");
-    let bounds = match field.kind {
-        Kind::Text => String::new(),
-        Kind::Number(..) => format!(", {}", field.range_in(units)),
-        Kind::Count(from, to, _) => format!(", {from} to {to}"),
-        Kind::Choice(names, _) => format!(", {}", names.join(" | ")),
+    let bounds = match field.range_in(units) {
+        none if none.is_empty() => none,
+        range => format!(", {range}"),
     };
     let absent = match field.absent {
         Absent::Default("") | Absent::Refused | Absent::Either => String::new(),

@@ -280,8 +280,7 @@ fn every_mark_is_on_the_right_side_of_the_tolerance() {
         };
         // On Table 1 the closed forms, the load at rest and every other compliance differ by more
         // than 5 %.
-        let (above, below) =
-            (letters(&pane[legend..level]), letters(&pane[level + 1..axis]));
+        let (above, below) = (letters(&pane[legend..level]), letters(&pane[level + 1..axis]));
         assert!(
             above.iter().all(|letter| "pesdPESD".contains(*letter)) && !above.is_empty(),
             "{width}x{height}:\n{screen}"

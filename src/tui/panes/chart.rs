@@ -328,9 +328,8 @@ impl Charts<'_> {
         let areas = Layout::vertical(vec![Constraint::Fill(1); shown.len()]).split(self.area);
         let areas: Vec<_> = shown.into_iter().zip(areas.iter().map(|area| below(*area))).collect();
         let up = |graph: usize| self.scale.upright[graph];
-        let margin = |(graph, area): &(usize, Rect)| {
-            label_margin(&Axis::default(), up(*graph), area.height)
-        };
+        let margin =
+            |(graph, area): &(usize, Rect)| label_margin(&Axis::default(), up(*graph), area.height);
         let margin = areas.iter().map(margin).fold(MARGIN, u16::max);
         let plot = |(graph, area): (usize, Rect)| {
             (graph, area, Plot::new(area, margin, (self.window(), up(graph))))
@@ -372,9 +371,7 @@ impl Charts<'_> {
         }
         let (label, active) = (graph.label.to_lowercase(), answer.active);
         Some(match (answer.of(active), &answer.stiffness) {
-            _ if self.is_stale => {
-                "The charts are not redrawn while a field is invalid.".to_owned()
-            }
+            _ if self.is_stale => "The charts are not redrawn while a field is invalid.".to_owned(),
             (_, Some(Err(refusal))) if graph.by_model.is_some() => {
                 format!("No {label}: {refusal}.")
             }

@@ -271,11 +271,8 @@ fn sentences(pane: &Results<'_>) -> Vec<Sentence> {
         let age = if pane.shows_last_valid() { "LAST VALID: " } else { "" };
         let verdict = digest::sentence(solution, pane.units);
         add(format!("{age}{verdict}"), fresh(theme.focus), place);
-        let figures = [
-            relief(pane, answer, solution),
-            differing(answer, solution),
-            digest::whine(solution),
-        ];
+        let figures =
+            [relief(pane, answer, solution), differing(answer, solution), digest::whine(solution)];
         for figure in figures.into_iter().flatten() {
             add(format!("{figure}."), fresh(Style::new()), Place::Room);
         }

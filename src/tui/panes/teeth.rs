@@ -359,16 +359,8 @@ impl<'a> Painter<'a> {
         let bold = |style: Style| style.add_modifier(Modifier::BOLD);
         let (driven, driver) = (theme.driven, theme.driver);
         let (marks, contacts) = (theme.focus, theme.active);
-        let styles = [
-            theme.faint,
-            theme.path,
-            driven,
-            bold(driven),
-            driver,
-            bold(driver),
-            marks,
-            contacts,
-        ];
+        let styles =
+            [theme.faint, theme.path, driven, bold(driven), driver, bold(driver), marks, contacts];
         let faint = if self.picture.is_stale { theme.faint } else { Style::new() };
         let style_of = |colour: Color| match colour {
             Color::Indexed(number) => styles.get(usize::from(number)).copied(),
@@ -427,9 +419,8 @@ fn reading(
         return None;
     }
     let digits = interpolated.map_or(column.digits, |one| column.digits_of(one));
-    let shown = value.map(|value| {
-        shown(column.resolved(value, inputs, solution), column.shown, digits, system)
-    });
+    let shown = value
+        .map(|value| shown(column.resolved(value, inputs, solution), column.shown, digits, system));
     let (number, unit) = shown.map_or((None, ""), |(number, unit)| (Some(number), unit));
     Some(Reading { symbol: column.symbol, number, unit })
 }

@@ -211,7 +211,8 @@ fn draw_chart(
     }
     steps.pop();
     let marks = |name: &str, points, look: (char, Style)| {
-        let series = Series { name: name.to_owned(), pieces: vec![points], kind: Kind::Marks(None) };
+        let series =
+            Series { name: name.to_owned(), pieces: vec![points], kind: Kind::Marks(None) };
         (series, (Marker::Custom(look.0), look.1))
     };
     let of_setting = |setting| points(&move |measured| Some(measured.setting) == setting);

@@ -28,7 +28,6 @@ use crate::tui::panes::teeth::TeethCommand as Teeth;
 use crate::tui::rows;
 use crate::tui::session::save::Next;
 use crate::tui::settings::marker_name;
-use crate::tui::theme::ThemeName;
 
 /// A command of the status line that the palette leaves out.
 const LEAVE_FIELD: &str = "leave field";
@@ -569,14 +568,9 @@ fn cycle_marker(app: &mut App) {
 }
 
 fn cycle_theme(app: &mut App) {
-    let name = match ThemeName::of(app.look.theme) {
-        ThemeName::Quiet => ThemeName::Contrast,
-        ThemeName::Contrast => ThemeName::Mono,
-        ThemeName::Mono => ThemeName::Quiet,
-    };
-    app.settings.theme = Some(name);
-    app.look.theme = name.theme();
-    keep_settings(app, &format!("theme {}", name.name()));
+    app.look.theme = app.look.theme.next();
+    app.settings.theme = Some(app.look.theme);
+    keep_settings(app, &format!("theme {}", app.look.theme.name));
 }
 
 /// Switches between ASCII and Unicode; Unicode only for this session if the environment lacks it.

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::edit;
+use super::{edit, panes};
 use crate::case::Problem;
 use crate::case::fields::FIELDS;
 use crate::model::inputs::Method;
@@ -213,9 +213,13 @@ pub(super) fn second(app: &mut App) {
     }
 }
 
-/// Shows the tolerance, or the curve again.
+/// Goes to the tolerance; in the study, shows the tolerance or the curve again.
 pub(super) fn tolerance(app: &mut App) {
-    app.study.is_tolerance = !app.study.is_tolerance;
+    let is_elsewhere = app.layout.focus() != Pane::Study;
+    if is_elsewhere {
+        panes::show(app, Pane::Study);
+    }
+    app.study.is_tolerance = is_elsewhere || !app.study.is_tolerance;
     app.study.top = 0;
 }
 

@@ -1,8 +1,8 @@
 //! The axes of the charts, the range of roll angles of the incoming tooth, and the visible range.
 
 use crate::case::units::System;
-use crate::model::{Solution, Station};
 use crate::model::inputs::Method;
+use crate::model::{Solution, Station};
 use crate::report::chart::Span;
 use crate::report::graphs::GRAPHS;
 use crate::tui::solver::Answer;

@@ -200,8 +200,7 @@ fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
         value.map_or_else(|| NONE.to_owned(), shown)
     };
     let cells = |cell: &dyn Fn(usize) -> String| (0..known.len()).map(cell).collect::<Vec<_>>();
-    let symbols =
-        cells(&|at| symbol(known[at].symbol_in(active), pane.look.ascii).into_owned());
+    let symbols = cells(&|at| symbol(known[at].symbol_in(active), pane.look.ascii).into_owned());
     let labels = cells(&|at| label(known[at], active).into_owned());
     let mut columns = vec![
         Column::words(0, 0, symbols, Style::new()),
@@ -221,8 +220,7 @@ fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
     }
     let of_unit = |at: usize| {
         let has_value = methods.iter().any(|&method| value(answer, method, known[at]).is_some());
-        let unit =
-            if has_value { report::shown_with(known[at], 0.0, units[at]).unit } else { "" };
+        let unit = if has_value { report::shown_with(known[at], 0.0, units[at]).unit } else { "" };
         let mark = if pane.variants.is_some() { "" } else { mark(pane, answer, known[at]) };
         [unit, mark].join(" ").trim().to_owned()
     };
