@@ -495,21 +495,6 @@ const OPERATION: &[Field] = &[
         (inputs.speed > 0.0 && power > 0.0).then_some(power)
     }).reasons(&LOAD),
     number!(
-        "operation.torque",
-        "T1",
-        "torque",
-        Torque,
-        1e-12,
-        1e12,
-        "N m",
-        Either,
-        |inputs, value| inputs.drive = Drive::Torque(value),
-        "Torque on the driver; give power or torque."
-    ).with_example("71.6 N m").instead_of("operation.power", |inputs| {
-        let torque = inputs.torque();
-        (inputs.speed > 0.0 && torque > 0.0).then_some(torque)
-    }).reasons(&LOAD),
-    number!(
         "operation.speed",
         "n1",
         "speed",
@@ -525,6 +510,21 @@ const OPERATION: &[Field] = &[
         "with a given torque, the static load does not depend on speed; only the free impact \
             changes",
     )]),
+    number!(
+        "operation.torque",
+        "T1",
+        "torque",
+        Torque,
+        1e-12,
+        1e12,
+        "N m",
+        Either,
+        |inputs, value| inputs.drive = Drive::Torque(value),
+        "Torque on the driver; give power or torque."
+    ).with_example("71.6 N m").instead_of("operation.power", |inputs| {
+        let torque = inputs.torque();
+        (inputs.speed > 0.0 && torque > 0.0).then_some(torque)
+    }).reasons(&LOAD),
     number!(
         "operation.friction_coefficient",
         "μ",
