@@ -248,8 +248,8 @@ fn setting(trade: &Trade, measured: &MeasuredSetting) -> Json {
         "evaluations": figures.and_then(|figures| figures.evaluations),
         "errors": sorted(Subject::ALL.into_iter().filter_map(errors)),
         "total": measured.total(),
-        "pareto": measured.is_on_front,
-        "qualifies": measured.qualifies,
+        "pareto": trade.is_on_front(measured),
+        "qualifies": trade.qualifies(measured),
         "refusal": measured.found.as_ref().err().map(ToString::to_string),
     })
 }

@@ -57,10 +57,6 @@ pub struct MeasuredSetting {
     pub is_current: bool,
     /// The measured figures, or the refusal of the case.
     pub found: Result<Figures, Refusal>,
-    /// Whether no other setting is both faster and more accurate.
-    pub is_on_front: bool,
-    /// Whether the error is within the accepted error.
-    pub qualifies: bool,
 }
 
 /// Time and errors.
@@ -155,10 +151,7 @@ pub fn trade(
                 total: off(&answer, truth),
             }
         });
-        let is_current = setting == current;
-        let (is_on_front, qualifies) = (false, false);
-        trade.settings.push(MeasuredSetting { setting, is_current, found, is_on_front, qualifies });
-        trade.judge();
+        trade.settings.push(MeasuredSetting { setting, is_current: setting == current, found });
         show(&trade);
     }
     match trade.settings.iter().find(|measured| measured.found.is_ok()) {
@@ -210,11 +203,6 @@ pub fn greatest(differences: &Differences) -> Option<f64> {
 }
 
 impl Trade {
-    /// The progress of the measurement, from 0 to 1.
-    pub fn part(&self) -> f64 {
-        self.settings.len() as f64 / self.planned as f64
-    }
-
     /// The finest setting of the method and compliance of a setting.
     pub fn model(&self, setting: &Setting) -> Option<&Finest> {
         self.finest.iter().find(|model| model.setting.is_finer_or_coarser(setting))
@@ -254,19 +242,18 @@ impl Trade {
         outcomes.peek().is_some() && outcomes.all(|outcome| outcome == Outcome::NoCornerContact)
     }
 
-    /// Marks the settings that qualify and the settings on the front.
-    pub fn judge(&mut self) {
+    /// Whether the error of a setting is within the accepted error.
+    pub fn qualifies(&self, measured: &MeasuredSetting) -> bool {
+        measured.total().is_some_and(|total| total <= self.within)
+    }
+
+    /// Whether no other setting is both faster and more accurate.
+    pub fn is_on_front(&self, measured: &MeasuredSetting) -> bool {
         let point = |one: &MeasuredSetting| Some((one.total()?, one.seconds()));
-        let points: Vec<_> = self.settings.iter().map(point).collect();
-        for (measured, point) in self.settings.iter_mut().zip(&points) {
-            measured.qualifies = point.is_some_and(|(total, _)| total <= self.within);
-            measured.is_on_front = point.is_some_and(|point| {
-                let is_worse = |other: &(f64, f64)| {
-                    other.0 <= point.0 && other.1 <= point.1 && *other != point
-                };
-                !points.iter().flatten().any(is_worse)
-            });
-        }
+        point(measured).is_some_and(|own| {
+            let mut others = self.settings.iter().filter_map(point);
+            !others.any(|other| other.0 <= own.0 && other.1 <= own.1 && other != own)
+        })
     }
 
     /// The fastest of the admitted settings that qualifies, among the methods from which `auto`
@@ -274,7 +261,7 @@ impl Trade {
     /// times are not distinguishable, the most accurate.
     pub fn cheapest_where(&self, admitted: impl Fn(&Setting) -> bool) -> Option<&MeasuredSetting> {
         let is_candidate = |measured: &&MeasuredSetting| {
-            measured.qualifies
+            self.qualifies(measured)
                 && auto::METHODS.contains(&measured.setting.method)
                 && admitted(&measured.setting)
         };

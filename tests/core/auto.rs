@@ -40,7 +40,6 @@ fn auto_chooses_the_method_that_a_trade_recommends_at_its_cost() {
         let inputs = by_choice(&table::inputs(&path), within);
         let mut trade = trade.clone();
         trade.within = within;
-        trade.judge();
         // The compliance is that of the reference: without the reference solve, no other compliance
         // is known to be close to it.
         let reference = trade.reference().expect("a reference").setting.models;

@@ -67,11 +67,11 @@ fn table_1_within_five_percent_needs_the_method_dynamic() {
     let trade = traded_table_1();
     let best = trade.recommended().expect("one qualifies");
     assert_eq!(best.setting.method, Method::Dynamic, "{}", best.setting);
-    assert!(best.qualifies && best.total().unwrap() <= 0.05);
+    assert!(trade.qualifies(best) && best.total().unwrap() <= 0.05);
     for measured in &trade.settings {
         let dynamic =
             measured.found.as_ref().is_ok_and(|figures| figures.taken.method == Method::Dynamic);
-        assert!(dynamic || !measured.qualifies, "{}", measured.setting);
+        assert!(dynamic || !trade.qualifies(measured), "{}", measured.setting);
     }
     assert!(text(trade).contains("\nWithin 5.0 %: dynamic with"), "{}", text(trade));
 }
@@ -133,7 +133,7 @@ fn no_setting_of_the_front_is_worse_than_another_in_both() {
     let points: Vec<(f64, f64, bool)> = trade
         .settings
         .iter()
-        .filter_map(|one| Some((one.total()?, one.seconds(), one.is_on_front)))
+        .filter_map(|one| Some((one.total()?, one.seconds(), trade.is_on_front(one))))
         .collect();
     assert!(points.iter().filter(|point| point.2).count() >= 3);
     for point in &points {
@@ -226,7 +226,7 @@ fn no_corner_contact_by_both_is_agreement() {
     let trade = traded(&inputs, 0.05);
     let exact = of(&trade, &Setting::usual(Method::Exact, &table_1()));
     assert_eq!(exact.found.as_ref().unwrap().total[Subject::FirstContact as usize], Some(0.0));
-    assert!(exact.qualifies, "{:?}", exact.total());
+    assert!(trade.qualifies(exact), "{:?}", exact.total());
     let says = "No method finds corner contact: no setting is recommended.\n";
     assert!(text(&trade).ends_with(says), "{}", text(&trade));
     assert!(trade.recommended().is_none() && json(&trade).get("recommended").is_none());
@@ -246,7 +246,7 @@ fn a_method_that_refuses_is_listed_with_its_reason() {
     let trade = traded(&case.inputs().unwrap(), 0.05);
     assert!(matches!(trade.reference(), Err(Refusal::TooSlow { .. })));
     let dynamic = of(&trade, &Setting::usual(Method::Dynamic, &table_1()));
-    assert!(dynamic.found.is_err() && !dynamic.qualifies && !dynamic.is_on_front);
+    assert!(dynamic.found.is_err() && !trade.qualifies(dynamic) && !trade.is_on_front(dynamic));
     assert!(trade.recommended().is_none());
     let (text, json) = (text(&trade), json(&trade));
     assert!(text.contains("No reference: method dynamic refuses the case"), "{text}");

@@ -303,7 +303,6 @@ pub(crate) fn time_evenly(desk: &mut Desk) {
         let figures = one.found.as_mut().expect("every method answers");
         figures.time = Time { seconds, ..figures.time };
     }
-    trade.judge();
     traded.marked = trade.recommended().map(|measured| measured.setting);
 }
 

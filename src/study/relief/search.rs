@@ -32,14 +32,12 @@ const LEAST: &str = "least amount";
 /// The name of the relief with the least overlap, if none prevents corner contact.
 const LEAST_OVERLAP: &str = "least overlap";
 
-/// Start lengths, relative to the longest length, if both gears have the same length.
-const PARTS_ALIKE: u32 = 20;
-/// Start lengths of each gear.
-const PARTS: [f64; 6] = [0.3, 0.45, 0.6, 0.75, 0.9, 1.0];
+/// Number of start lengths, in equal steps up to the longest length.
+const PARTS: u32 = 20;
 /// Start amounts, relative to the least amount without corner contact.
 const TIMES: [f64; 4] = [1.0, 1.15, 1.4, 1.8];
-/// Number of starts that the search follows: with two free lengths, and with one.
-const FOLLOWED: [usize; 2] = [3, 5];
+/// Number of starts that the search follows.
+const FOLLOWED: usize = 5;
 /// Greatest stride of the search, in steps; it is halved down to one step.
 const STRIDE: i32 = 8;
 /// The directions of the search: both gears alike, then one gear or both in opposite directions.
@@ -145,11 +143,11 @@ impl<'a> Search<'a> {
     ) -> Result<Vec<(&'static str, TipReliefs)>, NoRelief> {
         let (mut own, mut alike, mut least) = (Vec::new(), Vec::new(), None);
         for (shape, names) in KINDS {
-            let starts = self.starts(shape, true)?;
+            let starts = self.starts(shape)?;
             least = least.or(self.least(shape, &starts)?);
-            let best_alike = self.best(shape, starts, true)?;
-            let starts = [best_alike.into_iter().collect(), self.starts(shape, false)?].concat();
-            let best = self.best(shape, starts, false)?;
+            let best_alike = self.best(shape, &starts, &DIRECTIONS[..1])?;
+            let starts: Vec<Tried> = best_alike.into_iter().chain(starts).collect();
+            let best = self.best(shape, &starts, &DIRECTIONS)?;
             for (found, best, name, kinds) in
                 [(&mut own, best, names[0], 4), (&mut alike, best_alike, names[1], 1)]
             {
@@ -213,15 +211,14 @@ impl<'a> Search<'a> {
     fn best(
         &mut self,
         shape: ReliefShape,
-        starts: Vec<Tried>,
-        is_alike: bool,
+        starts: &[Tried],
+        directions: &[[Steps; 4]],
     ) -> Result<Option<Tried>, NoRelief> {
-        let kinds = if is_alike { 1 } else { DIRECTIONS.len() };
         let mut best: Option<Tried> = None;
-        for (steps, _) in starts.into_iter().take(FOLLOWED[usize::from(is_alike)]) {
+        for &(steps, _) in starts.iter().take(FOLLOWED) {
             let start = (steps, self.cost(shape, steps, f64::INFINITY)?);
             let cost = |search: &mut Self, steps, bound| search.cost(shape, steps, bound);
-            let found = self.followed(start, &DIRECTIONS[..kinds], STRIDE, &cost)?;
+            let found = self.followed(start, directions, STRIDE, &cost)?;
             if found.1 < best.map_or(f64::INFINITY, |best| best.1) {
                 best = Some(found);
             }
@@ -231,18 +228,12 @@ impl<'a> Search<'a> {
 
     /// Reliefs of several lengths with the least amounts without corner contact, and with greater
     /// amounts; those with the least nominal error first.
-    fn starts(&mut self, shape: ReliefShape, is_alike: bool) -> Result<Vec<Tried>, NoRelief> {
+    fn starts(&mut self, shape: ReliefShape) -> Result<Vec<Tried>, NoRelief> {
         let grid = self.grid;
-        let (least, most) = (f64::from(grid.least_length), f64::from(grid.most_length));
-        let length = |part: f64| (part * most).round().max(least) as i32;
-        let lengths: Vec<[i32; 2]> = if is_alike {
-            let part = |at: u32| f64::from(at) / f64::from(PARTS_ALIKE);
-            (1..=PARTS_ALIKE).map(|at| [length(part(at)); 2]).collect()
-        } else {
-            PARTS.iter().flat_map(|one| PARTS.map(|other| [length(*one), length(other)])).collect()
-        };
         let mut starts: Vec<Tried> = Vec::new();
-        for lengths in lengths {
+        for part in 1..=PARTS {
+            let part = f64::from(part) / f64::from(PARTS) * f64::from(grid.most_length);
+            let lengths = [(part.round() as i32).max(grid.least_length); 2];
             let Some(clears) = self.least_clear(shape, lengths)? else { continue };
             for times in TIMES {
                 let steps = grid.equal((f64::from(clears) * times).round() as i32, lengths);

@@ -130,14 +130,14 @@ fn about(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> String {
     let first = match selected {
         None => format!("{} of {} settings measured", trade.settings.len(), trade.planned),
         Some(measured) => {
-            let qualifies = if measured.qualifies { "within" } else { "not within" };
+            let qualifies = if trade.qualifies(measured) { "within" } else { "not within" };
             format!("[{}] {qualifies} {} %", summary(measured), percent(trade.within))
         }
     };
     let refused = trade.settings.iter().filter(|measured| measured.found.is_err()).count();
     let said = |holds: bool, words: &str| holds.then(|| words.to_owned());
     let is_own = selected.is_some_and(|measured| own(pane) == Some(measured.setting));
-    let is_best = selected.is_some_and(|measured| measured.is_on_front);
+    let is_best = selected.is_some_and(|measured| trade.is_on_front(measured));
     let words = [
         Some(first),
         said(trade.is_without_contact(), NO_CONTACT),
@@ -205,7 +205,9 @@ fn draw_chart(
         drawn.filter_map(point).collect()
     };
     let mut steps: Vec<Point> = Vec::new();
-    for (x, y) in points(&|measured| measured.is_on_front).into_iter().chain([(spans.0.to, 0.0)]) {
+    for (x, y) in
+        points(&|measured| trade.is_on_front(measured)).into_iter().chain([(spans.0.to, 0.0)])
+    {
         steps.extend(steps.last().map(|last| (x, last.1)));
         steps.push((x, y));
     }
