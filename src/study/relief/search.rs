@@ -141,17 +141,13 @@ impl<'a> Search<'a> {
         peak: Option<Peak<'_>>,
         accepts_contact: bool,
     ) -> Result<Vec<(&'static str, TipReliefs)>, NoRelief> {
-        let (mut own, mut alike, mut least) = (Vec::new(), Vec::new(), None);
+        let (mut found, mut least) = (Vec::new(), None);
         for (shape, names) in KINDS {
-            let starts = self.starts(shape)?;
+            let mut starts = self.starts(shape)?;
             least = least.or(self.least(shape, &starts)?);
-            let best_alike = self.best(shape, &starts, &DIRECTIONS[..1])?;
-            let starts: Vec<Tried> = best_alike.into_iter().chain(starts).collect();
-            let best = self.best(shape, &starts, &DIRECTIONS)?;
-            for (found, best, name, kinds) in
-                [(&mut own, best, names[0], 4), (&mut alike, best_alike, names[1], 1)]
-            {
-                let Some(mut best) = best else { continue };
+            for (kind, directions) in [(1, &DIRECTIONS[..1]), (0, &DIRECTIONS[..])] {
+                let Some(mut best) = self.best(shape, &starts, directions)? else { continue };
+                starts.insert(0, best);
                 if let Some(peak) = peak {
                     let cost = |search: &mut Self, steps, _| {
                         let error = search.cost(shape, steps, f64::INFINITY)?;
@@ -161,17 +157,18 @@ impl<'a> Search<'a> {
                         Ok(if is_clear { peak(&reliefs)? * (1.0 + error) } else { error })
                     };
                     let start = (best.0, cost(self, best.0, f64::INFINITY)?);
-                    best = self.followed(start, &DIRECTIONS[..kinds], STRIDE / 2, &cost)?;
+                    best = self.followed(start, directions, STRIDE / 2, &cost)?;
                 }
-                found.push((name, self.grid.reliefs(shape, best.0)));
+                found.push((kind, names[kind], self.grid.reliefs(shape, best.0)));
             }
         }
-        own.append(&mut alike);
-        own.extend(least.map(|reliefs| (LEAST, reliefs)));
-        if own.is_empty() && accepts_contact {
-            own.push((LEAST_OVERLAP, self.least_overlap()?));
+        found.extend(least.map(|reliefs| (2, LEAST, reliefs)));
+        if found.is_empty() && accepts_contact {
+            found.push((2, LEAST_OVERLAP, self.least_overlap()?));
         }
-        if own.is_empty() { Err(self.none()) } else { Ok(own) }
+        found.sort_by_key(|&(kind, ..)| kind);
+        let found: Vec<_> = found.into_iter().map(|(_, name, reliefs)| (name, reliefs)).collect();
+        if found.is_empty() { Err(self.none()) } else { Ok(found) }
     }
 
     /// The relief of a coarse grid with the least overlap.
