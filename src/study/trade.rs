@@ -203,6 +203,11 @@ pub fn greatest(differences: &Differences) -> Option<f64> {
 }
 
 impl Trade {
+    /// The progress of the measurement, from 0 to 1.
+    pub fn part(&self) -> f64 {
+        self.settings.len() as f64 / self.planned as f64
+    }
+
     /// The finest setting of the method and compliance of a setting.
     pub fn model(&self, setting: &Setting) -> Option<&Finest> {
         self.finest.iter().find(|model| model.setting.is_finer_or_coarser(setting))
