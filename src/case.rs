@@ -33,6 +33,9 @@ pub use problem::{Fix, NEWER_FORMAT, Problem};
 pub use spread::Spread;
 pub use variant::{Override, Variant};
 
+/// Start of the keys of the table `[about]`.
+const ABOUT: &str = "about.";
+
 /// A case: the text of each field, in the order of [`FIELDS`], with limits, distributions and
 /// variants.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +48,8 @@ pub struct Case {
     pub spread: Vec<Spread>,
     /// Named overrides, in the order of the file.
     pub variants: Vec<Variant>,
+    /// The table `[about]`: texts for the page of a report, such as project and drawing.
+    pub about: Vec<(String, String)>,
 }
 
 /// The greatest allowed value of a quantity.
@@ -126,6 +131,7 @@ impl Case {
             limits: Vec::new(),
             spread: Vec::new(),
             variants: Vec::new(),
+            about: Vec::new(),
         }
     }
 
@@ -267,6 +273,10 @@ impl Case {
         if let Some(quantity) = key.strip_prefix("limits.") {
             return self.set_limit(quantity, value);
         }
+        if let Some(name) = key.strip_prefix(ABOUT) {
+            self.write_about(name, value);
+            return Ok(());
+        }
         let Some(field) = fields::index_of(key) else {
             return Err(check::unknown_key(key));
         };
@@ -278,6 +288,15 @@ impl Case {
         changed.check_field(field)?;
         *self = changed;
         Ok(())
+    }
+
+    /// Writes a text of the table `[about]`. An empty text removes the key.
+    fn write_about(&mut self, name: &str, text: &str) {
+        if text.is_empty() {
+            self.about.retain(|held| held.0 != name);
+        } else {
+            keep(&mut self.about, (name.to_owned(), text.to_owned()), |held| held.0 == name);
+        }
     }
 
     /// Whether two keys exclude each other.

@@ -143,6 +143,31 @@ impl Report {
     }
 }
 
+/// Whether a case leaves a field at its default.
+fn is_default(at: usize, case: &Case) -> bool {
+    let usual = Case::empty();
+    match (case.value(at), usual.value(at)) {
+        (Some(own), Some(usual)) => own.total_cmp(&usual).is_eq(),
+        _ => case.is_replaced(at) || case.effective(at) == usual.effective(at),
+    }
+}
+
+/// The codes of notes that say the same for almost every case by a closed form. JSON has them;
+/// elsewhere they are findings of `explain`.
+const GENERAL_NOTES: [&str; 4] =
+    ["impact-outlasts-approach", "impulse-ratio", "gap-left-open", "no-end-of-impact"];
+
+/// Whether a note says the same for almost every case.
+#[must_use]
+pub fn is_general(note: &Note) -> bool {
+    GENERAL_NOTES.contains(&note.code)
+}
+
+/// The notes that are about this case.
+fn case_notes(notes: &[Note]) -> impl Iterator<Item = &Note> {
+    notes.iter().filter(|note| !is_general(note))
+}
+
 /// Formats a value in SI with its usual metric unit.
 #[must_use]
 pub fn shown(quantity: &Quantity, value: f64) -> Shown {
@@ -244,7 +269,10 @@ static GROUPS: [Group; 17] = [
     Group { title: "Resonance", stages: &[Stage::Resonance] },
     Group { title: "Transmission error without deviations", stages: &[Stage::StaticSpectrum] },
     Group { title: "Steady motion without deviations", stages: &[Stage::SteadyMotion] },
-    Group { title: "Greatest dynamic factor over the speed", stages: &[Stage::SpeedRun] },
+    Group {
+        title: "Greatest dynamic factor over the speed, without deviations",
+        stages: &[Stage::SpeedRun],
+    },
 ];
 
 impl Group {

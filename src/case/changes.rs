@@ -76,6 +76,10 @@ impl Case {
         if let Some(field) = key.strip_prefix("spread.") {
             return self.set_spread(field.trim_matches('"'), text);
         }
+        if let Some(name) = key.strip_prefix(super::ABOUT) {
+            self.write_about(name, text);
+            return Ok(());
+        }
         let field = fields::index_of(key).ok_or_else(|| super::check::unknown_key(key))?;
         self.write(field, text);
         Ok(())
@@ -119,7 +123,7 @@ impl Variant {
     }
 }
 
-/// Every text of a case by its key: fields, limits, distributions and overrides.
+/// Every text of a case by its key: fields, limits, distributions, overrides and `[about]`.
 pub(super) fn texts(case: &Case) -> Vec<(String, String)> {
     let fields = FIELDS
         .iter()
@@ -132,7 +136,9 @@ pub(super) fn texts(case: &Case) -> Vec<(String, String)> {
         let of = |change: &Override| (variant.place(&change.key), change.text.clone());
         variant.overrides.iter().map(of)
     });
-    fields.chain(limits).chain(spreads).chain(overrides).collect()
+    let about = case.about.iter();
+    let about = about.map(|(name, text)| (format!("{}{name}", super::ABOUT), text.clone()));
+    fields.chain(limits).chain(spreads).chain(overrides).chain(about).collect()
 }
 
 #[cfg(test)]
@@ -160,6 +166,7 @@ mod tests {
             change("spread.\"pair.module\"", "uniform 2 um"),
         ];
         case.keep_variant(Variant::new("relieved", overrides));
+        case.write_about("drawing no.", "4711");
         case
     }
 

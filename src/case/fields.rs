@@ -293,9 +293,9 @@ pub enum Reason {
     Partly(When, &'static str),
 }
 
-const AT_RUN_OUT: &str = "this relief acts at run-out; this method computes only \
-    run-in, where the driven tip meets the driver's root";
-const TIP_OF_DRIVER: &str = "the driver's tip ends contact at B; at run-in this field \
+const AT_EXIT: &str = "this relief acts at the exit; this method computes only \
+    the entry, where the driven tip meets the driver's root";
+const TIP_OF_DRIVER: &str = "the driver's tip ends contact at B; at the entry this field \
     affects only the number of loaded pairs";
 const IN_TIME: &str = "only the method dynamic follows the motion in time";
 const CURVE: &str = "changes only how closely the curve is sampled";

@@ -8,8 +8,8 @@ use crate::case::file::{MOST_MODEL_BYTES, ReadError, read_bytes};
 use crate::case::rexs::{self, Imported};
 use crate::case::{Acting, Case, Document, Problem, partial_relevance, relevance};
 use crate::model::{Inputs, Quantity, Refusal};
-use crate::report::pictures::Unsolved;
 use crate::report::results::Named;
+use crate::report::solve::Unsolved;
 use std::path::{Path, PathBuf};
 
 /// A case that is ready to solve.

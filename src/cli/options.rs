@@ -9,6 +9,7 @@ use super::output::{Done, Failure, Sink, check_out, write_to};
 use crate::case::{Case, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
+use crate::report::export::{format_of, is_picture};
 use crate::study::batch::Control;
 use crate::study::condition::distinct;
 use crate::study::shard::{Format, Shard};
@@ -280,6 +281,25 @@ impl Destination {
     /// Refuses a file that the command reads or that cannot be written, before long work starts.
     pub(super) fn check(&self, input: &Path) -> Result<(), Failure> {
         check_out(self.out.as_deref(), &[input])
+    }
+
+    /// Whether the extension of the file is that of a picture.
+    pub(super) fn is_picture(&self) -> bool {
+        self.out.as_deref().is_some_and(is_picture)
+    }
+
+    /// Refuses a file whose extension names another format.
+    pub(super) fn fits(&self, format: Format) -> Result<(), Failure> {
+        let Some(out) = &self.out else { return Ok(()) };
+        let is_other = format_of(out).is_some_and(|of_file| of_file != format);
+        if !is_other && !self.is_picture() {
+            return Ok(());
+        }
+        let name = format.to_possible_value().map_or(String::new(), |name| name.get_name().into());
+        let out = out.display();
+        Err(Failure::usage(format!(
+            "--out {out}: the output is {name}: use another extension, or --format"
+        )))
     }
 
     /// Writes results with `write` to the file or to standard output.

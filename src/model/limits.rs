@@ -330,7 +330,8 @@ impl Refusal {
                 "interference",
                 driven("addendum"),
                 format!(
-                    "interference at the start of contact: N1E is {} and must be above 0",
+                    "interference at the start of contact: N1E, from the driver's base circle to \
+                        E, is {} and must be above 0",
                     mm(start)
                 ),
                 "shorten the driven addendum, or give the driver more teeth or more profile shift",
@@ -350,7 +351,8 @@ impl Refusal {
                 };
                 let (start, end) = (mm(start), mm(end));
                 let sentence = format!(
-                    "the tips do not reach each other: N1B is {end} and must be above N1E, {start}"
+                    "the tips do not reach each other: on the line of action, B is {end} from the \
+                        driver's base circle and must be beyond E, {start}"
                 );
                 ("no-path", at, sentence, fix)
             }
@@ -562,7 +564,8 @@ impl Refusal {
                 "interference-at-end",
                 driver("addendum"),
                 format!(
-                    "interference at the end of contact: N2B is {} and must be above 0",
+                    "interference at the end of contact: N2B, from the driven base circle to B, is {} \
+                        and must be above 0",
                     mm(start)
                 ),
                 "shorten the driver's addendum, or give the driven gear more teeth or more profile \

@@ -309,7 +309,8 @@ const ROWS: &[fn(&Context) -> Found] = &[
     |k| {
         let rest = k.solution.geometry.tangent_length - k.solution.geometry.end;
         let message = format!(
-            "interference at the end of contact: N2B is {} mm and must be above 0",
+            "interference at the end of contact: N2B, from the driven base circle to B, is {} mm and must \
+                be above 0",
             milli(rest)
         );
         (rest <= 0.0).then_some(("interference-at-end", message))
@@ -449,8 +450,8 @@ fn without_coupling(k: &Context) -> Found {
     let model = model_of(k.inputs).model();
     let message = format!(
         "`{}` does not couple neighbouring teeth. Without coupling, the first contact is {} \
-            earlier and the peak force changes by {} (elastic field with and without coupling, \
-            cases/)",
+            earlier and the peak force changes by {} (finite elements with and without \
+            coupling, cases/)",
         model.name, UNCOUPLED.0, UNCOUPLED.1
     );
     (is_coupled && !model.has_coupling).then_some(("no-coupling", message))

@@ -27,6 +27,8 @@ pub enum Absence {
     NoTipRadius,
     /// The event does not occur.
     NotReached,
+    /// No contact after the end of the path of contact.
+    NoExit,
     /// The model withholds the quantity.
     Withheld(Refusal),
     /// The impact has no end, because the triangle of Eq. 34 does not close.
@@ -49,6 +51,9 @@ impl Absence {
             return absence;
         }
         match (quantity.stage, solution.withheld) {
+            (Stage::Static | Stage::Dynamic, _) if quantity.key.contains("last_contact") => {
+                Absence::NoExit
+            }
             _ if is_without && !solution.method.shares_load() => no_contact,
             (Stage::Static | Stage::Dynamic, _)
                 if quantity.needs == Need::Friction && !has_friction(solution) =>
@@ -178,6 +183,7 @@ impl fmt::Display for Absence {
                 "the tip is sharp, and no pressure at an edge is finite; give driven.tip_radius",
             ),
             Absence::NotReached => f.write_str("the event does not occur"),
+            Absence::NoExit => f.write_str("no contact after B, the end of the path of contact"),
             Absence::Withheld(refusal) => write!(f, "{refusal}; {}", refusal.fix()),
             Absence::Unclosed => {
                 f.write_str("the impact has no end D': the triangle of Eq. 34 does not close")

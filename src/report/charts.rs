@@ -2,94 +2,27 @@
 
 use std::f64::consts::PI;
 
-use super::Report;
 use super::chart::{Axis, Chart, Kind, Point, Series};
-use super::digest::rounded;
 use super::graphs::Graph;
+use super::solve::Subject;
 use super::stations::Column;
 use super::stiffness::no_field;
+use super::{Report, shown};
 use crate::case::units;
 use crate::model::compliance::model_of;
 use crate::model::dynamic::speeds::{AtSpeed, SpeedCurve};
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::static_load::Spectrum;
 use crate::model::stations::Spacing;
-use crate::model::{Inputs, Outcome, Refusal, Solution, Station, contact_state};
+use crate::model::{Inputs, Quantity, Solution, Station, contact_state};
 use crate::numeric::decimal::significant;
-use crate::study::stiffness::{FIELD, Flanks, GearComparison, PathComparison, Point as FlankPoint};
+use crate::study::stiffness::{FIELD, Flanks, GearComparison, Point as FlankPoint};
 
 /// A longer interval between stations, in requested intervals, is a gap in the curve.
 const LEFT_OUT: f64 = 1.5;
 
-/// The results of a case that charts show.
-#[derive(Debug, Default)]
-pub struct Solved {
-    /// The solve by the method of the case and, for charts that this method lacks, a solve by
-    /// another method.
-    pub reports: Vec<Report>,
-    /// Why the other method refuses the case.
-    pub refusal: Option<Refusal>,
-    /// The mesh stiffness by every compliance model, if computed.
-    pub path: Option<Result<PathComparison, Refusal>>,
-    /// The tooth compliances, if computed.
-    pub flanks: Option<Result<Flanks, Refusal>>,
-    /// The dynamic factor over speed, if computed.
-    pub speeds: Option<SpeedCurve>,
-}
-
 /// A case by its name in the legend; the name is empty for a single case.
-pub type NamedCase<'a> = (&'a str, &'a Solved);
-
-impl Solved {
-    /// Adds a solve by another method for the charts that the method of the case lacks: `static`
-    /// after a closed form, `exact` after a method that shares the load.
-    #[must_use]
-    pub fn with_other_method(report: Report) -> Solved {
-        let inputs = Inputs { method: other_method(&report), ..report.inputs.clone() };
-        let other = Report::solve(
-            report.name.clone(),
-            report.case.clone(),
-            inputs,
-            report.selection.clone(),
-        );
-        let (other, refusal) = match other {
-            Ok(other) => (Some(other), None),
-            Err(refusal) => (None, Some(refusal)),
-        };
-        let reports = std::iter::once(report).chain(other).collect();
-        Solved { reports, refusal, ..Solved::default() }
-    }
-
-    /// The solve by the method of the case.
-    #[must_use]
-    pub fn own(&self) -> Option<&Report> {
-        self.reports.first()
-    }
-
-    /// Why the case lacks values that only some methods compute.
-    fn absence(&self, has: impl Fn(Method) -> bool) -> String {
-        let solved = self.reports.iter().find(|report| has(report.solution.method));
-        match (solved, self.own(), &self.refusal) {
-            (Some(report), ..) if report.solution.outcome == Outcome::NoCornerContact => {
-                "no corner contact is found".to_owned()
-            }
-            (Some(report), ..) => {
-                format!("method {} finds no values", report.solution.method.name())
-            }
-            (None, Some(own), Some(refusal)) => {
-                format!("method {} refuses the case: {refusal}", other_method(own).name())
-            }
-            (None, Some(own), None) => {
-                format!("method {} has no such values", own.solution.method.name())
-            }
-            (None, None, _) => "no case is solved".to_owned(),
-        }
-    }
-}
-
-fn other_method(report: &Report) -> Method {
-    if report.solution.method.shares_load() { Method::Exact } else { Method::Static }
-}
+pub type NamedCase<'a> = (&'a str, &'a Subject);
 
 /// The chart of a value over the roll angle.
 ///
@@ -170,10 +103,9 @@ fn stiffness(column: &Column, cases: &[NamedCase]) -> Result<Vec<Series>, String
             if points.len() < 2 || (cases.len() > 1 && model != own) {
                 continue;
             }
-            let field = if model.model().has_coupling { ", elastic field" } else { "" };
             let is_own = if model == own { " (case)" } else { "" };
             let name = match *case {
-                "" => format!("{}{field}{is_own}", model.name()),
+                "" => format!("{}{is_own}", model.name()),
                 case => of(case, model.name()),
             };
             series.push(Series { name, pieces: vec![points], kind: Kind::Curve });
@@ -317,7 +249,7 @@ pub fn speed_chart(curves: &[(&str, &SpeedCurve)]) -> Result<Chart, String> {
         return Err("the motion does not become steady: give a greater model.damping_ratio".into());
     }
     Ok(Chart {
-        title: "Dynamic factor of a tooth over speed, torque of the case".to_owned(),
+        title: "Dynamic factor of a tooth over speed".to_owned(),
         across: Axis::new("speed of the driver", "rpm; N = mesh/natural frequency"),
         up: Axis::new("Dynamic factor: force / that at rest", ""),
         series,
@@ -345,9 +277,10 @@ fn rpm(speed: f64) -> f64 {
 /// The run-up, the run-down if its motion differs, and the points with loss of contact.
 fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
     let called = |run: &str, peak: Option<&AtSpeed>| {
-        let peak = peak.map(|peak| {
-            let factor = significant(peak.tooth_factor, 3);
-            format!(": peak {factor} at {} rpm", rounded(rpm(peak.speed)))
+        let text = |key, value| Some(shown(Quantity::find(key)?, value).to_string());
+        let peak = peak.and_then(|peak| {
+            let factor = text("resonance_peak_factor", peak.tooth_factor)?;
+            Some(format!(": peak {factor} at {}", text("resonance_peak_speed", peak.speed)?))
         });
         of(name, &(run.to_owned() + &peak.unwrap_or_default()))
     };
@@ -375,19 +308,13 @@ fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
     all.into_iter().filter(|series| !series.pieces.is_empty()).collect()
 }
 
-/// The points with loss of contact: of neighbouring points the first and every fifth, so that the
-/// curve between them is visible.
+/// Every fifth point with loss of contact, so that the curve between them is visible.
 fn lost(curve: &SpeedCurve, jumps: &[AtSpeed]) -> Vec<Vec<Point>> {
     const STRIDE: usize = 5;
-    let of_run = |run: &[Option<AtSpeed>], counts: &dyn Fn(&AtSpeed) -> bool| {
-        let is_lost = |point: &&AtSpeed| point.contact_lost && counts(point);
-        let points = unbroken(run.iter().map(|point| point.as_ref().filter(is_lost)));
-        let kept = points.into_iter().flat_map(|run| run.into_iter().step_by(STRIDE));
-        kept.map(|point| vec![point]).collect::<Vec<_>>()
-    };
-    let mut found = of_run(&curve.up, &|_| true);
-    found.extend(of_run(&curve.down, &|point| jumps.contains(point)));
-    found
+    let falling = curve.down.iter().flatten().filter(|point| jumps.contains(point));
+    let points = curve.up.iter().flatten().chain(falling).filter(|point| point.contact_lost);
+    let points = points.step_by(STRIDE);
+    points.map(|point| vec![(rpm(point.speed), point.tooth_factor)]).collect()
 }
 
 /// Groups of neighbouring points.
@@ -415,7 +342,7 @@ pub fn tooth_chart(gear: usize, flanks: &Flanks, own: ToothCompliance) -> Result
     let half_width = significant(flanks.contact_half_width / MILLIMETRE, 3);
     let remark = no_field(found).unwrap_or_else(|| "without contact".to_owned());
     let field = named(FIELD, own.name() == FIELD, Some(remark));
-    let contact = format!("surface, {FIELD} with contact of half-width {half_width} mm");
+    let contact = format!("surface, contact half-width {half_width} mm");
     let mut all = vec![
         series(found, field, |point| point.field.map(|field| field.depth)),
         series(found, contact, |point| point.field.map(|field| field.surface)),

@@ -47,32 +47,6 @@ pub struct Comparison {
     pub selection: Selection,
 }
 
-/// An input or a quantity of every case.
-pub(super) struct Row {
-    pub(super) symbol: String,
-    pub(super) label: String,
-    pub(super) unit: &'static str,
-    pub(super) values: Vec<String>,
-    /// The difference of each case from the first; empty for the first one.
-    pub(super) differences: Vec<String>,
-}
-
-impl Row {
-    /// The value of each case, and its difference behind it.
-    fn into_cells(self, with_unit: bool) -> impl Iterator<Item = Cell> {
-        let unit = if with_unit { self.unit } else { "" };
-        let pairs = self.values.into_iter().zip(self.differences).enumerate();
-        pairs.flat_map(move |(at, (value, difference))| {
-            let is_bare = unit.is_empty() || [NONE, REFUSED].contains(&value.as_str());
-            let value = if is_bare { value } else { format!("{value} {unit}") };
-            [value].into_iter().chain((at > 0).then_some(difference)).map(Cell::from)
-        })
-    }
-}
-
-/// Rows with a title.
-type Group = (String, Vec<Row>);
-
 impl ComparedCase {
     fn solution(&self) -> Option<&Solution> {
         Some(&self.found.as_ref().ok()?.solution)
@@ -100,7 +74,7 @@ impl ComparedCase {
     /// The outcome, or the reason for its absence.
     fn described(&self) -> String {
         sanitize(&match &self.found {
-            Ok(report) => digest::sentence(&report.solution, System::Metric),
+            Ok(report) => digest::sentence(&report.solution, System::Metric, None),
             Err(problems) => {
                 let problems: Vec<String> = problems.iter().map(ToString::to_string).collect();
                 format!("Refused: {}.", problems.join("; "))
@@ -109,11 +83,32 @@ impl ComparedCase {
     }
 }
 
+/// Columns before those of the cases: name and SI unit for scripts; symbol, label and unit for
+/// readers. The differences from the first case follow the values.
+const NAMES: usize = 5;
+
 impl Comparison {
-    /// The inputs that differ, and the quantities in the order of the first method, in groups unless
+    fn columns(&self) -> Vec<Column> {
+        let names = ["quantity", "unit", "", "", ""].map(|key| Column::text(key, ""));
+        let values = self.cases.iter().zip(0..).map(|(case, at)| {
+            Column::text(sanitize(&case.name), letter(at)).to_the_right().wide(2, 6)
+        });
+        let differences = self.cases.iter().zip(0..).skip(1).map(|(case, at)| {
+            let key = format!("{} - reference", sanitize(&case.name));
+            Column::text(key, letter(at) + " - A").to_the_right().wide(2, 5)
+        });
+        let mut columns: Vec<Column> = names.into_iter().chain(values).chain(differences).collect();
+        columns[2].gap = 2;
+        columns
+    }
+
+    /// The inputs that differ, and the results in the order of the first method, in groups unless
     /// the user names some.
-    pub(super) fn groups(&self) -> Vec<Group> {
-        let mut found = vec![("Inputs that differ".to_owned(), self.inputs())];
+    pub(super) fn tables(&self) -> Vec<Table> {
+        let columns = self.columns();
+        let table =
+            |title: String, rows: Vec<Vec<Cell>>| Table::new(title, columns.clone()).with(rows);
+        let mut found = vec![table("Inputs that differ".to_owned(), self.inputs())];
         if let Some(method) = self.cases.iter().find_map(|case| Some(case.solution()?.method)) {
             let rows = |quantities: &mut dyn Iterator<Item = &'static Quantity>| {
                 quantities.filter_map(|quantity| self.row(quantity, method)).collect()
@@ -121,42 +116,49 @@ impl Comparison {
             if self.selection.is_whole() {
                 let all = groups(method).into_iter();
                 found.extend(
-                    all.map(|group| (group.heading(method), rows(&mut group.quantities()))),
+                    all.map(|group| table(group.heading(method), rows(&mut group.quantities()))),
                 );
             } else {
-                found.push(("Results".to_owned(), rows(&mut self.selection.quantities())));
+                let rows = rows(&mut self.selection.quantities());
+                found.push(table("Results".to_owned(), rows));
             }
         }
-        found.retain(|(_, rows)| !rows.is_empty());
+        found.retain(|table| !table.rows.is_empty());
         found
     }
 
-    fn row(&self, quantity: &'static Quantity, method: Method) -> Option<Row> {
+    /// A quantity by the definition of a method; CSV has the values by the methods of the cases.
+    fn row(&self, quantity: &'static Quantity, method: Method) -> Option<Vec<Cell>> {
         let of = |case: &ComparedCase| value_as_in(quantity, case.solution()?, method);
         let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
-        let values: Vec<Option<f64>> = self.cases.iter().map(of).map(finite).collect();
-        let last = *values.iter().flatten().last()?;
-        let unit = common_unit(quantity, values.iter().copied().flatten(), System::Metric);
-        let shown = |(case, value): (&ComparedCase, &Option<f64>)| match (value, &case.found) {
-            (Some(value), _) => shown_with(quantity, *value, unit).number,
-            (None, Ok(_)) => NONE.to_owned(),
-            (None, Err(_)) => REFUSED.to_owned(),
-        };
-        let against = |(at, value): (usize, &Option<f64>)| match (values[0], *value) {
-            (Some(base), Some(value)) if at > 0 => difference(quantity, value, base, unit),
-            _ => String::new(),
-        };
-        Some(Row {
-            symbol: quantity.symbol_in(method).to_owned(),
-            label: quantity.label_in(method).to_owned(),
-            unit: shown_with(quantity, last, unit).unit,
-            values: self.cases.iter().zip(&values).map(shown).collect(),
-            differences: values.iter().enumerate().map(against).collect(),
-        })
+        let known: Vec<Option<f64>> = self.cases.iter().map(of).map(finite).collect();
+        let last = *known.iter().flatten().last()?;
+        let unit = common_unit(quantity, known.iter().copied().flatten(), System::Metric);
+        let shown = |value| shown_with(quantity, value, unit);
+        let [symbol, label] = [quantity.symbol_in(method), quantity.label_in(method)];
+        let names = [quantity.key, quantity.unit, symbol, label, shown(last).unit].map(Cell::from);
+        let values = self.cases.iter().zip(&known).map(|(case, now)| {
+            let absent = if case.found.is_ok() { NONE } else { REFUSED };
+            match (*now, case.value(quantity)) {
+                (Some(now), Some(own)) => Cell::Shown(own, shown(now).number),
+                _ => Cell::None(absent.into()),
+            }
+        });
+        let differences = (1..self.cases.len()).map(|at| {
+            let text = known[0].zip(known[at]);
+            let text = text.map(|(base, now)| difference(quantity, now, base, unit));
+            let text = text.unwrap_or_default();
+            let own = self.cases[at].value(quantity).zip(self.base(quantity, at));
+            match own {
+                Some((now, base)) => Cell::Shown(now - base, text),
+                None => Cell::None(text.into()),
+            }
+        });
+        Some(names.into_iter().chain(values).chain(differences).collect())
     }
 
     /// The inputs that differ between the cases, including limits and distributions.
-    fn inputs(&self) -> Vec<Row> {
+    fn inputs(&self) -> Vec<Vec<Cell>> {
         let Some(first) = self.cases.first() else { return Vec::new() };
         let mut keys: Vec<String> = FIELDS.iter().map(|field| field.key.to_owned()).collect();
         for change in self.cases.iter().flat_map(|other| between(&first.case, &other.case)) {
@@ -169,7 +171,7 @@ impl Comparison {
         keys.iter().filter_map(|key| self.input(key)).collect()
     }
 
-    fn input(&self, key: &str) -> Option<Row> {
+    fn input(&self, key: &str) -> Option<Vec<Cell>> {
         let text = |case: &ComparedCase| {
             let text = match index_of(key) {
                 Some(field) => case.case.effective(field).map(str::to_owned),
@@ -178,20 +180,24 @@ impl Comparison {
             text.map_or_else(|| NONE.to_owned(), |text| sanitize(&text))
         };
         let values: Vec<String> = self.cases.iter().map(text).collect();
-        values.iter().any(|value| *value != values[0]).then(|| Row {
-            symbol: symbol(key),
-            label: label(key),
-            unit: "",
-            differences: vec![String::new(); values.len()],
-            values,
-        })
+        let names = [key.to_owned(), String::new(), symbol(key), label(key), String::new()];
+        let blank = vec![String::new(); values.len() - 1];
+        let is_shown = values.iter().any(|value| *value != values[0]);
+        is_shown.then(|| names.into_iter().chain(values).chain(blank).map(Cell::Text).collect())
     }
 
-    /// The headers of the cases, and of their differences.
-    fn letters(&self) -> impl Iterator<Item = String> {
-        let others = (1..self.cases.len()).map(letter);
-        let others = others.flat_map(|letter| [letter.clone(), letter + " - A"]);
-        std::iter::once(letter(0)).chain(others)
+    /// The columns of a further case: its value and its difference.
+    fn pair(&self, at: usize) -> [usize; 2] {
+        [NAMES + at, NAMES + self.cases.len() + at - 1]
+    }
+
+    /// The value of a case in a row of a table, with its difference in brackets.
+    pub(super) fn value(&self, row: &[Cell], at: usize) -> String {
+        let value = row[NAMES + at].text();
+        match (at > 0).then(|| row[self.pair(at)[1]].text()) {
+            Some(difference) if !difference.is_empty() => format!("{value} ({difference})"),
+            _ => value.to_owned(),
+        }
     }
 
     /// Writes the comparison as text, at most 80 columns wide unless one difference needs more.
@@ -205,88 +211,38 @@ impl Comparison {
                 writeln!(out, "{line}")?;
             }
         }
-        let (tables, in_a_line) = self.text_tables();
-        let start =
-            tables.first().map_or(0, |table| table.columns.len() + 1 - 2 * self.cases.len());
+        let mut tables = self.tables();
+        if tables.is_empty() {
+            return Ok(());
+        }
+        let widths = widths(&tables);
+        let room = |columns: &[usize]| -> usize {
+            let gap = |at: usize| tables[0].columns[at].gap;
+            columns.iter().map(|&at| widths[at] + gap(at)).sum()
+        };
         let others: Vec<usize> = (1..self.cases.len()).collect();
+        let widest = others.iter().map(|&at| room(&self.pair(at))).max().unwrap_or(WIDTH);
+        let fitting = |names: &[usize]| WIDTH.saturating_sub(room(names)) / widest.max(1);
+        let (with_labels, without) = ([2, 3, 4, NAMES], [2, 4, NAMES]);
+        let [all, fewer] = [fitting(&with_labels), fitting(&without).max(1)];
+        // The labels are shown if they take no more lines.
+        let has_labels = all > 0 && others.len().div_ceil(all) <= others.len().div_ceil(fewer);
+        let (names, in_a_line) =
+            if has_labels { (&with_labels[..], all) } else { (&without[..], fewer) };
+        for row in tables.iter_mut().flat_map(|table| &mut table.rows) {
+            if !has_labels && row[2] == Cell::from("") {
+                row[2] = row[3].clone();
+            }
+        }
         for others in others.chunks(in_a_line) {
-            let is_refused = others.iter().all(|&at| self.cases[at].found.is_err());
-            let shown = if is_refused { &tables[..tables.len().min(1)] } else { &tables[..] };
-            let columns = others.iter().flat_map(|at| [start + 2 * at - 1, start + 2 * at]);
-            let columns: Vec<usize> = (0..=start).chain(columns).collect();
-            let shown: Vec<Table> = shown.iter().map(|table| table.of(&columns)).collect();
+            let columns = names.iter().copied().chain(others.iter().flat_map(|&at| self.pair(at)));
+            let columns: Vec<usize> = columns.collect();
+            let shown: Vec<Table> = tables.iter().map(|table| table.of(&columns)).collect();
             for lines in text(&shown) {
                 writeln!(out, "\n{}", lines.join("\n"))?;
             }
         }
         Ok(())
-    }
-
-    /// A table for each group, and the number of further cases that fit a line. The tables have
-    /// labels if that fits, or if it takes no more lines.
-    fn text_tables(&self) -> (Vec<Table>, usize) {
-        const NAMES: usize = 3;
-        let names = ["symbol", "label", "unit"].map(|key| Column::text(key, ""));
-        let letters = self.letters().map(|letter| {
-            let least = if letter.contains('-') { 5 } else { 6 };
-            Column::text("", letter).to_the_right().wide(2, least)
-        });
-        let mut columns: Vec<Column> = names.into_iter().chain(letters).collect();
-        (columns[0].gap, columns[NAMES].gap) = (2, 3);
-        let row = |row: Row| {
-            let names = [row.symbol.as_str(), &row.label, row.unit].map(Cell::from);
-            names.into_iter().chain(row.into_cells(false)).collect()
-        };
-        let table = |(title, rows): Group| {
-            Table::new(title, columns.clone()).with(rows.into_iter().map(row))
-        };
-        let mut tables: Vec<Table> = self.groups().into_iter().map(table).collect();
-        let mut widths = widths(&tables);
-        if widths.is_empty() {
-            return (tables, 1);
-        }
-        // Every value is as wide as the widest, and every difference.
-        let is_difference = |at: usize| at > NAMES && at % 2 == 1;
-        let widest = |of_differences: bool| {
-            let columns = (NAMES..widths.len()).filter(|&at| is_difference(at) == of_differences);
-            columns.map(|at| widths[at]).max().unwrap_or(0)
-        };
-        let (value, difference) = (widest(false), widest(true));
-        for (at, width) in widths.iter_mut().enumerate().skip(NAMES) {
-            *width = if is_difference(at) { difference } else { value };
-        }
-        let others = self.cases.len() - 1;
-        let fitting = |label: usize| {
-            let before = widths[0] + label + widths[2] + value + 6;
-            WIDTH.saturating_sub(before) / (value + difference + 4)
-        };
-        let (with_labels, without) = (fitting(widths[1] + 1), fitting(0).max(1));
-        let is_as_short =
-            with_labels > 0 && others.div_ceil(with_labels) <= others.div_ceil(without);
-        let has_labels = with_labels >= others || is_as_short;
-        for table in &mut tables {
-            for (column, &width) in table.columns.iter_mut().zip(&widths) {
-                column.least = width;
-            }
-            if has_labels {
-                continue;
-            }
-            for row in &mut table.rows {
-                let label = row.remove(1);
-                if row[0] == Cell::from("") {
-                    row[0] = label;
-                }
-            }
-            table.columns.remove(1);
-            table.columns[0].least = 0;
-        }
-        if !has_labels {
-            let least = super::table::widths(&tables)[0];
-            for table in &mut tables {
-                table.columns[0].least = least;
-            }
-        }
-        (tables, if has_labels { with_labels.max(1) } else { without })
     }
 
     /// Writes the comparison as Markdown.
@@ -299,16 +255,12 @@ impl Comparison {
                 [case.named(), case.described()].map(|text| plain_markdown(&text));
             writeln!(out, "- **{}** {name} {sentence}", letter(at))?;
         }
-        for (title, rows) in self.groups() {
-            let letters = self.letters().map(|letter| Column::text("", letter).to_the_right());
-            let names = [Column::text("", title), Column::text("", "")];
-            let row = |row: Row| {
-                let names = [row.label.as_str(), &row.symbol].map(Cell::from);
-                names.into_iter().chain(row.into_cells(true)).collect()
-            };
-            let columns = names.into_iter().chain(letters).collect();
-            let table = Table::new("", columns).with(rows.into_iter().map(row));
-            writeln!(out, "\n{}", table.markdown())?;
+        let others = (1..self.cases.len()).flat_map(|at| self.pair(at));
+        let columns: Vec<usize> = [3, 2, NAMES].into_iter().chain(others).chain([4]).collect();
+        for table in self.tables() {
+            let mut shown = table.of(&columns);
+            shown.columns[0].title = table.title.into();
+            writeln!(out, "\n{}", shown.markdown())?;
         }
         Ok(())
     }
@@ -319,27 +271,23 @@ impl Comparison {
     /// # Errors
     /// Errors of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        let names = self.cases.iter().map(|case| sanitize(&case.name));
-        let differences = names.clone().skip(1).map(|name| format!("{name} - reference"));
-        let head = ["quantity", "unit"].map(str::to_owned).into_iter();
-        let columns = head.chain(names).chain(differences).map(|key| Column::text(key, ""));
         let words = |name: &str, of: fn(&ComparedCase) -> &'static str| {
             let cells = self.cases.iter().map(of);
             let blank = self.cases.iter().skip(1).map(|_| "");
-            [name, ""].into_iter().chain(cells).chain(blank).map(Cell::from).collect()
+            [name, "", "", "", ""].into_iter().chain(cells).chain(blank).map(Cell::from).collect()
         };
-        let rows = [
+        let mut rows: Vec<Vec<Cell>> = vec![
             words("method", |case| case.method().unwrap_or_default()),
             words("outcome", ComparedCase::outcome),
         ];
-        let values = self.quantities().map(|quantity| {
-            let values = self.cases.iter().map(|case| case.value(quantity));
-            let differences = (1..self.cases.len())
-                .map(|at| Some(self.cases[at].value(quantity)? - self.base(quantity, at)?));
-            let names = [quantity.key, quantity.unit].map(Cell::from).into_iter();
-            names.chain(values.chain(differences).map(|value| Cell::number(value, ""))).collect()
-        });
-        Table::new("", columns.collect()).with(rows.into_iter().chain(values)).write_csv(out)
+        let tables = self.tables();
+        let results = tables.iter().flat_map(|table| &table.rows);
+        rows.extend(self.quantities().filter_map(|quantity| {
+            results.clone().find(|row| row[0] == Cell::from(quantity.key)).cloned()
+        }));
+        let columns = [0, 1].into_iter().chain(NAMES..NAMES + 2 * self.cases.len() - 1);
+        let columns: Vec<usize> = columns.collect();
+        Table::new("", self.columns()).with(rows).of(&columns).write_csv(out)
     }
 
     /// The quantities with a value in some case.

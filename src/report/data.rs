@@ -17,11 +17,18 @@ pub use super::json::write_line;
 pub(super) fn subject(quantity: &Quantity, method: Method) -> Option<&'static str> {
     if method.shares_load() && quantity.is_of_free_impact() {
         Some("free-impact")
+    } else if is_without_deviations(quantity) {
+        Some("without-deviations")
     } else if quantity.symbol_in(method) != quantity.symbol {
         Some("deviations-without-reliefs")
     } else {
         None
     }
+}
+
+/// Whether the quantity belongs to a pair in which no tooth deviates.
+pub(super) fn is_without_deviations(quantity: &Quantity) -> bool {
+    matches!(quantity.stage, Stage::StaticSpectrum | Stage::SteadyMotion | Stage::SpeedRun)
 }
 
 /// Writes the report as one line.

@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use super::data;
-use super::page::Page;
+use super::page::{Page, Settings};
 use super::solve::Subject;
 use crate::study::shard::Format;
 
@@ -34,13 +34,13 @@ pub fn format_of(path: &Path) -> Option<Format> {
 ///
 /// # Errors
 /// Errors of a template or a value that cannot be written.
-pub fn render(format: Format, subjects: &[Subject]) -> io::Result<String> {
+pub fn render(format: Format, subjects: &[Subject], settings: &Settings) -> io::Result<String> {
     let mut bytes = Vec::new();
-    for (at, report) in subjects.iter().filter_map(|subject| subject.solved.own()).enumerate() {
+    for (at, report) in subjects.iter().filter_map(Subject::own).enumerate() {
         match format {
-            Format::Html => return Page::of(subjects).html().map_err(io::Error::other),
+            Format::Html => return Page::of(subjects, settings).html().map_err(io::Error::other),
             Format::Md | Format::Text => {
-                return Page::of(subjects).markdown().map_err(io::Error::other);
+                return Page::of(subjects, settings).markdown().map_err(io::Error::other);
             }
             Format::Csv => data::write_csv(report, at == 0, &mut bytes)?,
             Format::Json => data::write_json(report, &mut bytes)?,

@@ -1,31 +1,87 @@
-//! Solved cases side by side as one page: HTML with charts, or Markdown.
+//! Solved cases side by side as one page: HTML with charts, or Markdown. The first sheet has the
+//! verdict, the inputs, the main results and charts; the appendix has the rest.
 
 use std::fmt::Write;
 
 use super::charts::NamedCase;
-use super::compare::{ComparedCase, Comparison, Row};
-use super::pictures::{Picture, pictures};
+use super::compare::{ComparedCase, Comparison};
+use super::pictures::{Picture, find, pictures};
 use super::solve::Subject;
 use super::table::{Cell, Column, Table};
 use super::verdict::verdicts;
-use super::{Report, common_unit, groups, shown_with, text, value};
-use crate::case::changes::label;
-use crate::case::fields::index_of;
+use super::{Report, case_notes, common_unit, groups, is_default, shown_with, text, value};
+use crate::case::fields::{Absent, index_of};
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
-use crate::case::{Case, FIELDS};
+use crate::case::{Case, FIELDS, units};
 use crate::model::Quantity;
+use crate::model::explanation::tidy;
+use crate::study::condition::distinct;
 use crate::study::statistics::{Estimate, PERCENTILES};
 use crate::study::tolerance::{Samples, Tolerance};
 use askama::Template;
 
+/// What a page shows.
+#[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "cli", derive(clap::Args))]
+pub struct Settings {
+    /// Title of the page (default: the title of the case)
+    #[cfg_attr(feature = "cli", arg(long, value_name = "TEXT"))]
+    pub title: Option<String>,
+    /// Leave out the appendix: all results, further charts, studies, sources and case files
+    #[cfg_attr(feature = "cli", arg(long))]
+    pub no_appendix: bool,
+}
+
+/// Fields that the page shows even with their defaults, because they define the pair.
+const DEFINING: [&str; 8] = [
+    "pressure_angle",
+    "profile_shift",
+    "tip_diameter",
+    "root_diameter",
+    "young",
+    "poisson",
+    "density",
+    "tip_relief",
+];
+
+/// The results on the first sheet; those of the free impact by their counterparts in the method.
+/// The results with a limit follow.
+const MAIN_RESULTS: [&str; 21] = [
+    "contact_ratio",
+    "centre_distance",
+    "working_pressure_angle",
+    "mesh_force",
+    "total_deviation",
+    "clearing_relief",
+    "approach_angle_driver",
+    "impact_force",
+    "static_peak_force",
+    "dynamic_peak_force",
+    "impact_duration",
+    "normal_velocity",
+    "sliding_velocity",
+    "static_te_peak_to_peak",
+    "dynamic_te_peak_to_peak",
+    "mesh_force_factor",
+    "tooth_force_factor",
+    "mesh_stiffness",
+    "mesh_frequency",
+    "natural_frequency",
+    "resonance_speed",
+];
+
+/// The pictures of the first sheet, of a single case with the teeth: the first of them that the case
+/// has; the others are in the appendix.
+const MAIN_PICTURES: [&str; 4] = ["force", "relief", "transmission_error", "gap"];
+/// Their number, besides the teeth.
+const ON_FIRST_SHEET: usize = 3;
+
 /// A case of the page.
-struct PageCase {
-    name: String,
+struct PageCase<'a> {
+    report: &'a Report,
     title: String,
-    method: &'static str,
-    notes_of_case: String,
     verdict: Vec<String>,
     /// Whether each limit is met, with its word and its sentence.
     limits: Vec<(bool, &'static str, String)>,
@@ -33,12 +89,7 @@ struct PageCase {
     studies: Vec<Table>,
     /// The file without its comments.
     lines: String,
-    /// More backticks than the file contains.
-    fence: String,
-    /// The whole file as a data URL.
-    link: String,
-    /// The file's name without folders.
-    file_name: String,
+    file: &'a str,
 }
 
 #[derive(Template)]
@@ -46,8 +97,7 @@ struct PageCase {
 struct Html<'a> {
     page: &'a Page<'a>,
     charts: Vec<String>,
-    /// The pictures of each single case.
-    own: Vec<String>,
+    further: Vec<String>,
 }
 
 /// The content of a page, without its pictures.
@@ -55,27 +105,37 @@ struct Html<'a> {
 #[template(path = "report.md", config = "assets/askama.toml")]
 pub struct Page<'a> {
     subjects: &'a [Subject],
+    has_appendix: bool,
     title: String,
     version: &'static str,
-    cases: Vec<PageCase>,
+    cases: Vec<PageCase<'a>>,
     inputs: Table,
+    main: Table,
     results: Vec<Table>,
 }
 
 impl<'a> Page<'a> {
     /// The page of some cases; empty without cases.
     #[must_use]
-    pub fn of(subjects: &'a [Subject]) -> Page<'a> {
-        let reports: Vec<&Report> =
-            subjects.iter().filter_map(|subject| subject.solved.own()).collect();
+    pub fn of(subjects: &'a [Subject], settings: &Settings) -> Page<'a> {
         let cases: Vec<PageCase> = subjects.iter().filter_map(PageCase::of).collect();
-        let title = match cases.as_slice() {
-            [] => String::new(),
-            [only] => only.title.clone(),
-            several => format!("{} gear pairs side by side", several.len()),
+        let title = match (&settings.title, cases.as_slice()) {
+            (Some(title), _) => sanitize(title),
+            (None, []) => String::new(),
+            (None, [only]) => only.title.clone(),
+            (None, several) => format!("{} gear pairs side by side", several.len()),
         };
-        let (inputs, results) = (inputs(&reports, &cases), results(&reports, &cases));
-        Page { subjects, title, version: env!("CARGO_PKG_VERSION"), cases, inputs, results }
+        let (inputs, (main, results)) = (inputs(&cases), results(&cases));
+        Page {
+            subjects,
+            has_appendix: !settings.no_appendix,
+            title,
+            version: env!("CARGO_PKG_VERSION"),
+            cases,
+            inputs,
+            main,
+            results,
+        }
     }
 
     /// Renders a self-contained HTML page.
@@ -83,18 +143,29 @@ impl<'a> Page<'a> {
     /// # Errors
     /// Errors of the template.
     pub fn html(&self) -> Result<String, askama::Error> {
-        let on_page = pictures().filter(|picture| picture.is_on_page());
-        let (of_one, of_all): (Vec<Picture>, Vec<Picture>) =
-            on_page.partition(|picture| picture.is_of_one_case());
         let cases = self.subjects.iter().zip(&self.cases).map(|(subject, case)| {
-            (if self.is_single() { "" } else { case.title.as_str() }, &subject.solved)
+            (if self.is_single() { "" } else { case.title.as_str() }, subject)
         });
         let cases: Vec<NamedCase> = cases.collect();
-        let drawn = |pictures: &[Picture], cases: &[NamedCase]| {
-            pictures.iter().filter_map(|picture| picture.draw(cases).ok()).collect::<Vec<String>>()
+        // A picture of one case is drawn once for each.
+        let drawn = |picture: Picture| -> Vec<String> {
+            let sets: Vec<&[NamedCase]> = match picture.is_of_one_case() {
+                true => cases.chunks(1).collect(),
+                false => vec![&cases[..]],
+            };
+            sets.into_iter().filter_map(|cases| picture.draw(cases).ok()).collect()
         };
-        let own = cases.iter().map(|&case| drawn(&of_one, &[case]).concat()).collect();
-        Html { page: self, charts: drawn(&of_all, &cases), own }.render()
+        let is_main = |picture: &Picture| MAIN_PICTURES.contains(&picture.key);
+        let mut charts: Vec<String> =
+            MAIN_PICTURES.iter().filter_map(|key| find(key)).flat_map(drawn).collect();
+        let mut further = charts.split_off(charts.len().min(ON_FIRST_SHEET));
+        let others = pictures().filter(|picture| picture.is_on_page() && !is_main(picture));
+        for picture in others {
+            let is_first = picture.key == "teeth" && self.is_single();
+            let place = if is_first { &mut charts } else { &mut further };
+            place.extend(drawn(picture));
+        }
+        Html { page: self, charts, further }.render()
     }
 
     /// Renders Markdown, without charts.
@@ -108,64 +179,83 @@ impl<'a> Page<'a> {
     /// The results without headings.
     fn all_results(&self) -> Table {
         let rows = self.results.iter().flat_map(|table| table.rows.iter().cloned());
-        let columns = self.results.first().map(|table| table.columns.clone());
-        Table::new("", columns.unwrap_or_default()).with(rows)
+        Table::new("", self.main.columns.clone()).with(rows)
     }
 
     fn is_single(&self) -> bool {
         self.cases.len() == 1
     }
 
-    fn has_limits(&self) -> bool {
-        self.cases.iter().any(|case| !case.limits.is_empty())
+    fn has_notes(&self) -> bool {
+        self.cases.iter().any(|case| !case.notes.is_empty())
     }
 
     fn has_studies(&self) -> bool {
         self.cases.iter().any(|case| !case.studies.is_empty())
     }
-
-    fn has_notes(&self) -> bool {
-        self.cases.iter().any(|case| !case.notes.is_empty())
-    }
 }
 
-impl PageCase {
-    fn of(subject: &Subject) -> Option<PageCase> {
-        let report = subject.solved.own()?;
+impl PageCase<'_> {
+    fn of(subject: &Subject) -> Option<PageCase<'_>> {
+        let report = subject.own()?;
         let limits = verdicts(&report.case, &report.solution);
         let limits = limits.iter().map(|verdict| {
             (verdict.standing.holds(), verdict.standing.word(), verdict.to_string())
         });
-        let lines = without_comments(&subject.file);
-        let longest = lines.split(|c| c != '`').map(str::len).max().unwrap_or(0);
         Some(PageCase {
-            name: sanitize(&report.name),
+            report,
             title: report.named().heading(),
-            method: report.solution.method.name(),
-            notes_of_case: one_line(report.text("notes")),
             verdict: text::verdict(report),
             limits: limits.collect(),
-            notes: report.notes.iter().map(|note| sanitize(&note.message)).collect(),
+            notes: case_notes(&report.notes).map(|note| sanitize(&note.message)).collect(),
             studies: tables(subject, &report.case),
-            lines,
-            fence: "`".repeat(longest.max(2) + 1),
-            link: address(&subject.file),
-            file_name: sanitize(report.name.rsplit('/').next().unwrap_or_default()),
+            lines: without_comments(&subject.file),
+            file: &subject.file,
         })
     }
-}
 
-/// A text as a data URL that a browser can save.
-fn address(text: &str) -> String {
-    let mut address = "data:text/plain;charset=utf-8,".to_owned();
-    for byte in text.bytes() {
-        if byte.is_ascii_alphanumeric() || b"-_.~".contains(&byte) {
-            address.push(char::from(byte));
-        } else {
-            let _ = write!(address, "%{byte:02X}");
+    /// Name, method and notes of the case, and the table `[about]`, as a line each.
+    fn about(&self) -> Vec<String> {
+        let report = self.report;
+        let method = report.solution.method.name();
+        let mut line = format!("{}, method {method}", sanitize(&report.name));
+        let notes = one_line(report.text("notes"));
+        if !notes.is_empty() {
+            line = format!("{line}. {notes}");
         }
+        let about = report.case.about.iter();
+        let about = about.map(|(key, text)| format!("{}: {}", sanitize(key), one_line(text)));
+        let about = about.collect::<Vec<_>>().join(" · ");
+        [about, line].into_iter().filter(|line| !line.is_empty()).collect()
     }
-    address
+
+    fn name(&self) -> String {
+        sanitize(&self.report.name)
+    }
+
+    /// The file's name without folders.
+    fn file_name(&self) -> String {
+        sanitize(self.report.name.rsplit('/').next().unwrap_or_default())
+    }
+
+    /// More backticks than the file contains.
+    fn fence(&self) -> String {
+        let longest = self.lines.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+        "`".repeat(longest.max(2) + 1)
+    }
+
+    /// The whole file as a data URL that a browser can save.
+    fn link(&self) -> String {
+        let mut address = "data:text/plain;charset=utf-8,".to_owned();
+        for byte in self.file.bytes() {
+            if byte.is_ascii_alphanumeric() || b"-_.~".contains(&byte) {
+                address.push(char::from(byte));
+            } else {
+                let _ = write!(address, "%{byte:02X}");
+            }
+        }
+        address
+    }
 }
 
 /// Columns of labels and symbols, then one of numbers for each header.
@@ -175,53 +265,93 @@ fn columns(name: &'static str, headers: impl IntoIterator<Item = String>) -> Vec
     names.into_iter().chain(numbers).collect()
 }
 
-fn titles(cases: &[PageCase]) -> impl Iterator<Item = String> {
+fn titles<'a>(cases: &'a [PageCase]) -> impl Iterator<Item = String> + 'a {
     cases.iter().map(|case| case.title.clone())
 }
 
-/// The fields that differ from their defaults in at least one case.
-fn inputs(reports: &[&Report], cases: &[PageCase]) -> Table {
-    let defaults = Case::empty();
+/// The fields that differ from their defaults in a case, and those that define the pair. A field of
+/// both gears is one row, the driver first.
+fn inputs(cases: &[PageCase]) -> Table {
     let rows = FIELDS.iter().enumerate().filter_map(|(at, field)| {
-        let is_default = |case: &Case| match (case.value(at), defaults.value(at)) {
-            (Some(own), Some(usual)) => own.total_cmp(&usual).is_eq(),
-            _ => case.is_replaced(at) || case.effective(at) == defaults.effective(at),
+        let fields: Vec<usize> = match field.table() {
+            "" | "driven" => return None,
+            "driver" => [Some(at), index_of(&format!("driven.{}", field.name()))]
+                .into_iter()
+                .flatten()
+                .collect(),
+            _ => vec![at],
         };
-        let is_words = matches!(field.key, "title" | "notes");
-        let differs = !reports.iter().all(|report| is_default(&report.case));
-        let values = reports.iter().map(|report| {
-            let text = sanitize(report.case.effective(at).unwrap_or("–"));
-            if is_default(&report.case) { Cell::Default(text) } else { Cell::Text(text) }
+        let texts = cases.iter().map(|case| {
+            let texts = fields.iter().map(|&field| input(field, case.report));
+            texts.collect::<Vec<(Option<String>, bool)>>()
         });
-        let names = [label(field.key), field.symbol.to_owned()].map(Cell::from);
-        (!is_words && differs).then(|| names.into_iter().chain(values).collect())
+        let texts: Vec<_> = texts.collect();
+        let mut all = texts.iter().flatten();
+        let is_shown = all.clone().any(|(_, is_default)| !is_default)
+            || DEFINING.contains(&field.name()) && all.any(|(text, _)| text.is_some());
+        let values = texts.iter().map(|texts| {
+            let words = texts.iter().map(|(text, _)| text.as_deref().unwrap_or("–"));
+            let words: Vec<&str> = words.collect();
+            let is_default = texts.iter().all(|(_, is_default)| *is_default);
+            let text = words.join(" / ");
+            if is_default { Cell::Default(text) } else { Cell::Text(text) }
+        });
+        let symbols: Vec<&str> = fields.iter().map(|&field| FIELDS[field].symbol).collect();
+        let names = [field.label.to_owned(), symbols.join(" / ")].map(Cell::from);
+        is_shown.then(|| names.into_iter().chain(values).collect())
     });
     Table::new("", columns("input", titles(cases))).with(rows)
 }
 
-/// The results in groups, in the order of the method of the first case.
-fn results(reports: &[&Report], cases: &[PageCase]) -> Vec<Table> {
-    let Some(first) = reports.first() else { return Vec::new() };
-    let method = first.solution.method;
+/// The text of a field, given, computed from other fields or by default, and whether the case does
+/// not change it.
+fn input(at: usize, report: &Report) -> (Option<String>, bool) {
+    const DIGITS: usize = 6;
+    let (case, field) = (&report.case, &FIELDS[at]);
+    let derived = case.derived(at, &report.inputs).map(|value| {
+        let unit = field.usual_unit();
+        let number = tidy(value / units::factor(unit).unwrap_or(1.0), DIGITS);
+        format!("{number} {unit}").trim_end().to_owned()
+    });
+    let words = matches!(field.absent, Absent::Without(_)) && case.text(at).is_none();
+    let text = derived.or_else(|| case.effective(at).filter(|_| !words).map(sanitize));
+    (text, is_default(at, case))
+}
+
+/// The main results, and all results in groups, in the order of the method of the first case.
+fn results(cases: &[PageCase]) -> (Table, Vec<Table>) {
+    let mut columns = columns("quantity", titles(cases));
+    columns.extend(["unit", "source"].map(|key| Column::text(key, key)));
+    let table = |title: String| Table::new(title, columns.clone());
+    let Some(method) = cases.first().map(|case| case.report.solution.method) else {
+        return (table(String::new()), Vec::new());
+    };
     let row = |quantity: &'static Quantity| {
-        let values = reports.iter().map(|report| value(quantity, &report.solution));
+        let values = cases.iter().map(|case| value(quantity, &case.report.solution));
         let given = values.clone().flatten();
         let unit = common_unit(quantity, given.clone(), System::Metric);
         let shown_unit = shown_with(quantity, given.last()?, unit).unit;
         let shown = |value: Option<f64>| {
-            value.map_or(Cell::None("–"), |value| shown_with(quantity, value, unit).number.into())
+            value.map_or(Cell::None("–".into()), |value| {
+                shown_with(quantity, value, unit).number.into()
+            })
         };
         let names = [quantity.label_in(method).trim(), quantity.symbol_in(method)].map(Cell::from);
         let source = [shown_unit, quantity.equation].map(Cell::from);
         Some(names.into_iter().chain(values.map(shown)).chain(source).collect())
     };
-    let mut columns = columns("quantity", titles(cases));
-    columns.extend(["unit", "source"].map(|key| Column::text(key, key)));
-    let table = |group: &super::Group| {
-        Table::new(group.heading(method), columns.clone()).with(group.quantities().filter_map(row))
+    let all = groups(method)
+        .into_iter()
+        .map(|group| table(group.heading(method)).with(group.quantities().filter_map(row)));
+    let own = |key: &&str| {
+        let quantity = Quantity::find(key)?;
+        if quantity.is_of_free_impact() { quantity.by(method) } else { Some(quantity) }
     };
-    let tables = groups(method).into_iter().map(table);
-    tables.filter(|table| !table.rows.is_empty()).collect()
+    let limited = cases.iter().flat_map(|case| &case.report.case.limits);
+    let limited = limited.filter_map(|limit| Quantity::find(limit.quantity));
+    let main = distinct(MAIN_RESULTS.iter().filter_map(own).chain(limited));
+    let main = table(String::new()).with(main.into_iter().filter_map(row));
+    (main, all.filter(|table| !table.rows.is_empty()).collect())
 }
 
 /// The tables of the studies of a case.
@@ -236,16 +366,12 @@ fn of_variants(comparison: &Comparison) -> Table {
     let names = comparison.cases.iter().map(|case| sanitize(&case.name));
     let mut columns = columns("", names);
     columns.push(Column::text("unit", ""));
-    let row = |Row { symbol, label, unit, values, differences }: Row| {
-        let values = values.into_iter().zip(differences);
-        let values = values.map(|(value, difference)| match difference.as_str() {
-            "" => value,
-            difference => format!("{value} ({difference})"),
-        });
-        let cells = [label, symbol].into_iter().chain(values).chain([unit.to_owned()]);
-        cells.map(Cell::from).collect()
-    };
-    let rows = comparison.groups().into_iter().flat_map(|(_, rows)| rows).map(row);
+    let tables = comparison.tables();
+    let rows = tables.iter().flat_map(|table| &table.rows).map(|row| {
+        let [symbol, label, unit] = [2, 3, 4].map(|at: usize| row[at].clone());
+        let values = (0..comparison.cases.len()).map(|at| comparison.value(row, at).into());
+        [label, symbol].into_iter().chain(values).chain([unit]).collect()
+    });
     let notes = comparison.cases.iter().flat_map(|ComparedCase { name, found, .. }| {
         let problems = found.as_ref().err().into_iter().flatten();
         problems.map(move |problem| sanitize(&format!("{name}: {problem}")))

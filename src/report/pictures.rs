@@ -3,21 +3,14 @@
 use std::fmt;
 
 use super::charts::{
-    NamedCase, SPECTRUM, SPEED, Solved, TOOTH_KEYS, graph_chart, spectrum_chart, speed_chart,
-    tooth_chart,
+    NamedCase, SPECTRUM, SPEED, TOOTH_KEYS, graph_chart, spectrum_chart, speed_chart, tooth_chart,
 };
 use super::graphs::{GRAPHS, Graph};
 use super::relief::{RELIEF, relief_chart};
+use super::solve::{Part, Unsolved};
 use super::svg;
-use super::{Report, Selection};
-use crate::case::Case;
+use crate::model::Refusal;
 use crate::model::compliance::model_of;
-use crate::model::dynamic::speeds::{SPEEDS, SpeedCurve};
-use crate::model::solve::speeds;
-use crate::model::{Inputs, Refusal};
-use crate::study::stiffness::{
-    FLANK_POINTS, PATH_POINTS, PathComparison, compare_flanks, compare_path,
-};
 
 /// The pictures that are not charts of [`GRAPHS`]; they follow those charts.
 const OTHERS: [Picture; 6] = [
@@ -46,17 +39,6 @@ enum Drawing {
     Speed,
     Relief,
     Teeth,
-}
-
-/// A case to solve and draw.
-#[derive(Debug, Clone, Copy)]
-pub struct Unsolved<'a> {
-    /// The name of the case, as the user gave it.
-    pub name: &'a str,
-    /// The case.
-    pub case: &'a Case,
-    /// The pair of the case.
-    pub inputs: &'a Inputs,
 }
 
 /// Why there is no picture.
@@ -91,10 +73,17 @@ impl Picture {
         }
     }
 
-    /// Whether the picture needs solves at many speeds, which take seconds.
+    /// The results that the picture shows.
     #[must_use]
-    pub fn needs_speeds(self) -> bool {
-        matches!(self.drawing, Drawing::Speed)
+    pub fn part(self) -> Part {
+        match self.drawing {
+            Drawing::Graph(Graph { by_model: Some(_), .. }) => Part::Path,
+            Drawing::ToothCompliance(_) => Part::Flanks,
+            Drawing::Speed => Part::Speeds,
+            Drawing::Graph(_) | Drawing::Spectrum | Drawing::Relief | Drawing::Teeth => {
+                Part::Stations
+            }
+        }
     }
 
     /// Whether each case has a separate picture.
@@ -150,20 +139,9 @@ impl Picture {
         source: Unsolved<'_>,
         go_on: &dyn Fn(usize, usize) -> bool,
     ) -> Result<String, NoPicture> {
-        let mut case = if self.needs_speeds() {
-            Solved { speeds: Some(source.speeds(go_on)?), ..Solved::default() }
-        } else {
-            Solved::with_other_method(source.solve(true)?)
-        };
-        match self.drawing {
-            Drawing::Graph(Graph { by_model: Some(_), .. }) => case.path = Some(source.path()),
-            Drawing::ToothCompliance(_) => {
-                case.flanks = Some(compare_flanks(source.inputs, FLANK_POINTS));
-            }
-            _ => {}
-        }
-        let fix = if self.needs_speeds() { "" } else { ": choose another chart" };
-        self.draw(&[("", &case)])
+        let part = self.part();
+        let fix = if part == Part::Speeds { "" } else { ": choose another chart" };
+        self.draw(&[("", &source.part(part, go_on)?)])
             .map_err(|reason| NoPicture::Absent(format!("{self} has no curve: {reason}{fix}")))
     }
 }
@@ -185,38 +163,6 @@ impl PartialEq for Picture {
 }
 
 impl Eq for Picture {}
-
-impl Unsolved<'_> {
-    /// Solves the case with every quantity, and with the stations on request.
-    ///
-    /// # Errors
-    /// The refusal of the model.
-    pub fn solve(&self, stations: bool) -> Result<Report, Refusal> {
-        let selection = Selection { only: Vec::new(), stations };
-        let (name, case) = (self.name.to_owned(), self.case.clone());
-        Report::solve(name, case, self.inputs.clone(), selection)
-    }
-
-    /// The mesh stiffness by every compliance model.
-    ///
-    /// # Errors
-    /// The refusal of the model.
-    pub fn path(&self) -> Result<PathComparison, Refusal> {
-        compare_path(self.inputs, PATH_POINTS)
-    }
-
-    /// The dynamic factor over speed. `go_on` receives the number of computed speeds and their
-    /// total.
-    ///
-    /// # Errors
-    /// The refusal of the model; [`Refusal::Stopped`] if `go_on` returns false.
-    pub fn speeds(&self, go_on: &dyn Fn(usize, usize) -> bool) -> Result<SpeedCurve, Refusal> {
-        speeds(self.inputs, &mut |curve| {
-            let done = curve.up.iter().chain(&curve.down).flatten().count();
-            go_on(done, 2 * SPEEDS)
-        })
-    }
-}
 
 impl From<Refusal> for NoPicture {
     fn from(refusal: Refusal) -> NoPicture {

@@ -297,7 +297,7 @@ impl ReliefReport<'_> {
             let best = if at == found.best { "true" } else { "false" };
             let texts = [choice.name, best, name(choice.reliefs.shape)].map(Cell::from);
             let numbers = NUMBERS.map(|(.., (shown, digits), of)| {
-                let Some(value) = of(found, choice) else { return Cell::None("-") };
+                let Some(value) = of(found, choice) else { return Cell::None("-".into()) };
                 let text = match shown {
                     "%" => format!("{:+.0} %", 100.0 * value),
                     "% load" => percent(value) + " %",

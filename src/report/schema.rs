@@ -41,6 +41,10 @@ pub fn write_case(out: &mut dyn Write) -> io::Result<()> {
     let help = "Distribution of a field around its value.";
     tables.insert("spread".to_owned(), object(help, spread.collect()));
     tables.insert("variants".to_owned(), of_variants(&tables));
+    let help = "Texts for the page of a report, such as project, author, date and drawing.";
+    let any = json!({"type": ["string", "number"]});
+    let about = json!({"description": help, "type": "object", "additionalProperties": any});
+    tables.insert("about".to_owned(), about);
     let mut schema = object("A case of tipstrike: a gear pair in operation.", tables);
     schema["$schema"] = DRAFT.into();
     schema["required"] = json!(["format"]);

@@ -1,17 +1,20 @@
 //! Solves cases for reports: every result exists before it is rendered.
 
-use super::charts::Solved;
 use super::compare::{ComparedCase, Comparison};
-use super::digest::Digest;
-use super::pictures::Unsolved;
+use super::digest::{Digest, STAGES};
 use super::{Report, Selection, verdict};
 use crate::case::units::System;
 use crate::case::{Case, Evaluator, Problem};
+use crate::model::dynamic::speeds::{SPEEDS, SpeedCurve};
 use crate::model::inputs::Method;
-use crate::model::{self, Inputs, Quantity, Refusal, Stage, Stages};
+use crate::model::solve::speeds;
+use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Stage, Stages};
 use crate::study::batch::Control;
 use crate::study::condition::{distinct, headline};
 use crate::study::shard::Format;
+use crate::study::stiffness::{
+    FLANK_POINTS, Flanks, PATH_POINTS, PathComparison, compare_flanks, compare_path,
+};
 use crate::study::tolerance::{Samples, Size, Tolerance};
 
 impl Report {
@@ -31,15 +34,15 @@ impl Report {
         Ok(Report::of(name, case, inputs, solution, selection))
     }
 
-    /// The report with the load at rest, if `dynamic` governs, and the closed forms. A method that
-    /// refuses the case is left out.
+    /// The report with the load at rest, if `dynamic` governs, and the free impact by `exact`. A
+    /// method that refuses the case is left out.
     #[must_use]
     pub fn with_others(mut self) -> Report {
         let governing = self.solution.method;
-        let stages = Stages::of(Stage::Clearing).and(Stages::of(Stage::Impact));
+        let stages = Stages::of(Stage::Static).and(Stages::of(Stage::Impact));
         let at_rest = (governing == Method::Dynamic).then_some(Method::Static);
-        let methods = at_rest.into_iter().chain([Method::Exact, Method::Paper]);
-        let methods = methods.filter(|&method| method != governing);
+        let exact = (governing != Method::Exact).then_some(Method::Exact);
+        let methods = at_rest.into_iter().chain(exact);
         if self.selection.is_whole() {
             self.others = methods
                 .filter_map(|method| {
@@ -61,8 +64,8 @@ pub fn compared(name: String, case: Case, selection: &Selection) -> ComparedCase
     ComparedCase { name, file: String::new(), variant: None, case, found }
 }
 
-/// Solves a case as far as its digest needs it: outcome, notes and limits. Returns `None` if `go_on`
-/// returns false.
+/// Solves a case as far as its digest needs it: verdict, notes and limits; without the relief of a
+/// motion, which takes long. Returns `None` if `go_on` returns false.
 #[must_use]
 pub fn digest(
     case: &Case,
@@ -70,12 +73,9 @@ pub fn digest(
     system: System,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Digest> {
-    let shared = match inputs.method {
-        Method::Static => Stages::of(Stage::Static),
-        Method::Dynamic | Method::Auto => Stages::of(Stage::Dynamic),
-        Method::Paper | Method::Exact => Stages::NONE,
-    };
-    let stages = verdict::stages(case).and(Stages::CLOSED_FORM).and(shared);
+    let is_slow = matches!(inputs.method, Method::Dynamic | Method::Auto);
+    let relief = if is_slow { Stages::NONE } else { Stages::of(Stage::Clearing) };
+    let stages = verdict::stages(case).and(STAGES).and(relief);
     match Evaluator::default().solve(inputs, inputs.method, stages, go_on) {
         Err(Refusal::Stopped) => None,
         found => Some(Digest::of(case, inputs, found.as_ref(), system)),
@@ -97,11 +97,31 @@ const OF_VARIANTS: [&str; 5] = [
     "steady_back_strikes",
 ];
 
-/// A solved case with its studies and the text of its file.
+/// A case to solve.
+#[derive(Debug, Clone, Copy)]
+pub struct Unsolved<'a> {
+    /// The name of the case, as the user gave it.
+    pub name: &'a str,
+    /// The case.
+    pub case: &'a Case,
+    /// The pair of the case.
+    pub inputs: &'a Inputs,
+}
+
+/// The results of a case that charts and pages show, as far as they are computed.
 #[derive(Debug, Default)]
 pub struct Subject {
-    /// The results.
-    pub solved: Solved,
+    /// The solve by the method of the case and, for charts that this method lacks, a solve by
+    /// another method.
+    pub reports: Vec<Report>,
+    /// Why the other method refuses the case.
+    pub refusal: Option<Refusal>,
+    /// The mesh stiffness by every compliance model.
+    pub path: Option<Result<PathComparison, Refusal>>,
+    /// The tooth compliances.
+    pub flanks: Option<Result<Flanks, Refusal>>,
+    /// The dynamic factor over speed.
+    pub speeds: Option<SpeedCurve>,
     /// The case and its variants, if it has any.
     pub variants: Option<Comparison>,
     /// The samples of its distributions, if it has any.
@@ -110,74 +130,165 @@ pub struct Subject {
     pub file: String,
 }
 
-/// Computes the parts of a solved case that a format shows. A page includes the studies of the case
-/// and a second method; HTML also includes the dynamic factor over speed. `go_on` receives the
-/// number of computed parts and their total.
-///
-/// # Errors
-/// [`Refusal::Stopped`] if `go_on` returns false.
-pub fn subject(
-    report: Report,
-    file: String,
-    format: Format,
-    go_on: &dyn Fn(usize, usize) -> bool,
-) -> Result<Subject, Refusal> {
-    let alone = |report| Solved { reports: vec![report], ..Solved::default() };
-    if !matches!(format, Format::Html | Format::Md) {
-        return Ok(Subject { solved: alone(report), file, ..Subject::default() });
+/// The results that a picture shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// The stations of the method and of another method.
+    Stations,
+    /// The mesh stiffness by every compliance model.
+    Path,
+    /// The tooth compliances.
+    Flanks,
+    /// The dynamic factor over speed, which takes seconds.
+    Speeds,
+}
+
+/// Receives the number of computed parts and their total; stops the work by returning false.
+type GoOn<'a> = &'a dyn Fn(usize, usize) -> bool;
+
+impl Subject {
+    /// The results of one report.
+    #[must_use]
+    pub fn of(report: Report, file: String) -> Subject {
+        Subject { reports: vec![report], file, ..Subject::default() }
     }
-    let report = report.with_others();
-    let source = Unsolved { name: &report.name, case: &report.case, inputs: &report.inputs };
-    let variants = variants(source, go_on)?;
-    let tolerance = tolerance(source, go_on)?;
-    let solved = if format == Format::Md {
-        alone(report)
-    } else {
+
+    /// The solve by the method of the case.
+    #[must_use]
+    pub fn own(&self) -> Option<&Report> {
+        self.reports.first()
+    }
+
+    /// Adds a solve by another method for the charts that the method of the case lacks.
+    fn with_other_method(mut self) -> Subject {
+        let other = self.own().map(|report| {
+            let inputs = Inputs { method: other_method(report), ..report.inputs.clone() };
+            let (name, case) = (report.name.clone(), report.case.clone());
+            Report::solve(name, case, inputs, report.selection.clone())
+        });
+        match other {
+            Some(Ok(other)) => self.reports.push(other),
+            Some(Err(refusal)) => self.refusal = Some(refusal),
+            None => {}
+        }
+        self
+    }
+
+    /// Why the case lacks values that only some methods compute.
+    pub(super) fn absence(&self, has: impl Fn(Method) -> bool) -> String {
+        let solved = self.reports.iter().find(|report| has(report.solution.method));
+        match (solved, self.own(), &self.refusal) {
+            (Some(report), ..) if report.solution.outcome == Outcome::NoCornerContact => {
+                "no corner contact is found".to_owned()
+            }
+            (Some(report), ..) => {
+                format!("method {} finds no values", report.solution.method.name())
+            }
+            (None, Some(own), Some(refusal)) => {
+                format!("method {} refuses the case: {refusal}", other_method(own).name())
+            }
+            (None, Some(own), None) => {
+                format!("method {} has no such values", own.solution.method.name())
+            }
+            (None, None, _) => "no case is solved".to_owned(),
+        }
+    }
+}
+
+/// `static` after a closed form, `exact` after a method that shares the load.
+fn other_method(report: &Report) -> Method {
+    if report.solution.method.shares_load() { Method::Exact } else { Method::Static }
+}
+
+impl Unsolved<'_> {
+    /// Solves the case with every quantity, and with the stations on request.
+    ///
+    /// # Errors
+    /// The refusal of the model.
+    pub fn solve(&self, stations: bool) -> Result<Report, Refusal> {
+        let selection = Selection { only: Vec::new(), stations };
+        let (name, case) = (self.name.to_owned(), self.case.clone());
+        Report::solve(name, case, self.inputs.clone(), selection)
+    }
+
+    /// Computes the results that a picture shows.
+    ///
+    /// # Errors
+    /// The refusal of the model; [`Refusal::Stopped`] if `go_on` returns false.
+    pub fn part(&self, part: Part, go_on: GoOn) -> Result<Subject, Refusal> {
+        if part == Part::Speeds {
+            return Ok(Subject { speeds: Some(self.speeds(go_on)?), ..Subject::default() });
+        }
+        let stations = Subject::of(self.solve(true)?, String::new()).with_other_method();
+        let path = (part == Part::Path).then(|| compare_path(self.inputs, PATH_POINTS));
+        let flanks = (part == Part::Flanks).then(|| compare_flanks(self.inputs, FLANK_POINTS));
+        Ok(Subject { path, flanks, ..stations })
+    }
+
+    /// Computes the results that a format shows. A page includes the studies of the case and other
+    /// methods; HTML also includes what its charts show.
+    ///
+    /// # Errors
+    /// The refusal of the model; [`Refusal::Stopped`] if `go_on` returns false.
+    pub fn subject(&self, file: String, format: Format, go_on: GoOn) -> Result<Subject, Refusal> {
+        let report = self.solve(format != Format::Csv)?;
+        if !matches!(format, Format::Html | Format::Md) {
+            return Ok(Subject::of(report, file));
+        }
+        let page = Subject {
+            variants: self.variants(go_on)?,
+            tolerance: self.tolerance(go_on)?,
+            ..Subject::of(report.with_others(), file)
+        };
+        if format == Format::Md {
+            return Ok(page);
+        }
         // A pair without steady motion has no chart over speed.
-        let speeds = match source.speeds(go_on) {
+        let speeds = match self.speeds(go_on) {
             Err(Refusal::Stopped) => return Err(Refusal::Stopped),
             found => found.ok(),
         };
-        let path = Some(source.path());
-        Solved { path, speeds, ..Solved::with_other_method(report) }
-    };
-    Ok(Subject { solved, variants, tolerance, file })
-}
-
-fn variants(
-    Unsolved { case, inputs, .. }: Unsolved,
-    go_on: &dyn Fn(usize, usize) -> bool,
-) -> Result<Option<Comparison>, Refusal> {
-    if case.variants.is_empty() {
-        return Ok(None);
+        let path = Some(compare_path(self.inputs, PATH_POINTS));
+        Ok(Subject { path, speeds, ..page.with_other_method() })
     }
-    let variants = case.variants.iter().map(|one| (one.name.as_str(), case.with(one)));
-    let cases: Vec<(&str, Case)> =
-        std::iter::once(("case", case.clone())).chain(variants).collect();
-    let methods = cases.iter().filter_map(|(_, case)| Some(case.inputs().ok()?.method));
-    let methods: Vec<Method> = methods.chain([inputs.method]).collect();
-    let others = OF_VARIANTS.iter().filter_map(|key| Quantity::find(key));
-    let only = distinct(headline(case, &methods).into_iter().chain(others));
-    let selection = Selection { only, stations: false };
-    let count = cases.len();
-    let solved = cases.into_iter().enumerate().map(|(at, (name, case))| {
-        if !go_on(at, count) {
-            return Err(Refusal::Stopped);
-        }
-        Ok(compared(name.to_owned(), case, &selection))
-    });
-    Ok(Some(Comparison { cases: solved.collect::<Result<_, _>>()?, selection }))
-}
 
-fn tolerance(
-    Unsolved { case, inputs, .. }: Unsolved,
-    go_on: &dyn Fn(usize, usize) -> bool,
-) -> Result<Option<(Tolerance, Samples)>, Refusal> {
-    let is_slow = inputs.method.shares_load() || inputs.method == Method::Auto;
-    let samples = if is_slow { FEW_SAMPLES } else { SAMPLES };
-    let size = Size { samples, seed: SEED, ranked: Some(0) };
-    let Ok(study) = Tolerance::of(case, inputs, &[], size) else { return Ok(None) };
-    let samples = study.run(inputs, &Control { jobs: None, go_on });
-    let samples = samples.map_err(|_| Refusal::Stopped)?;
-    Ok(Some((study, samples)))
+    fn speeds(&self, go_on: GoOn) -> Result<SpeedCurve, Refusal> {
+        speeds(self.inputs, &mut |curve| {
+            let done = curve.up.iter().chain(&curve.down).flatten().count();
+            go_on(done, 2 * SPEEDS)
+        })
+    }
+
+    fn variants(&self, go_on: GoOn) -> Result<Option<Comparison>, Refusal> {
+        let case = self.case;
+        if case.variants.is_empty() {
+            return Ok(None);
+        }
+        let variants = case.variants.iter().map(|one| (one.name.as_str(), case.with(one)));
+        let cases: Vec<(&str, Case)> =
+            std::iter::once(("case", case.clone())).chain(variants).collect();
+        let methods = cases.iter().filter_map(|(_, case)| Some(case.inputs().ok()?.method));
+        let methods: Vec<Method> = methods.chain([self.inputs.method]).collect();
+        let others = OF_VARIANTS.iter().filter_map(|key| Quantity::find(key));
+        let only = distinct(headline(case, &methods).into_iter().chain(others));
+        let selection = Selection { only, stations: false };
+        let count = cases.len();
+        let solved = cases.into_iter().enumerate().map(|(at, (name, case))| {
+            if !go_on(at, count) {
+                return Err(Refusal::Stopped);
+            }
+            Ok(compared(name.to_owned(), case, &selection))
+        });
+        Ok(Some(Comparison { cases: solved.collect::<Result<_, _>>()?, selection }))
+    }
+
+    fn tolerance(&self, go_on: GoOn) -> Result<Option<(Tolerance, Samples)>, Refusal> {
+        let is_slow = self.inputs.method.shares_load() || self.inputs.method == Method::Auto;
+        let samples = if is_slow { FEW_SAMPLES } else { SAMPLES };
+        let size = Size { samples, seed: SEED, ranked: Some(0) };
+        let Ok(study) = Tolerance::of(self.case, self.inputs, &[], size) else { return Ok(None) };
+        let samples = study.run(self.inputs, &Control { jobs: None, go_on });
+        let samples = samples.map_err(|_| Refusal::Stopped)?;
+        Ok(Some((study, samples)))
+    }
 }

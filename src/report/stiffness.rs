@@ -176,7 +176,7 @@ fn path_table(path: &PathComparison, of: Stiffnesses) -> Table {
 /// wide.
 fn cell(value: Option<f64>, in_unit: fn(f64) -> f64, reference: Option<f64>) -> Cell {
     const LARGEST: f64 = 999.0;
-    let Some(value) = value else { return Cell::None("-") };
+    let Some(value) = value else { return Cell::None("-".into()) };
     let difference = reference.map_or_else(String::new, |reference| {
         let (factor, percent) = (value / reference, 100.0 * (value / reference - 1.0));
         if percent > LARGEST { format!(" ({factor:.0} x)") } else { format!(" ({percent:+.0} %)") }

@@ -8,18 +8,19 @@ use std::fmt::Write;
 use super::chart::{Axis, Chart, Kind, Point, Series, Span};
 use crate::case::sanitize::sanitize;
 
-const WIDTH: f64 = 760.0;
+/// Half the width of a printed page shows letters of about 7 pt.
+const WIDTH: f64 = 560.0;
 /// Left, top, right and bottom of the field.
-const FIELD: (f64, f64, f64, f64) = (92.0, 58.0, 736.0, 316.0);
+const FIELD: (f64, f64, f64, f64) = (84.0, 58.0, 544.0, 238.0);
 /// Vertical position of the first line of the legend.
-const LEGEND: f64 = 388.0;
-const LINE: f64 = 23.0;
+const LEGEND: f64 = 306.0;
+const LINE: f64 = 21.0;
 /// Greatest width of a letter of the legend.
 const LETTER: f64 = 9.4;
 /// Width of a symbol of the legend with its gaps.
 const SYMBOL: f64 = 52.0;
 /// Greatest number of letters of a name in the legend.
-const MOST_LETTERS: usize = 62;
+const MOST_LETTERS: usize = 44;
 
 /// Draws the chart.
 #[must_use]
@@ -77,16 +78,20 @@ fn part(span: Span, value: f64) -> f64 {
 fn frame(chart: &Chart, height: f64) -> String {
     let (left, top, right, bottom) = FIELD;
     let (middle, half, below) =
-        (f64::midpoint(left, right), f64::midpoint(top, bottom), bottom + 46.0);
+        (f64::midpoint(left, right), f64::midpoint(top, bottom), bottom + 42.0);
     let label = |axis: &Axis| match axis.unit.as_str() {
         "" => escaped(&axis.name),
         unit => escaped(&format!("{}, {}", axis.name, unit.replace("um", "µm"))),
     };
     let (title, across, up) = (escaped(&chart.title), label(&chart.across), label(&chart.up));
+    // A long label has smaller letters.
+    let [size, small] = [(&title, 17.0, right - left), (&up, 15.0, bottom + 20.0)]
+        .map(|(text, size, room)| size * (room / (LETTER * text.chars().count() as f64)).min(1.0));
     format!(
-        "{}<text x=\"{left}\" y=\"24\" class=\"title\">{title}</text>\n\
+        "{}<text x=\"{left}\" y=\"22\" class=\"title\" style=\"font-size:{size:.1}px\">{title}</text>\n\
          <text x=\"{middle}\" y=\"{below}\" text-anchor=\"middle\">{across}</text>\n\
-         <text transform=\"translate(20 {half}) rotate(-90)\" text-anchor=\"middle\">{up}</text>\n",
+         <text transform=\"translate(18 {half}) rotate(-90)\" text-anchor=\"middle\" \
+             style=\"font-size:{small:.1}px\">{up}</text>\n",
         opening(&title, WIDTH, height),
     )
 }
@@ -103,8 +108,8 @@ fn opening(title: &str, width: f64, height: f64) -> String {
 
 fn grid(text: &mut String, chart: &Chart, (across, up): (Span, Span)) {
     let (left, top, right, bottom) = FIELD;
-    let (below, beside) = (bottom + 21.0, left - 8.0);
-    for (value, label) in chart.across.ticks(across, 9) {
+    let (below, beside) = (bottom + 19.0, left - 7.0);
+    for (value, label) in chart.across.ticks(across, 6) {
         let (x, label) = (horizontal(across, value), escaped(&label));
         let _ = writeln!(
             text,
@@ -112,7 +117,7 @@ fn grid(text: &mut String, chart: &Chart, (across, up): (Span, Span)) {
                 text-anchor=\"middle\">{label}</text>"
         );
     }
-    for (value, label) in chart.up.ticks(up, 6) {
+    for (value, label) in chart.up.ticks(up, 5) {
         let (y, label) = (vertical(up, value), escaped(&label));
         let base = y + 5.0;
         let _ = writeln!(

@@ -56,7 +56,7 @@ pub enum Cell {
     /// A text that is a default; faint in HTML.
     Default(String),
     /// No value, with the mark or the reason that a reader sees.
-    None(&'static str),
+    None(Cow<'static, str>),
 }
 
 impl Column {
@@ -104,8 +104,7 @@ impl Column {
     fn shown<'a>(&self, cell: &'a Cell) -> Cow<'a, str> {
         match cell {
             Cell::Number(value) => number(*value, self.shown, self.digits).into(),
-            Cell::Shown(_, text) | Cell::Text(text) | Cell::Default(text) => text.into(),
-            Cell::None(mark) => (*mark).into(),
+            other => other.text().into(),
         }
     }
 
@@ -120,7 +119,17 @@ impl Cell {
     /// A number, or the mark of its absence.
     #[must_use]
     pub fn number(value: Option<f64>, mark: &'static str) -> Cell {
-        value.map_or(Cell::None(mark), Cell::Number)
+        value.map_or(Cell::None(mark.into()), Cell::Number)
+    }
+
+    /// The text for a reader; empty for a number that its column would format.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        match self {
+            Cell::Shown(_, text) | Cell::Text(text) | Cell::Default(text) => text,
+            Cell::None(mark) => mark,
+            Cell::Number(_) => "",
+        }
     }
 
     /// The shortest text that parses to the same number; empty for an absent value.

@@ -1,55 +1,17 @@
 //! A solve as a page of text, 80 columns wide.
 
 use super::absence::Absence;
-use super::data;
-use super::digest::{closed_forms, differing, relief, sentence, whine};
+use super::data::{self, subject};
+use super::digest::{differing, free_impact, sentence, whine};
 use super::layout::{WIDTH, flow, item};
 use super::table::{Cell, Column, Table, text};
 use super::verdict::verdicts;
-use super::{Report, groups, shown, value};
-use crate::case::FIELDS;
-use crate::case::fields::{Absent, index_of};
+use super::{Report, case_notes, groups, is_default, shown, value};
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
+use crate::case::{FIELDS, Field};
 use crate::model::inputs::Method;
 use crate::model::{Quantity, Solution};
-
-/// The inputs that identify the pair. Missing inputs, zeros and defaults are omitted.
-const SHOWN_INPUTS: &[&str] = &[
-    "driver.teeth",
-    "driven.teeth",
-    "pair.module",
-    "pair.diametral_pitch",
-    "pair.pressure_angle",
-    "pair.centre_distance",
-    "driver.profile_shift",
-    "driven.profile_shift",
-    "driver.addendum",
-    "driven.addendum",
-    "driver.tip_diameter",
-    "driven.tip_diameter",
-    "driver.dedendum",
-    "driven.dedendum",
-    "driver.root_diameter",
-    "driven.root_diameter",
-    "driver.face_width",
-    "driven.face_width",
-    "driver.inertia",
-    "driven.inertia",
-    "driver.root_relief",
-    "driven.tip_relief",
-    "driven.tip_chamfer",
-    "deviations.base_pitch",
-    "driver.base_pitch",
-    "driver.grade",
-    "driven.base_pitch",
-    "driven.grade",
-    "deviations.backlash",
-    "operation.power",
-    "operation.torque",
-    "operation.speed",
-    "model.deflection",
-];
 
 /// The page; empty sections are omitted.
 #[must_use]
@@ -57,7 +19,7 @@ pub fn render(report: &Report) -> String {
     let items = |mark: &str, sentences: Vec<String>| -> Vec<String> {
         sentences.iter().flat_map(|sentence| item(mark, sentence)).collect()
     };
-    let notes = report.notes.iter().map(|note| sanitize(&note.message)).collect();
+    let notes = case_notes(&report.notes).map(|note| sanitize(&note.message)).collect();
     let sections = [
         report.named().headings(&format!("method {}", report.solution.method.name())),
         items("", verdict(report)),
@@ -71,18 +33,17 @@ pub fn render(report: &Report) -> String {
     sections.map(|lines| lines.join("\n") + "\n").collect::<Vec<_>>().join("\n")
 }
 
-/// The verdict in sentences, with what other methods find.
+/// The verdict in a sentence, followed by the results of other methods and the resonance.
 pub(super) fn verdict(report: &Report) -> Vec<String> {
     let (solution, system) = (&report.solution, System::Metric);
-    let mut sentences = vec![sentence(solution, system)];
+    let mut sentences = vec![sentence(solution, system, None)];
     if report.selection.is_whole() {
         let all: Vec<&Solution> = report.others.iter().collect();
-        let beside = all.iter().copied().filter(|other| other.method != Method::Paper);
-        let beside: Vec<&Solution> = beside.collect();
+        let exact = all.iter().find(|other| other.method == Method::Exact);
+        let is_given = report.inputs.deflection.is_some();
         let others = [
-            differing(solution, &beside),
-            relief(solution, &beside, system),
-            closed_forms(solution, &all, report.inputs.deflection.is_some(), system),
+            differing(solution, &all),
+            exact.and_then(|exact| free_impact(solution, exact, is_given, system)),
             whine(solution),
         ];
         sentences.extend(others.into_iter().flatten().map(|words| words + "."));
@@ -90,22 +51,22 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
     sentences
 }
 
+/// The given inputs that differ from their defaults, and the pressure angle.
 fn inputs(report: &Report) -> Vec<String> {
     if !report.selection.is_whole() {
         return Vec::new();
     }
-    let shown = |key: &&str| {
-        let field = &FIELDS[index_of(key)?];
-        let text = report.text(key);
-        let number = text.split_whitespace().next()?.parse::<f64>().ok();
-        let default = match field.absent {
-            Absent::Default(text) => text.parse::<f64>().ok(),
-            _ => None,
+    let case = &report.case;
+    let shown = |(at, field): (usize, &Field)| {
+        let is_listed = match field.table() {
+            "" => false,
+            "model" => field.name() == "deflection",
+            _ => field.name() == "pressure_angle" || !is_default(at, case),
         };
-        let is_usual = number.is_some_and(|number| number == 0.0 || Some(number) == default);
-        (!is_usual).then(|| format!("{} = {}", field.symbol, sanitize(text)))
+        let text = case.text(at).filter(|_| is_listed)?;
+        Some(format!("{} = {}", field.symbol, sanitize(text)))
     };
-    let shown: Vec<String> = SHOWN_INPUTS.iter().filter_map(shown).collect();
+    let shown: Vec<String> = FIELDS.iter().enumerate().filter_map(shown).collect();
     // Each input stays on one line with its unit.
     let lines = flow(shown.join(",\n").split('\n'), WIDTH);
     lines.into_iter().chain(item("Notes of the case: ", &one_line(report.text("notes")))).collect()
@@ -126,8 +87,12 @@ fn quantities(report: &Report) -> Vec<String> {
     ];
     let row = |quantity: &'static Quantity| {
         let shown = shown(quantity, value(quantity, solution)?);
-        let is_beside = !is_whole && method.shares_load() && quantity.is_of_free_impact();
-        let beside = if is_beside { ", free impact" } else { "" };
+        // With every quantity the headings of the groups say this.
+        let beside = match subject(quantity, method) {
+            Some("free-impact") if !is_whole => ", free impact",
+            Some("without-deviations") if !is_whole => ", without deviations",
+            _ => "",
+        };
         let equation = format!("{}{beside}", quantity.equation);
         let names = [quantity.symbol_in(method), quantity.label_in(method), &shown.number];
         Some(names.into_iter().chain([shown.unit, &equation]).map(Cell::from).collect())

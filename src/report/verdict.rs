@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::{self, Write};
 
 use super::absence::Absence;
-use super::json::{json, write_line};
+use super::json::{Json, json, write_line};
 use super::{shown_in, value};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
@@ -139,7 +139,7 @@ pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Option<Verdict<'a>>
     let standing = match (found, bound, absence) {
         (Some(value), Some(bound), _) if value <= bound => Standing::Within,
         (Some(_), Some(_), _) => Standing::Exceeded,
-        (None, _, Some(Absence::NoContact(..))) => Standing::NotApplicable,
+        (None, _, Some(Absence::NoContact(..) | Absence::NoExit)) => Standing::NotApplicable,
         _ => Standing::Unknown,
     };
     let value = found.filter(|_| bound.is_some());
@@ -229,6 +229,9 @@ impl Verdict<'_> {
             (None, Some(absence)) if self.standing == Standing::Unknown => {
                 format!("{key} has no value (limit {limit}): {absence}")
             }
+            (_, Some(Absence::NoExit)) => {
+                format!("{key} does not occur: {} (limit {limit})", Absence::NoExit)
+            }
             _ => format!("{key} does not occur: no corner contact (limit {limit})"),
         }
     }
@@ -240,22 +243,25 @@ impl fmt::Display for Verdict<'_> {
     }
 }
 
-/// Writes the verdicts on a case, one line each; one line for a case without limits.
+/// Writes the verdicts on a case, one line each; one line for a case without limits. `outcome` is
+/// the verdict on the contact.
 ///
 /// # Errors
 /// Errors of the writer.
 pub fn write_json(
     verdicts: &[Verdict],
     case: &str,
-    method: Method,
+    (method, outcome): (Method, Option<&str>),
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let method = method.name();
+    let head = json!({"case": case, "method": method.name(), "verdict": outcome});
+    let line = |more: Json| {
+        let members = [&head, &more].into_iter().filter_map(Json::as_object).flatten();
+        members.map(|(key, value)| (key.clone(), value.clone())).collect::<Json>()
+    };
     if verdicts.is_empty() {
         let standing = Standing::Within.name();
-        let line =
-            json!({"case": case, "method": method, "standing": standing, "message": "no limits"});
-        return write_line(&line, out);
+        return write_line(&line(json!({"standing": standing, "message": "no limits"})), out);
     }
     verdicts.iter().try_for_each(|verdict| {
         let Verdict { limit, quantity, value, bound, standing, beside, .. } = verdict;
@@ -263,9 +269,7 @@ pub fn write_json(
         let own = beside.and_then(|beside| beside.own);
         let own =
             own.map(|(own, value)| json!({"quantity": own.key, "value": value, "unit": own.unit}));
-        let line = json!({
-            "case": case,
-            "method": method,
+        let line = line(json!({
             "standing": standing.name(),
             "quantity": quantity.key,
             "value": value,
@@ -275,7 +279,7 @@ pub fn write_json(
             "of": beside.map(|_| "free-impact"),
             "own": own,
             "message": verdict.to_string(),
-        });
+        }));
         write_line(&line, out)
     })
 }

@@ -74,6 +74,7 @@ impl Pane {
             Pane::Form | Pane::Trade | Pane::Study => Stages::NONE,
             Pane::Results => Stages::CLOSED_FORM
                 .with(Stage::Band)
+                .and(Stages::of(Stage::Static))
                 .and(Stages::of(Stage::Resonance))
                 .and(Stages::of(Stage::SteadyMotion))
                 .and(Stages::of(Stage::SpeedRun))

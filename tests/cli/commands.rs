@@ -47,15 +47,20 @@ fn changed(from: &str, to: &str) -> (tempfile::TempDir, String) {
     (folder, path)
 }
 
+fn in_a_line(page: &str) -> String {
+    page.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 #[test]
 fn a_solve_prints_a_report_for_a_person() {
     let page = stdout_of(&["solve", TABLE_1]);
     assert!(page.starts_with("Zhou & Chen 2014, Table 1\n"), "{page}");
-    assert!(
-        page.contains("Corner contact: θ_1 = 1.366 deg before E; impact force 2191.0 N."),
-        "{page}"
-    );
-    assert!(page.contains("Other method: paper 84.649 N at θ_1 = 0.05257 deg."), "{page}");
+    let sentence = "Corner contact 1.366 deg before E: impact force 2191.0 N (1.44 times the mesh \
+        force); 47.4 um of tip relief on the driven gear prevents it.";
+    assert!(in_a_line(&page).contains(sentence), "{page}");
+    assert!(!page.contains("paper 84.649 N") && !page.contains("the impact lasts"), "{page}");
+    let checked = stdout_of(&["check", TABLE_1]);
+    assert!(checked.starts_with(&format!("{TABLE_1}: {sentence}\n")), "{checked}");
     assert!(!page.contains("Stations"), "{page}");
     assert!(stdout_of(&["solve", TABLE_1, "--stations", "4"]).contains("Stations from D to E"));
 }
@@ -327,7 +332,8 @@ fn each_limit_has_its_line_whether_or_not_another_can_be_computed() {
     let output = run(&["check", &path]);
     let text = out(&output);
     let lines: Vec<&str> = text.lines().collect();
-    assert_eq!((code(&output), lines.len()), (3, 3), "{lines:?}");
+    assert_eq!((code(&output), lines.len()), (3, 4), "{lines:?}");
+    let lines = &lines[1..];
     assert!(
         lines[0].starts_with(&format!("EXCEEDED {path}: contact_ratio 1."))
             && lines[0].contains("> 1.5"),
@@ -362,19 +368,18 @@ fn a_refused_case_reports_each_limit_as_not_computable() {
 
 #[test]
 fn a_check_is_a_verdict_a_line() {
-    assert_eq!(
-        stdout_of(&["check", TABLE_1]),
-        format!("ok {TABLE_1}: impact_force 2191.0 N <= 2500 N (88 %)\n")
-    );
+    let checked = stdout_of(&["check", TABLE_1]);
+    let line = format!("ok {TABLE_1}: impact_force 2191.0 N <= 2500 N (88 %)\n");
+    assert!(checked.lines().count() == 2 && checked.ends_with(&line), "{checked}");
     let (_folder, strict) =
         changed("impact_force = \"2500 N\"", "impact_force = \"2 kN\"\ncontact_ratio = 1.7");
     let output = run(&["check", &strict, TABLE_1]);
     assert_eq!((code(&output), err(&output).as_str()), (1, ""));
     let lines: Vec<String> = out(&output).lines().map(str::to_owned).collect();
-    assert_eq!(lines[0], format!("EXCEEDED {strict}: impact_force 2191.0 N > 2 kN (110 %)"));
-    assert!(lines[1].starts_with("ok "), "{}", lines[1]);
+    assert_eq!(lines[1], format!("EXCEEDED {strict}: impact_force 2191.0 N > 2 kN (110 %)"));
+    assert!(lines[2].starts_with("ok "), "{}", lines[2]);
     let (_folder, free) = changed("[limits]\nimpact_force = \"2500 N\"", "");
-    assert_eq!(stdout_of(&["check", &free]), format!("ok {free}: no limits\n"));
+    assert!(stdout_of(&["check", &free]).ends_with(&format!("\nok {free}: no limits\n")));
 }
 
 #[test]
@@ -490,7 +495,7 @@ fn a_limit_is_tried_on_another_method_and_on_a_changed_field() {
     let beside = "for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this quantity \
             has no limit";
     let held = format!("ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %) {beside}\n");
-    assert_eq!(dynamic, held);
+    assert!(dynamic.ends_with(&held), "{dynamic}");
     let by_auto = stdout_of(&["check", TABLE_1, "--method", "auto"]);
     assert_eq!(by_auto, dynamic, "the name means the same whatever the method");
     let (_folder, own) = changed(
@@ -504,10 +509,9 @@ fn a_limit_is_tried_on_another_method_and_on_a_changed_field() {
         "{own}"
     );
     let relieved = stdout_of(&["check", TABLE_1, "--set", "driven.tip_relief=60 um"]);
-    assert_eq!(
-        relieved,
-        format!("ok {TABLE_1}: impact_force does not occur: no corner contact (limit 2500 N)\n")
-    );
+    let line =
+        format!("\nok {TABLE_1}: impact_force does not occur: no corner contact (limit 2500 N)\n");
+    assert!(relieved.ends_with(&line), "{relieved}");
 }
 
 #[test]
@@ -516,7 +520,7 @@ fn a_bad_case_outranks_an_exceeded_limit() {
     let (_other, bad) = changed("teeth = 20", "teeth = 0");
     let output = run(&["check", &bad, &strict]);
     assert_eq!(code(&output), 3);
-    assert!(out(&output).starts_with("EXCEEDED "), "{}", out(&output));
+    assert!(out(&output).contains("\nEXCEEDED "), "{}", out(&output));
 }
 
 #[test]
@@ -634,17 +638,16 @@ fn a_quantity_is_known_by_a_symbol_of_its_own() {
 
 #[test]
 fn the_angle_of_the_verdict_is_a_row_of_the_table() {
-    for (method, symbol, label) in [
-        ("exact", "θ_1", "driver angle before E"),
-        ("static", "θ_st", "static: driver angle"),
-        ("dynamic", "θ_d", "dynamic: driver angle"),
+    for (method, label) in [
+        ("exact", "driver angle before E"),
+        ("static", "static: driver angle"),
+        ("dynamic", "dynamic: driver angle"),
     ] {
         let page = stdout_of(&["solve", TABLE_1, "--method", method]);
-        let start = format!("Corner contact: {symbol} = ");
-        let (_, rest) = page.split_once(&start).unwrap_or_else(|| panic!("{page}"));
+        let (_, rest) = page.split_once("Corner contact ").unwrap_or_else(|| panic!("{page}"));
         let (angle, _) = rest.split_once(" before E").unwrap();
         let row = page.lines().find(|line| line.contains(label)).unwrap();
-        assert!(row.contains(&format!(" {symbol} ")) && row.contains(angle), "{row}");
+        assert!(row.contains(angle), "{row}");
     }
 }
 
@@ -652,13 +655,13 @@ fn the_angle_of_the_verdict_is_a_row_of_the_table() {
 fn one_method_governs_and_the_others_follow_in_a_line() {
     let solve = |options: &[&str]| {
         let page = stdout_of(&[&["solve", TABLE_1, "--method", "dynamic"], options].concat());
-        page.split_whitespace().collect::<Vec<_>>().join(" ")
+        in_a_line(&page)
     };
     let page = solve(&[]);
     for line in [
-        "peak force 1410.8 N before E, 2003.0 N overall.",
-        "Required tip relief of the driven gear: dynamic 38.9, static 40.1, exact 47.4 um.",
-        "Free impact with the given deflection: exact 2191.0 N at θ_1 = 1.366 deg; paper 84.649 N",
+        "up to 1410.8 N (0.93 times the mesh force) on the tip, 2003.0 N (1.31 times the force at \
+            rest) on a tooth; 38.9 um of tip relief on the driven gear prevents it.",
+        "Estimate of a free impact with the given deflection: 2191.0 N, 1.366 deg before E.",
     ] {
         assert!(page.contains(line), "{line}: {page}");
     }
@@ -696,8 +699,7 @@ fn a_new_case_starts_from_an_example_in_every_folder() {
         assert!(listed.contains(example.name));
     }
     assert!(
-        listed.contains("corner contact: 2191.0 N; limit met")
-            && listed.contains("no corner contact; 2 limits met"),
+        listed.contains("impact force 2191.0 N") && listed.contains("ok impact_force"),
         "{listed}"
     );
     assert_eq!(code(&elsewhere(&["new", "--from", "fzg-type-c", path])), 0);

@@ -26,7 +26,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 2", "Enter", "", "impact force, F_S (Eq. 57)"),
     ("Esc 2", "n", "", "Outcome, limits, notes"),
     ("Esc 2", "Alt-L", "", "ok impact_force 2191.0 N <= 2500 N (88 %)"),
-    ("Esc 2", "l", "", "e_m modification at run-in, Eq. 1"),
+    ("Esc 2", "l", "", "e_m modification at entry, Eq. 1"),
     ("Esc 2 l", "h", "", "2 Results 1-16/3"),
     ("Esc 2", "j", "", "T_S impact duration, by the method"),
     ("Esc 2 j j", "k", "", "T_S impact duration, by the method"),

@@ -86,7 +86,7 @@ fn fields_that_the_method_does_not_use_are_marked_with_a_reason() {
     let idle = line(&desk, "Ca1");
     assert!(idle.starts_with("- Ca1"), "{idle}");
     desk.go_to("driver.tip_relief");
-    assert!(desk.shows("Not used: this relief acts at run-out"));
+    assert!(desk.shows("Not used: this relief acts at the exit"));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use super::{Absent, Field, Kind, Range};
 use crate::case::fields::Absent::Refused;
 use crate::case::fields::Reason::{Idle, Partly};
 use crate::case::fields::{
-    AT_RUN_OUT, BORE, CURVE, FLAG, IN_TIME, LOAD, MASS, ROOT, TIP_OF_DRIVER, WHOLE_RELIEF, always,
+    AT_EXIT, BORE, CURVE, FLAG, IN_TIME, LOAD, MASS, ROOT, TIP_OF_DRIVER, WHOLE_RELIEF, always,
     by_impact, has_size, is_driver, is_wider, root_diameter, tip_diameter,
 };
 use crate::case::units::Dimension;
@@ -327,7 +327,7 @@ macro_rules! gear {
                 "Material removed at the tip, normal to the \
                         flank."
             )
-            .reasons(&[Idle(|inputs| is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
+            .reasons(&[Idle(|inputs| is_driver($i) && by_impact(inputs), AT_EXIT)]),
             number!(
                 concat!($table, ".root_relief"),
                 concat!("Cf", $i),
@@ -341,7 +341,7 @@ macro_rules! gear {
                 "Material removed at the root, normal to the \
                         flank."
             )
-            .reasons(&[Idle(|inputs| !is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
+            .reasons(&[Idle(|inputs| !is_driver($i) && by_impact(inputs), AT_EXIT)]),
             number!(
                 concat!($table, ".tip_relief_length"),
                 concat!("La", $i),

@@ -14,7 +14,8 @@ pub(super) enum Value {
     /// A number in decimal digits.
     Number(String),
     Flag(bool),
-    Date,
+    /// As in the text.
+    Date(String),
     Array,
     Table,
 }
@@ -26,7 +27,7 @@ impl Value {
             Value::String(_) => "a string",
             Value::Number(_) => "a number",
             Value::Flag(_) => "true or false",
-            Value::Date => "a date",
+            Value::Date(_) => "a date",
             Value::Array => "an array",
             Value::Table => "a table",
         }
@@ -204,7 +205,7 @@ impl Reader<'_> {
         match value {
             toml_edit::Value::String(text) => Value::String(text.value().clone()),
             toml_edit::Value::Boolean(flag) => Value::Flag(*flag.value()),
-            toml_edit::Value::Datetime(_) => Value::Date,
+            toml_edit::Value::Datetime(_) => Value::Date(self.text[span.clone()].to_owned()),
             toml_edit::Value::Array(_) => Value::Array,
             toml_edit::Value::InlineTable(_) => Value::Table,
             // Hexadecimal, octal or binary.

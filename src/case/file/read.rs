@@ -107,6 +107,8 @@ enum Target {
     Limit(&'static Quantity),
     /// The distribution of a field.
     Spread(usize),
+    /// A text of the table `[about]`.
+    About,
     Unknown,
 }
 
@@ -202,6 +204,15 @@ impl<'l> Reader<'l> {
                     self.fault(scope, start, Problem::new(&key, cause, "keep one of the two"));
                 }
             }
+            Target::About => match value {
+                Value::String(text) | Value::Number(text) | Value::Date(text) => {
+                    self.scopes[scope].case.write_about(&path[1], text);
+                }
+                _ => {
+                    let problem = misplaced("a text in quotes", value, "project = \"Mill 7\"");
+                    self.fault(scope, start, problem.at(&key));
+                }
+            },
             Target::Field(field) => self.field(scope, field, value, start),
             Target::Limit(quantity) => self.limit(scope, quantity, value, start),
         }
@@ -337,6 +348,7 @@ fn target(path: &[String], is_variant: bool) -> (Target, usize) {
         let key = path[..depth].join(".");
         let target = match key.split_once('.') {
             None if key == "format" && !is_variant => Target::Format,
+            Some(("about", _)) if !is_variant && depth > 1 => Target::About,
             Some(("limits", quantity)) => {
                 Quantity::find(quantity).map_or(Target::Unknown, Target::Limit)
             }
@@ -347,7 +359,11 @@ fn target(path: &[String], is_variant: bool) -> (Target, usize) {
             },
             _ => match index_of(&key) {
                 Some(field) => Target::Field(field),
-                None if is_table(&key) && !(is_variant && key == "variants") => Target::Table,
+                None if is_table(&key)
+                    && !(is_variant && ["about", "variants"].contains(&&*key)) =>
+                {
+                    Target::Table
+                }
                 None => Target::Unknown,
             },
         };
@@ -408,7 +424,7 @@ fn is_group(name: &str) -> bool {
 }
 
 fn is_table(name: &str) -> bool {
-    matches!(name, "limits" | "spread" | "variants") || is_group(name)
+    matches!(name, "about" | "limits" | "spread" | "variants") || is_group(name)
 }
 
 /// An example of a limit of the quantity.
@@ -430,7 +446,8 @@ fn unknown(key: &str) -> Problem {
         }
         None => {
             let tables = GROUPS.iter().map(|(table, _)| *table).filter(|table| !table.is_empty());
-            let known = tables.chain(["limits", "spread", "variants", "format", "title", "notes"]);
+            let known =
+                tables.chain(["limits", "spread", "variants", "about", "format", "title", "notes"]);
             let fix = match elsewhere(key) {
                 _ if GEARS.contains(&key.to_lowercase().as_str()) => {
                     "the gears are [driver] and [driven], whatever their sizes".to_owned()

@@ -11,7 +11,7 @@ use crate::case::changes::texts;
 use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS, index_of};
 use crate::case::sanitize::{is_hidden, sanitize};
 use crate::case::units::{self, Dimension};
-use crate::case::{Case, check, spread, variant};
+use crate::case::{ABOUT, Case, check, spread, variant};
 
 /// A value of a case as written in a file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,6 +30,7 @@ impl Written {
         let own = variant.map_or(key, |(_, own)| own);
         let field = index_of(own).map(|field| &FIELDS[field]);
         let (table, name) = match (variant, own.split_once('.')) {
+            (None, Some(("about", name))) => (vec!["about"], key_of(name)),
             (None, Some((table, name))) => (vec![table], name.to_owned()),
             (None, None) => (Vec::new(), own.to_owned()),
             (Some((variant, _)), None) => (vec!["variants", variant], own.to_owned()),
@@ -39,6 +40,7 @@ impl Written {
         };
         let value = match (field, text.split_once(' ')) {
             _ if text.is_empty() => string(""),
+            _ if own.starts_with(ABOUT) => string(text),
             (Some(field), _) => value(field, text),
             (None, Some((shape, width))) if own.starts_with(spread::PREFIX) => {
                 distribution(shape, width)
@@ -123,6 +125,11 @@ pub(super) fn template(case: &Case, comments: &[(&str, String)]) -> String {
         let lines = of_table(&[table]);
         let lines = if lines.is_empty() { format!("# {example}") } else { lines.join("\n") };
         let _ = writeln!(text, "\n# {help}\n[{table}]\n{lines}");
+    }
+    let about = of_table(&["about"]);
+    if !about.is_empty() {
+        let lines = about.join("\n");
+        let _ = writeln!(text, "\n# Texts for the page of a report.\n[about]\n{lines}");
     }
     text.push_str("\n# Overrides of the case, for compare, --variant and the workbench.\n");
     if case.variants.is_empty() {

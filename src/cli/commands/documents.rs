@@ -67,7 +67,10 @@ fn list(out: &mut dyn Write) -> io::Result<()> {
         let digest = digest(example);
         writeln!(out, "{:width$}  {}", example.name, digest.title)?;
         writeln!(out, "{:width$}  {}; {}", "", digest.pair, digest.load)?;
-        writeln!(out, "{:width$}  {}", "", digest.verdict())?;
+        writeln!(out, "{:width$}  {}", "", digest.outcome)?;
+        for (standing, limit) in &digest.limits {
+            writeln!(out, "{:width$}  {} {limit}", "", standing.word())?;
+        }
     }
     Ok(())
 }

@@ -4,29 +4,34 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use crate::case::file::read_bytes;
 use crate::case::sanitize::sanitize;
+use crate::case::units::System;
 use crate::case::{Case, Document};
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::options::{
-    CaseFile, Cases, Changes, Destination, Edits, Only, Setting, Settings, by_method, formats,
+    Cases, Changes, Destination, Edits, Only, Quantities, Setting, Settings, by_method, formats,
     methods, one_quantity, station_count,
 };
 use crate::cli::output::{Done, Exit, Failure, check_out, follow, write_to};
 use crate::model::inputs::Method;
-use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stages};
+use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stage, Stages};
 use crate::report::compare::{ComparedCase, Comparison};
+use crate::report::digest::{STAGES, sentence};
 use crate::report::explain::{explain, render, write_json};
-use crate::report::export::{ENDINGS, format_of, render as render_report};
+use crate::report::export::{ENDINGS, format_of, is_picture, render as render_report};
+use crate::report::page;
 use crate::report::pictures::{NoPicture, Picture, find, pictures};
-use crate::report::solve::{compared, subject};
-use crate::report::verdict::{self, Standing, refused, stages, stages_beside, verdicts};
-use crate::report::{self, Selection, data, text};
+use crate::report::solve::compared;
+use crate::report::verdict::{self, Standing, refused, stages, verdicts};
+use crate::report::{self, Selection, data, svg, sweep, text};
 use crate::study::shard::Format;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 
-const SOLVE_HELP: &str = "CSV: one row per case and one column per quantity in SI units, such as `impact_force [N]`; with --stations \
+const SOLVE_HELP: &str = "D is the first contact of the driven tip, E the start and B the end of the path of contact, as in the paper; \
+    ISO 21771 has A for E, and E for B. CSV: one row per case and one column per quantity in SI units, such as `impact_force [N]`; with --stations \
     one row per station. JSON: one object per case and line, in SI units; missing values are absent.";
 
 /// The options of the command.
@@ -125,21 +130,27 @@ impl Check {
 
 fn check(opened: &Opened, format: Format, out: &mut dyn Write) -> Done {
     let (case, name) = (&opened.document.case, &opened.name);
-    let (verdicts, refusal, method) = match solve_limited(case, &opened.inputs) {
-        Ok(solution) => (verdicts(case, &solution), solution.withheld, solution.method),
-        Err(refusal) => (refused(case, &refusal), Some(refusal), opened.inputs.method),
+    let (verdicts, refusal, outcome, method) = match solve_limited(case, &opened.inputs) {
+        Ok((solution, outcome)) => {
+            let verdicts = verdicts(case, &solution);
+            let is_open = verdicts.iter().any(|verdict| verdict.standing == Standing::Unknown);
+            (verdicts, solution.withheld.filter(|_| is_open), outcome, solution.method)
+        }
+        Err(refusal) => (refused(case, &refusal), Some(refusal), None, opened.inputs.method),
     };
-    let is_settled = verdicts.iter().all(|verdict| verdict.standing != Standing::Unknown)
-        && !verdicts.is_empty();
-    let refusal = refusal.filter(|_| !is_settled);
     if refusal.is_none() || !verdicts.is_empty() {
+        let shown = sanitize(name);
         if format == Format::Json {
-            verdict::write_json(&verdicts, name, method, out)?;
-        } else if verdicts.is_empty() {
-            writeln!(out, "ok {}: no limits", sanitize(name))?;
+            verdict::write_json(&verdicts, name, (method, outcome.as_deref()), out)?;
         } else {
+            if let Some(outcome) = outcome {
+                writeln!(out, "{shown}: {outcome}")?;
+            }
+            if verdicts.is_empty() {
+                writeln!(out, "ok {shown}: no limits")?;
+            }
             for verdict in &verdicts {
-                writeln!(out, "{} {}: {verdict}", verdict.standing.word(), sanitize(name))?;
+                writeln!(out, "{} {shown}: {verdict}", verdict.standing.word())?;
             }
         }
     }
@@ -150,12 +161,17 @@ fn check(opened: &Opened, format: Format, out: &mut dyn Write) -> Done {
     Ok(if holds { Exit::Done } else { Exit::Exceeded })
 }
 
-/// Solves the stages of the limits and of their counterparts in the method.
-fn solve_limited(case: &Case, inputs: &Inputs) -> Result<Solution, Refusal> {
+/// Solves the stages of the limits and, unless the model refuses the other stages, of the verdict on
+/// the contact.
+fn solve_limited(case: &Case, inputs: &Inputs) -> Result<(Solution, Option<String>), Refusal> {
     let needed = stages(case);
-    let solution = model::solve(inputs, needed)?;
-    let whole = needed.and(stages_beside(case, solution.method));
-    if needed.covers(whole) { Ok(solution) } else { model::solve(inputs, whole).or(Ok(solution)) }
+    match model::solve(inputs, needed.and(STAGES).with(Stage::Clearing)) {
+        Ok(solution) => {
+            let outcome = sentence(&solution, System::Metric, None);
+            Ok((solution, Some(outcome)))
+        }
+        Err(_) => Ok((model::solve(inputs, needed)?, None)),
+    }
 }
 
 /// The name of the built-in case.
@@ -297,18 +313,28 @@ const PLOT_HELP: &str = "The chart shows the method of the case. If the method h
     such chart, the command draws another method: load_share of paper and exact shows static; \
     impact_energy of static and dynamic shows exact. The legend names the method. The chart speed \
     shows method dynamic at the torque of the case, with the speed rising and falling. The \
-    picture follows the light or dark setting of the browser.";
+    picture follows the light or dark setting of the browser. A sweep is drawn over the field with \
+    the most values, with a curve for each combination of the others.";
 
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = PLOT_HELP)]
 pub struct Plot {
-    /// The case
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", required_unless_present = "sweep", value_hint = ValueHint::FilePath)]
+    pub case: Option<PathBuf>,
+    /// The changes of the case
     #[command(flatten)]
-    pub input: CaseFile,
+    pub changes: Changes,
     /// The chart to draw
     #[arg(long, value_name = "NAME", default_value = "force", value_parser = charts())]
     pub chart: Picture,
+    /// Draw the CSV file of a sweep instead of a case
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["case", "chart", "variant", "method", "settings"], value_hint = ValueHint::FilePath)]
+    pub sweep: Option<PathBuf>,
+    /// The quantities of the sweep
+    #[arg(long, value_name = "QUANTITY,...", requires = "sweep", hide_possible_values = true, value_parser = Quantities)]
+    pub only: Vec<Vec<&'static Quantity>>,
     /// The file
     #[command(flatten)]
     pub destination: Destination,
@@ -321,33 +347,46 @@ fn charts() -> impl TypedValueParser<Value = Picture> {
 
 impl Plot {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let Plot { input, chart, destination } = self;
-        let ending = destination.out.as_deref().and_then(Path::extension);
-        if ending.is_some_and(|ending| !ending.eq_ignore_ascii_case("svg")) {
-            let out = destination.out.as_deref().unwrap_or(Path::new("")).display();
+        let Plot { chart, destination, .. } = self;
+        let out = destination.out.as_deref();
+        if let Some(out) = out.filter(|out| out.extension().is_some() && !is_picture(out)) {
+            let out = out.display();
             return Err(Failure::usage(format!(
                 "--out {out}: a picture is SVG: use the extension .svg"
             )));
         }
-        destination.check(&input.case)?;
-        let opened = input.open(&[], streams)?;
-        let source = opened.unsolved();
-        let drawn = if chart.needs_speeds() {
-            follow("speeds", |go_on| chart.of_case(source, go_on))?
+        let source = self.sweep.as_deref().or(self.case.as_deref()).unwrap_or(Path::new("-"));
+        destination.check(source)?;
+        let text = if self.sweep.is_some() {
+            let bytes = read_bytes(source, MOST_SWEEP_BYTES)?;
+            let only: Vec<&Quantity> = self.only.iter().flatten().copied().collect();
+            let drawn = sweep::drawn(&String::from_utf8_lossy(&bytes), &only);
+            let name = source.display();
+            svg::draw(
+                &drawn
+                    .map_err(|reason| Failure::new(Exit::BadCase, format!("{name}: {reason}")))?,
+            )
         } else {
-            chart.of_case(source, &|_, _| true)
+            let opened = cases::open(source, &self.changes.edits(), &[], streams)?;
+            let source = opened.unsolved();
+            let drawn = follow("parts", |go_on| chart.of_case(source, go_on))?;
+            drawn.map_err(|reason| match reason {
+                NoPicture::Refused(refusal) => opened.refused(&refusal),
+                NoPicture::Absent(reason) => opened.failed(&reason),
+            })?
         };
-        let text = drawn.map_err(|reason| match reason {
-            NoPicture::Refused(refusal) => opened.refused(&refusal),
-            NoPicture::Absent(reason) => opened.failed(&reason),
-        })?;
         destination.write(streams, |sink| sink.write_all(text.as_bytes()))
     }
 }
 
-const REPORT_HELP: &str = "The HTML page needs no other file: verdict, inputs, results, charts, \
-    teeth, limits, notes and the case files; one case prints on two A4 pages. Markdown has the \
-    same without charts. CSV and JSON are those of `solve`, JSON with the stations.";
+/// Greatest size of the CSV file of a sweep to draw.
+const MOST_SWEEP_BYTES: usize = 64 << 20;
+
+const REPORT_HELP: &str = "The HTML page needs no other file. Verdict, limits, inputs, main results \
+    and charts of one case print on one sheet, A4 or letter; the appendix has the rest. Markdown \
+    has the same without charts. The page shows the keys of the table [about] of the case file, \
+    such as project, author, date and drawing. CSV and JSON are those of `solve`, JSON with the \
+    stations.";
 
 /// The options of the command.
 #[derive(Debug, Args)]
@@ -356,6 +395,9 @@ pub struct Report {
     /// The cases
     #[command(flatten)]
     pub input: Cases,
+    /// What the page shows
+    #[command(flatten)]
+    pub settings: page::Settings,
     /// File to write; the extension selects the format; replaces an existing file
     #[arg(long, required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: PathBuf,
@@ -363,7 +405,7 @@ pub struct Report {
 
 impl Report {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let Report { input: Cases { cases, changes }, out } = self;
+        let Report { input: Cases { cases, changes }, settings, out } = self;
         let Some(format) = format_of(out) else {
             return Err(Failure::usage(format!(
                 "--out {}: the file extension selects the format: use {}",
@@ -376,15 +418,13 @@ impl Report {
         let mut subjects = Vec::new();
         let worst = cases::each(cases, streams, |path, streams| {
             let opened = cases::open(path, &edits, &[], streams)?;
-            let refused = |refusal| opened.refused(&refusal);
-            let report = opened.unsolved().solve(format != Format::Csv).map_err(refused)?;
-            let file = opened.document.render();
-            let subject = follow("parts", |go_on| subject(report, file, format, go_on))?;
-            subjects.push(subject.map_err(refused)?);
+            let (source, file) = (opened.unsolved(), opened.document.render());
+            let subject = follow("parts", |go_on| source.subject(file, format, go_on))?;
+            subjects.push(subject.map_err(|refusal| opened.refused(&refusal))?);
             Ok(Exit::Done)
         })?;
         if !subjects.is_empty() {
-            let text = render_report(format, &subjects)?;
+            let text = render_report(format, &subjects, settings)?;
             write_to(Some(out), streams, |sink| sink.write_all(text.as_bytes()))?;
         }
         Ok(worst)

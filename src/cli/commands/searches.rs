@@ -61,6 +61,7 @@ impl Seek {
         let range = AxisRange::parse(vary).map_err(bad_range)?;
         let condition = Condition::parse(until).map_err(bad_condition)?;
         destination.check(&input.case)?;
+        destination.fits(self.format)?;
         let first = (range.field, with_unit(&shortest(range.from), &range.unit));
         let mut opened = input.open(&[first], streams)?;
         opened.need(condition.quantity());
@@ -159,6 +160,7 @@ impl Relief {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let Relief { input, destination, .. } = self;
         destination.check(&input.case)?;
+        destination.fits(self.format)?;
         let opened = input.open(&[], streams)?;
         let demand = Demand {
             loads: self.load,

@@ -9,8 +9,10 @@ use crate::cli::options::{CaseFile, Destination, Only, StudyOptions, count, form
 use crate::cli::output::{Done, Exit, Failure, check_out, follow, write_to};
 use crate::model::Quantity;
 use crate::report::absence::Absence;
+use crate::report::export::is_picture;
 use crate::report::results::Named;
-use crate::report::sweep::RowWriter;
+use crate::report::svg::draw;
+use crate::report::sweep::{self, RowWriter};
 use crate::report::tolerance::ToleranceReport;
 use crate::study::axis::Axis;
 use crate::study::batch::{Points, Refusals, Row, solve_all};
@@ -25,7 +27,8 @@ use clap::{Args, ValueHint};
 const SWEEP_HELP: &str = "CSV has one row per point: the varied fields in the units of --vary, then the quantities in SI units, then the \
     outcome. A cell is empty where a quantity has no value, such as an impact force without corner contact. A refused point has the outcome \
     `refused` and no values; standard error counts the refused points and gives the reason. JSON is one object per line and point. \
-    Without --only the quantities are those of [limits], else the impact force of the method.";
+    Without --only the quantities are those of [limits], else the impact force of the method. --out FILE.svg draws the curves; \
+    `tipstrike plot --sweep FILE.csv` draws those of a CSV file.";
 
 /// The options of the command.
 #[derive(Debug, Args)]
@@ -62,6 +65,10 @@ impl Sweep {
         let grid = Grid::parse(vary, points, *log)
             .map_err(|(text, problem)| Failure::of_option("--vary", text, &problem))?;
         self.running.destination.check(&self.input.case)?;
+        let is_drawn = self.running.destination.is_picture();
+        if !is_drawn {
+            self.running.destination.fits(self.format)?;
+        }
         let first = grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0)));
         let mut opened = self.input.open(&first.collect::<Vec<_>>(), streams)?;
         let mut quantities = self.only.quantities();
@@ -72,7 +79,8 @@ impl Sweep {
         }
         streams.say_all(absent(&quantities, &grid, &opened));
         let points = PointsRequest::Sweep { vary: vary.clone(), points: points.clone(), log: *log };
-        let study = of_case(opened, quantities, (self.format, points), Kind::Sweep(grid));
+        let format = if is_drawn { Format::Csv } else { self.format };
+        let study = of_case(opened, quantities, (format, points), Kind::Sweep(grid));
         run_study(&study, &self.running, streams)
     }
 }
@@ -145,6 +153,7 @@ impl Tolerance {
             return Err(Failure::usage(fix));
         }
         self.running.destination.check(&self.input.case)?;
+        self.running.destination.fits(self.format)?;
         let mut opened = self.input.open(&[], streams)?;
         let only = self.only.quantities();
         opened.need(only.iter().copied());
@@ -185,6 +194,9 @@ impl Gather {
         let Header { shard, request, .. } = &shards[0].header;
         let study = Study::restore(request)
             .map_err(|problem| Failure::new(Exit::BadCase, format!("shard {shard}: {problem}")))?;
+        if !(self.destination.is_picture() && study.request.format == Format::Csv) {
+            self.destination.fits(study.request.format)?;
+        }
         let count = study.points().count();
         write_study(&study, out, streams, |take| {
             shards
@@ -271,13 +283,24 @@ fn write_study(
         }
         _ => {
             let (writer, mut refusals) = (RowWriter(study), Refusals::default());
-            write_to(out, streams, |sink| {
+            let write = |sink: &mut dyn Write| {
                 writer.begin(sink)?;
                 rows(&mut |first, rows| {
                     refusals.count(first, rows);
                     writer.write(first, rows, sink)
                 })
-            })?;
+            };
+            if out.is_some_and(is_picture) {
+                let mut table = Vec::new();
+                write(&mut table)?;
+                let drawn = sweep::drawn(&String::from_utf8_lossy(&table), &study.quantities);
+                let name = &study.request.name;
+                let drawn = drawn
+                    .map_err(|reason| Failure::new(Exit::BadCase, format!("{name}: {reason}")))?;
+                write_to(out, streams, |sink| sink.write_all(draw(&drawn).as_bytes()))?;
+            } else {
+                write_to(out, streams, |sink| write(sink))?;
+            }
             refusals
         }
     };

@@ -174,13 +174,13 @@ pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "static_last_contact_angle",
         symbol: "θ_st,B",
-        label: "static: run-out angle",
+        label: "static: exit angle",
         unit: "rad",
         shown: "deg",
         digits: 4,
         value: |s| s.static_load.as_ref()?.last_contact_angle,
         meaning: "The angle of the driver after B at which the incoming tooth no longer carries \
-            load at rest: the corner contact at run-out, of the driver's tip on the driven flank.",
+            load at rest: the corner contact at the exit, of the driver's tip on the driven flank.",
         formula: Found(
             "the angle after B at which the gap of the tooth equals the displacement by the other \
                 pairs, with Σ w_k F_k = F_0",

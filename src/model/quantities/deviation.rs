@@ -66,7 +66,7 @@ pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "modification",
         symbol: "e_m",
-        label: "modification at run-in",
+        label: "modification at entry",
         value: |s| Some(s.deviation.modification),
         meaning: "The material that the reliefs remove where tip and root meet: the tip relief of \
             the driven gear and the root relief of the driver, as a negative number.",

@@ -197,14 +197,14 @@ pub(super) const STEPS: &[Step] = &[
     ),
     step(
         "N1E",
-        "from the driver's tangent point to E",
+        "from the driver's base circle along the line of action to E",
         "mm",
         Difference("a sin α_w - N2E"),
         |k| Some(k.solution.geometry.start),
     ),
     step(
         "N1B",
-        "from the driver's tangent point to B",
+        "from the driver's base circle along the line of action to B",
         "mm",
         Cases(&[
             (driver_rounded, Text("√(r_C1² - r_b1²) + re1")),

@@ -142,7 +142,7 @@ pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "dynamic_last_contact_angle",
         symbol: "θ_d,B",
-        label: "dynamic: run-out angle",
+        label: "dynamic: exit angle",
         unit: "rad",
         shown: "deg",
         digits: 4,

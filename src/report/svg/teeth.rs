@@ -11,17 +11,17 @@ use crate::model::outline::on_line_of_action;
 use crate::model::{ContactState, Inputs, Solution};
 use crate::report::teeth::{Ink, Scene, Window, scale_bar};
 
-const WIDTH: f64 = 760.0;
-const HEIGHT: f64 = 622.0;
+const WIDTH: f64 = 560.0;
+const HEIGHT: f64 = 380.0;
 /// Left, top, width and height of the window.
-const WINDOW: (f64, f64, f64, f64) = (12.0, 40.0, 736.0, 520.0);
+const WINDOW: (f64, f64, f64, f64) = (10.0, 34.0, 540.0, 296.0);
 /// Additional height of the window, relative to the length of the path of contact.
 const MARGIN: f64 = 0.35;
 /// Size of the smallest visible detail, and least distance of two named points.
 const DOT: f64 = 0.2;
 const APART: f64 = 14.0;
 /// Greatest length of the scale bar.
-const BAR: f64 = 150.0;
+const BAR: f64 = 110.0;
 
 /// Draws the teeth at the first contact, or at E without corner contact.
 #[must_use]
@@ -44,7 +44,7 @@ pub fn teeth(inputs: &Inputs, solution: &Solution) -> String {
     let mut text = opening(&escaped(title), WIDTH, HEIGHT);
     let _ = writeln!(
         text,
-        "<text x=\"{left}\" y=\"24\" class=\"title\">{title}</text>\n\
+        "<text x=\"{left}\" y=\"22\" class=\"title\">{title}</text>\n\
          <svg x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" overflow=\"hidden\">"
     );
     let listed = |points: &mut dyn Iterator<Item = Point2<f64>>| {

@@ -16,8 +16,8 @@ use crate::case::units::System;
 use crate::case::{Case, Problem};
 use crate::model::inputs::Method;
 use crate::model::{Quantity, Refusal, Solution, Stage};
-use crate::report::digest;
 use crate::report::verdict::{Verdict, verdicts};
+use crate::report::{self, digest};
 use crate::tui::ascii::symbol;
 use crate::tui::keys::NEXT_FAULT;
 use crate::tui::rows;
@@ -30,9 +30,8 @@ pub(crate) use table::{compared, label};
 /// Number of quantities that stay visible below the sentences, and below a long verdict or fault.
 const USUAL_ROWS: usize = 12;
 const LEAST_ROWS: usize = 4;
-/// The notes that a method prints for nearly every case; only the page has them.
-const USUAL_NOTES: [&str; 3] =
-    ["deflection-given", "deflection-ignored", "impact-outlasts-approach"];
+/// Notes that only the page has, besides those that say the same for almost every case.
+const USUAL_NOTES: [&str; 2] = ["deflection-given", "deflection-ignored"];
 
 /// The state of the pane, separate for each open case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -269,10 +268,11 @@ fn sentences(pane: &Results<'_>) -> Vec<Sentence> {
         }
         let place = if has_fault { Place::Room } else { Place::Pane };
         let age = if pane.shows_last_valid() { "LAST VALID: " } else { "" };
-        let verdict = digest::sentence(solution, pane.units);
+        let is_pending = answer.strikes() && answer.lacks(Stage::Clearing);
+        let pending = is_pending.then_some(answer.inputs.driven.tip_relief);
+        let verdict = digest::sentence(solution, pane.units, pending);
         add(format!("{age}{verdict}"), fresh(theme.focus), place);
-        let figures =
-            [relief(pane, answer, solution), differing(answer, solution), digest::whine(solution)];
+        let figures = [differing(answer, solution), digest::whine(solution)];
         for figure in figures.into_iter().flatten() {
             add(format!("{figure}."), fresh(Style::new()), Place::Room);
         }
@@ -284,7 +284,7 @@ fn sentences(pane: &Results<'_>) -> Vec<Sentence> {
         }
     }
     for note in &answer.notes {
-        let is_usual = USUAL_NOTES.contains(&note.code);
+        let is_usual = report::is_general(note) || USUAL_NOTES.contains(&note.code);
         let place = if is_usual { Place::Page } else { Place::Room };
         add(format!("Note: {}.", note.message), fresh(theme.note), place);
     }
@@ -322,16 +322,6 @@ fn faults(pane: &Results<'_>) -> Vec<String> {
 fn is_met(verdict: &Verdict<'_>) -> bool {
     let is_own_limited = verdict.beside.is_some_and(|beside| beside.is_limited);
     verdict.standing.holds() && (is_own_limited || !verdict.is_exceeded_beside())
-}
-
-// The required relief, or a placeholder while the worker computes it.
-fn relief(pane: &Results<'_>, answer: &Answer, solution: &Solution) -> Option<String> {
-    let relief = digest::relief(solution, &[], pane.units);
-    if relief.is_none() && answer.strikes() && answer.lacks(Stage::Clearing) {
-        let given = answer.inputs.driven.tip_relief;
-        return Some(digest::pending(solution.method, given, pane.units));
-    }
-    relief
 }
 
 // The other methods with another outcome. `paper` is not compared: it repeats `exact` with

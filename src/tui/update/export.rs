@@ -5,13 +5,11 @@ use std::path::{Path, PathBuf};
 use super::key_of;
 use crate::case::file::{self, SaveError};
 use crate::model::Refusal;
-use crate::report::charts::Solved;
 use crate::report::export as exports;
-use crate::report::page::Page;
-use crate::report::pictures::{NoPicture, Picture, Unsolved, find};
-use crate::report::solve::{self, Subject};
+use crate::report::page::{Page, Settings};
+use crate::report::pictures::{NoPicture, Picture, find};
+use crate::report::solve::{Subject, Unsolved};
 use crate::report::{self, Report, Selection};
-use crate::study::shard::Format;
 use crate::tui::app::App;
 use crate::tui::app::actions::{Effect, Running, Work};
 use crate::tui::ascii;
@@ -48,6 +46,11 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) {
     if path.as_os_str().is_empty() {
         return app.complain("a file needs a name");
     }
+    // The dialog keeps its extension behind a typed name: `force.svg.html` is `force.svg`.
+    let has_extension =
+        |stem: &&Path| exports::is_picture(stem) || exports::format_of(stem).is_some();
+    let typed = path.file_stem().map(Path::new).filter(has_extension);
+    let path = typed.map_or_else(|| path.clone(), |typed| path.with_file_name(typed));
     let Some(inputs) = app.tab.inputs().cloned() else {
         refuse_faulty(app);
         return;
@@ -128,10 +131,9 @@ fn text(
         let endings = exports::ENDINGS;
         format!("unknown file extension: use {endings} for the report, or .svg for the picture")
     })?;
-    let report = source.solve(format != Format::Csv).map_err(|refusal| refused(&refusal))?;
-    let subject = solve::subject(report, document.render(), format, go_on);
+    let subject = source.subject(document.render(), format, go_on);
     let subject = subject.map_err(|refusal| refused(&refusal))?;
-    exports::render(format, &[subject]).map_err(|error| error.to_string())
+    exports::render(format, &[subject], &Settings::default()).map_err(|error| error.to_string())
 }
 
 /// Reports the result of an export.
@@ -206,9 +208,9 @@ pub(super) fn copy_results(app: &mut App) {
     let file = app.tab.as_edited().render();
     app.say("preparing the report of the results");
     let markdown = |_: &Running<'_>| {
-        let solved = Solved { reports: vec![report.with_others()], ..Solved::default() };
-        let subject = Subject { solved, file, ..Subject::default() };
-        Some(Page::of(&[subject]).markdown().unwrap_or_else(|error| error.to_string()))
+        let subjects = [Subject::of(report.with_others(), file)];
+        let page = Page::of(&subjects, &Settings::default());
+        Some(page.markdown().unwrap_or_else(|error| error.to_string()))
     };
     app.start(Work::new(Slot::Report, markdown, |app, text| {
         copy(app, text, "the report of the results");
