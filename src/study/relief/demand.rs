@@ -146,8 +146,9 @@ impl Demand {
 
     /// The text that [`Demand::parse`] reads.
     pub fn text(&self) -> String {
-        let tolerances = [Some(self.tolerance), self.tolerance_length];
-        let tolerances = tolerances.into_iter().flatten().map(|length| units::text(length, "um"));
+        let tolerances = [(Some(self.tolerance), "um"), (self.tolerance_length, "mm")];
+        let tolerances = tolerances.into_iter();
+        let tolerances = tolerances.filter_map(|(length, unit)| Some(units::text(length?, unit)));
         let all = std::iter::once(self.loads_text()).chain(tolerances);
         all.chain([self.minimise.name().to_owned()]).collect::<Vec<_>>().join(", ")
     }
