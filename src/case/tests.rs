@@ -192,6 +192,20 @@ fn an_empty_text_removes_a_field() {
 }
 
 #[test]
+fn a_relative_limit_is_saved_and_read_again() {
+    let mut case = Case::table_1();
+    for (quantity, text) in
+        [("mesh_force", "2 x impact_force"), ("dynamic_factor", "3 x contact_ratio")]
+    {
+        case.set_limit(quantity, text).unwrap();
+        let limit = case.limits.iter().find(|limit| limit.quantity == quantity).unwrap();
+        assert_eq!((limit.value, limit.of), (text[..1].parse().unwrap(), Some(&text[4..])));
+    }
+    let text = Document::new(case.clone()).render();
+    assert_eq!(Document::parse("case.toml", &text).unwrap().case.limits, case.limits);
+}
+
+#[test]
 fn a_form_accepts_an_incomplete_limit() {
     let mut case = Case::table_1();
     case.write_limit("impact_force", "2600");

@@ -144,13 +144,14 @@ fn of_field(field: &Field) -> Value {
 }
 
 fn of_limit(quantity: &Quantity) -> Value {
-    let mut schema = if quantity.unit == "1" {
+    let value = if quantity.unit == "1" {
         json!({"type": "number"})
     } else {
         json!({"type": "string", "pattern": MEASURE})
     };
-    schema["description"] = format!("{} {}", quantity.label, quantity.symbol).into();
-    schema
+    let relative = json!({"type": "string", "pattern": r"^\s*[0-9.eE+-]+ x [a-z0-9_]+\s*$"});
+    let description = format!("{} {}", quantity.label, quantity.symbol);
+    json!({"description": description, "anyOf": [value, relative]})
 }
 
 fn of_quantity(quantity: &Quantity) -> Value {

@@ -262,7 +262,9 @@ impl<'l> Reader<'l> {
             return self.scopes[scope].keep(&key, String::new());
         }
         let example = format!("{} = {}", quantity.key, limit_by_example(quantity));
-        let text = number_or_text(value, quantity.unit == "1", &example);
+        // A limit may be relative to another result, such as "1.3 x mesh_force".
+        let is_relative = matches!(value, Value::String(text) if text.contains(" x "));
+        let text = number_or_text(value, quantity.unit == "1" && !is_relative, &example);
         match text
             .map_err(|problem| problem.at(&key))
             .and_then(|text| Limit::new(quantity.key, &text))
