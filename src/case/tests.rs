@@ -2,7 +2,7 @@
 #![expect(clippy::float_cmp, reason = "a value is read to the last bit")]
 
 use super::fields::{FIELDS, index_of};
-use super::{Case, Problem};
+use super::{Case, Document, Problem};
 use crate::model::inputs::Drive;
 
 fn field(key: &str) -> usize {
