@@ -75,10 +75,6 @@ const CLOSER: u16 = 4;
 /// Steps from tick to tick, times a power of ten.
 const STEPS: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 
-/// The axis shrinks if the curve fills a smaller fraction of it. An end is at most 1.5 times the
-/// previous end, so that a curve that has just left its axis fills two thirds of the next axis.
-const TOO_SMALL: f64 = 0.5;
-
 /// The axis does not include 0 if the least value exceeds this fraction of the greatest value.
 const FAR_FROM_ZERO: f64 = 0.5;
 
@@ -97,11 +93,7 @@ impl Chart {
         let marks = Span::of(self.marks.iter().map(|mark| mark.0));
         let across = Span::of(points().map(|point| point.0)).and(marks).and(self.across.span());
         let values = Span::of(points().map(|point| point.1).chain(has_bars.then_some(0.0)));
-        let up = if self.up.labels.is_empty() {
-            Span::default().refit(values)
-        } else {
-            values.and(self.up.span())
-        };
+        let up = if self.up.labels.is_empty() { values.axis() } else { values.and(self.up.span()) };
         let half = match across.length() {
             _ if has_bars => 0.5,
             0.0 if across.from != 0.0 => across.from.abs() / 10.0,
@@ -247,41 +239,22 @@ impl Span {
         Span { from, to: (from + self.length()).min(other.to) }
     }
 
-    /// An axis that covers the values. Keeps this axis while it fits.
+    /// An axis with round ends that covers the values; empty if there are no values.
     #[must_use]
-    pub fn fitted(self, values: Span) -> Span {
-        self.fitted_from(values, FAR_FROM_ZERO)
+    pub fn axis(self) -> Span {
+        self.axis_near(FAR_FROM_ZERO)
     }
 
-    /// An axis that covers the values and includes 0 only if they have both signs or are alike, so
-    /// that the differences of compared curves are visible. Keeps this axis while it fits.
+    /// Such an axis that includes 0 only if the values have both signs or are alike, so that the
+    /// differences of compared curves are visible.
     #[must_use]
-    pub fn fitted_closely(self, values: Span) -> Span {
-        self.fitted_from(values, 0.0)
+    pub fn close_axis(self) -> Span {
+        self.axis_near(0.0)
     }
 
-    fn fitted_from(self, values: Span, far_from_zero: f64) -> Span {
-        if !(values.from.is_finite() && values.to.is_finite()) {
-            return self;
-        }
-        let needed = with_zero(values, far_from_zero);
-        let serves =
-            self.covers(needed) && needed.length() >= TOO_SMALL * self.length() && !self.is_empty();
-        let signs = |span: Span| (span.from > 0.0, span.from < 0.0, span.to > 0.0);
-        if serves && signs(self) == signs(needed) { self } else { rounded(needed) }
-    }
-
-    /// A new axis that covers the values, or this axis if there are no values.
-    #[must_use]
-    pub fn refit(self, values: Span) -> Span {
-        let fitted = Span::default().fitted(values);
-        if fitted.is_empty() { self } else { fitted }
-    }
-
-    /// An axis that covers the values and never shrinks.
-    #[must_use]
-    pub fn grown(self, values: Span) -> Span {
-        if self.covers(values) && !self.is_empty() { self } else { self.fitted(values) }
+    fn axis_near(self, far_from_zero: f64) -> Span {
+        let is_finite = self.from.is_finite() && self.to.is_finite();
+        if is_finite { rounded(with_zero(self, far_from_zero)) } else { Span::default() }
     }
 
     /// Ticks at multiples of 1, 2 or 5, with at most `most` intervals but at least two ticks.
@@ -361,30 +334,15 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_stays_until_the_curve_leaves_it() {
-        for (now, greatest, then) in [
-            (0.0, 2191.0, 3000.0),
-            (3000.0, 2999.0, 3000.0),
-            (3000.0, 1501.0, 3000.0),
-            (3000.0, 1499.0, 1500.0),
-        ] {
-            assert_eq!(to(now).fitted(to(greatest)), to(then));
-        }
-        assert_eq!(to(2000.0).fitted(to(2001.0)), to(3000.0));
-        assert_eq!(to(3000.0).grown(to(100.0)), to(3000.0));
-        assert_eq!(to(3000.0).refit(to(1700.0)), to(2000.0));
-        assert_eq!(to(3000.0).refit(Span::NONE), to(3000.0));
-    }
-
-    #[test]
-    fn an_axis_has_both_signs_if_the_curve_has_and_leaves_out_a_distant_zero() {
-        assert_eq!(Span::default().fitted(Span::new(-1.366, 24.6)), Span::new(-2.0, 26.0));
-        assert_eq!(Span::default().fitted(Span::new(-1.366, 0.0)), Span::new(-1.5, 0.0));
-        let fitted = Span::default().fitted(Span::new(47.34, 47.89));
-        assert!((fitted.from - 47.3).abs() < 1e-9 && (fitted.to - 47.9).abs() < 1e-9, "{fitted:?}");
-        assert_eq!(Span::default().fitted(Span::new(1.0, 1.0)), to(1.0));
-        assert_eq!(Span::new(-5.0, 25.0).fitted(Span::new(-1.0, 20.0)), Span::new(-5.0, 25.0));
-        assert_eq!(to(3.0).fitted(Span::NONE), to(3.0));
+    fn an_axis_is_round_has_both_signs_if_the_curve_has_and_leaves_out_a_distant_zero() {
+        assert_eq!(to(2191.0).axis(), to(3000.0));
+        assert_eq!(to(1700.0).axis(), to(2000.0));
+        assert_eq!(Span::new(-1.366, 24.6).axis(), Span::new(-2.0, 26.0));
+        assert_eq!(Span::new(-1.366, 0.0).axis(), Span::new(-1.5, 0.0));
+        let axis = Span::new(47.34, 47.89).axis();
+        assert!((axis.from - 47.3).abs() < 1e-9 && (axis.to - 47.9).abs() < 1e-9, "{axis:?}");
+        assert_eq!(Span::new(1.0, 1.0).axis(), to(1.0));
+        assert!(Span::NONE.axis().is_empty());
     }
 
     #[test]
@@ -411,12 +369,10 @@ mod tests {
 
     proptest! {
         #[test]
-        fn just_after_a_change_the_axis_stays(from in -1e6..1e6f64, length in 0.0..1e6f64, shrunk in -12..3i32) {
+        fn an_axis_covers_its_values(from in -1e6..1e6f64, length in 0.0..1e6f64, shrunk in -12..3i32) {
             let length = length * 10f64.powi(shrunk);
-            let values = Span::new(from, from + length);
-            let axis = Span::default().fitted(values);
+            let axis = Span::new(from, from + length).axis();
             prop_assert!(axis.covers(Span::new(from + 1e-9 * length, from + length * (1.0 - 1e-9))) || length < 1e-9);
-            prop_assert_eq!(axis.fitted(values), axis);
         }
 
         #[test]

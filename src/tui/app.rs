@@ -413,7 +413,6 @@ impl App {
     pub fn charts(&self) -> Charts<'_> {
         Charts {
             pane: &self.chart,
-            scale: &self.tab.scale,
             answer: self.tab.answer.as_ref(),
             baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
             cursor: self.cursor,
@@ -421,7 +420,6 @@ impl App {
             leave: self.leave(),
             shows_every_method: self.shows_every_method,
             work: &self.tab.chart_work,
-            undone: self.tab.undone,
             units: self.settings.units,
             marker: self.settings.marker,
             look: self.look,

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use super::jobs::{ChartWork, Traded};
 use super::line::Line;
-use super::panes::chart::range::{Occasion, Scale};
 use super::panes::form::FormState;
 use super::panes::results::ResultsState;
 use super::rows::{self, Row};
@@ -64,12 +63,6 @@ pub struct Tab {
     pub refusal: Option<Refusal>,
     /// Whether the worker failed on the case of the form.
     pub(crate) has_failed: bool,
-    /// The axes of the charts.
-    pub scale: Scale,
-    /// The first request after the last undo or redo; its answer fits the axes again.
-    pub(crate) undone: u64,
-    /// The state to which the axes were last fitted.
-    pub(crate) fitted: Occasion,
     /// The benchmark.
     pub traded: Option<Traded>,
     /// The solved variants.
@@ -125,9 +118,6 @@ impl Tab {
             earlier: None,
             refusal: None,
             has_failed: false,
-            scale: Scale::default(),
-            undone: 0,
-            fitted: Occasion::default(),
             traded: None,
             variants: None,
             study: Study::default(),

@@ -52,13 +52,12 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     mem::take(&mut app.effects.0)
 }
 
-/// Updates the dependent state: the scrolling of form and results, and the axes of the charts.
+/// Scrolls form and results to their focused rows.
 pub(crate) fn settle(app: &mut App) {
     if mem::take(&mut app.needs_scroll) {
         app.tab.form.top = form::top_for(&app.form());
         app.tab.results.top = app.results().top_for();
     }
-    panes::fit_chart(app);
 }
 
 /// The workbench after it opens a document.

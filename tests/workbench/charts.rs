@@ -125,7 +125,7 @@ fn static_and_dynamic_open_on_the_strike_and_0_shows_the_whole_contact() {
     let window = |desk: &Desk| desk.app.charts().window();
     for method in ["static", "dynamic"] {
         let mut desk = at_method(SMALL, method);
-        let (strike, whole) = (window(&desk), desk.app.tab.scale.across);
+        let (strike, whole) = (window(&desk), desk.app.charts().scale().across);
         assert!(strike.length() < 0.2 * whole.length(), "{strike:?}");
         assert!(strike.from < -1.25 && strike.to > 0.0, "{strike:?}");
         assert_eq!(window(desk.keys(&["0"])), whole);
@@ -135,12 +135,12 @@ fn static_and_dynamic_open_on_the_strike_and_0_shows_the_whole_contact() {
 
         let mut desk = at_method(SMALL, method);
         desk.fill("driven.tip_relief", "80 um");
-        assert_eq!(window(&desk), desk.app.tab.scale.across, "there is no strike");
+        assert_eq!(window(&desk), desk.app.charts().scale().across, "there is no strike");
         desk.fill("driven.tip_relief", "0 um");
         assert!(window(&desk).length() < 0.2 * whole.length());
     }
     let desk = at_method(SMALL, "exact");
-    assert_eq!(window(&desk), desk.app.tab.scale.across, "from D to E");
+    assert_eq!(window(&desk), desk.app.charts().scale().across, "from D to E");
 }
 
 #[test]
@@ -290,7 +290,7 @@ fn the_axis_ends_at_the_last_contact_for_static_and_dynamic() {
         let axis = chart(&desk).into_iter().find(|line| line.contains('└')).expect("an axis");
         assert!(axis.contains('D') && axis.contains('E'), "{axis}");
         assert_eq!((axis.contains('B'), axis.contains('L')), (ends, ends), "{axis}");
-        assert_eq!(desk.app.tab.scale.across.to > 0.0, ends);
+        assert_eq!(desk.app.charts().scale().across.to > 0.0, ends);
     }
 }
 
@@ -402,7 +402,7 @@ fn the_axis_covers_the_results_and_the_baseline() {
         for relief in ["46 um", "48 um", "80 um"] {
             let mut desk = at_method(SMALL, method);
             desk.keys(&["b"]);
-            let pinned = desk.app.tab.scale;
+            let pinned = desk.app.charts().scale();
             desk.fill("driven.tip_relief", relief);
             for key in ["0", "v"] {
                 desk.keys(&["Esc", "3", key]);
@@ -419,7 +419,7 @@ fn the_axis_covers_the_results_and_the_baseline() {
             }
             // A baseline by method paper has a curve only of that method and not of exact.
             assert!(
-                method == "paper" || desk.app.tab.scale.across == pinned.across,
+                method == "paper" || desk.app.charts().scale().across == pinned.across,
                 "{method} {relief}: the axis stays while it serves"
             );
         }
@@ -512,25 +512,11 @@ fn a_large_pane_shows_several_charts() {
 }
 
 #[test]
-fn a_hidden_chart_is_not_computed() {
+fn a_hidden_chart_needs_no_slow_method() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["F5"]);
-    let fitted = desk.app.tab.scale;
-    desk.fill("operation.speed", "9000 rpm");
-    assert_eq!(desk.app.tab.scale, fitted, "no curve is computed");
-    assert!(
-        !desk
-            .app
-            .tab
-            .answer
-            .as_ref()
-            .expect("results")
-            .methods
-            .iter()
-            .any(|(method, _)| method.shares_load())
-    );
-    desk.keys(&["Esc", "3"]);
-    assert_ne!(desk.app.tab.scale, fitted);
+    desk.keys(&["F5"]).fill("operation.speed", "9000 rpm");
+    let methods = &desk.app.tab.answer.as_ref().expect("results").methods;
+    assert!(!methods.iter().any(|(method, _)| method.shares_load()));
 }
 
 /// The numbers on the axes of a chart: below it, and beside it.

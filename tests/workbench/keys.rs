@@ -377,13 +377,16 @@ fn a_late_answer_is_dropped() {
 }
 
 #[test]
-fn the_chart_keeps_its_axes_until_the_curve_leaves_them() {
+fn the_round_axes_of_a_chart_stay_until_the_curve_leaves_them() {
     let mut desk = Desk::new(SMALL);
-    let scale = desk.app.tab.scale;
+    let axis = |desk: &Desk| desk.app.charts().upright(0);
+    let before = axis(&desk);
     desk.fill("operation.speed", "2100 rpm");
-    assert_eq!(desk.app.tab.scale, scale);
+    assert_eq!(axis(&desk), before);
     desk.fill("operation.speed", "9000 rpm");
-    assert!(desk.app.tab.scale.upright[0].to > scale.upright[0].to);
+    assert!(axis(&desk).to > before.to);
+    desk.fill("operation.speed", "2000 rpm");
+    assert_eq!(axis(&desk), before);
 }
 
 #[test]

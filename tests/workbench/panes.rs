@@ -184,7 +184,7 @@ fn rounding_errors_of_zero_are_zero_in_the_teeth() {
 fn an_axis_fits_the_visible_part_of_its_curves() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Ctrl-T", "Esc", ":", "sliding velocity", "Enter", "3", "0"]);
-    let axis = |desk: &Desk| desk.app.tab.scale.upright[desk.app.chart.graph()];
+    let axis = |desk: &Desk| desk.app.charts().upright(desk.app.chart.graph());
     assert!(
         axis(&desk).from < 0.0 && axis(&desk).to > 0.0,
         "the whole contact has both signs: {:?}",

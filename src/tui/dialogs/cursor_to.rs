@@ -144,7 +144,7 @@ pub(in crate::tui) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
     let pitch = solution.geometry.base_pitch / solution.geometry.driver.base;
     let start = first_contact(solution).unwrap_or(0.0);
     let end = last_contact(solution).unwrap_or(0.0).min(0.0);
-    let axis = scope.charts.scale.across;
+    let axis = scope.charts.scale().across;
     let before =
         if axis.is_empty() { start.max(pitch / 10.0) } else { start.max(-axis.from.to_radians()) };
     let columns = f64::from(columns(&scope.charts).max(2) - 1);

@@ -28,7 +28,7 @@ use crate::tui::theme::Look;
 pub use curves::readout;
 use curves::{Curve, curves, value_at};
 pub(crate) use range::last_contact;
-use range::{ChartView, Frame, Occasion, Scale};
+use range::{ChartView, Frame, Scale};
 
 /// Least height of each chart, in rows; it decides the number of charts.
 const ROWS: u16 = 16;
@@ -104,8 +104,6 @@ pub(crate) enum ChartCommand {
 pub struct Charts<'a> {
     /// The state of the pane.
     pub(crate) pane: &'a ChartPane,
-    /// The axes of the case.
-    pub(crate) scale: &'a Scale,
     /// The last valid results.
     pub(crate) answer: Option<&'a Answer>,
     /// The results of the baseline.
@@ -120,8 +118,6 @@ pub struct Charts<'a> {
     pub(crate) shows_every_method: bool,
     /// The chart that the worker computes for the case.
     pub work: &'a ChartWork,
-    /// The first request after the last undo.
-    pub(crate) undone: u64,
     /// The display units.
     pub(crate) units: System,
     /// The marker of the active curve.
@@ -142,7 +138,7 @@ impl Charts<'_> {
     /// The visible roll angles, in deg after E.
     #[must_use]
     pub fn window(&self) -> Span {
-        self.view().window(self.scale)
+        self.view().window(&self.scale())
     }
 
     /// The view of the pane. A chart of the path of contact starts with the whole contact.
@@ -179,7 +175,7 @@ impl Charts<'_> {
             ChartCommand::Zoom(steps) => {
                 let start = self.solution().and_then(first_contact);
                 let around = 0.0 - self.cursor.or(start).unwrap_or(0.0).to_degrees();
-                pane.view = self.view().zoomed(steps, around, self.scale);
+                pane.view = self.view().zoomed(steps, around, &self.scale());
                 let end = if steps > 0 { "closest zoom" } else { WHOLE };
                 (pane.view == self.view()).then_some(end)
             }
@@ -188,8 +184,8 @@ impl Charts<'_> {
                 Some(WHOLE)
             }
             ChartCommand::Strike => {
-                pane.view = self.view().strike_or_whole(self.scale);
-                let has_strike = !self.scale.strike.is_empty();
+                pane.view = self.view().strike_or_whole(&self.scale());
+                let has_strike = !self.scale().strike.is_empty();
                 Some(match (pane.view.frame, has_strike) {
                     (Frame::Strike, true) => "the charts show the strike",
                     (Frame::Strike, false) => "no corner contact: no strike to show",
@@ -242,53 +238,29 @@ impl Charts<'_> {
         format!("{} {across}: {}.", chart.across.name, values.join(", "))
     }
 
-    /// Axes that contain every visible curve, and what they are fitted to. Keeps the present axes
-    /// while they fit.
-    pub(crate) fn fitted(&self, before: Occasion) -> (Occasion, Scale) {
-        let mut scale = *self.scale;
-        let Some(answer) = self.answer.filter(|_| !self.area.is_empty()) else {
-            return (before, scale);
-        };
-        let mut ground = (Some(answer.active), self.undone);
-        // While an answer is incomplete, the method and the undo of the earlier occasion remain.
-        if answer.pending.is_some() || answer.serial < self.undone {
-            ground = before.ground;
-        }
-        let shown = (self.pane.graph(), self.count(), self.units);
-        let is_new = ground != before.ground;
-        let fitted = |axis: Span, values: Span| {
-            if is_new { axis.refit(values) } else { axis.fitted(values) }
-        };
+    /// The roll angles of every visible curve, with round ends.
+    #[must_use]
+    pub fn scale(&self) -> Scale {
+        let Some(answer) = self.answer else { return Scale::default() };
         let pinned = self.baseline.and_then(|base| base.of(base.beside(answer.active)));
         let solved = answer.methods.iter().filter_map(|(_, found)| found.as_ref().ok());
         let ways = solved.chain(pinned).map(range::way).fold(Span::NONE, Span::and);
         let ways = if self.is_by_model() { ways.and(range::path(answer)) } else { ways };
-        // The axis does not shrink while the worker still solves a method.
-        scale.across = match answer.pending {
-            Some(_) => scale.across.grown(ways),
-            None => fitted(scale.across, ways),
-        };
         let touches = self.solution().into_iter().chain(pinned).filter_map(first_contact);
         let first = touches.fold(0.0, f64::max).to_degrees();
         let strike = Span::new(-first, AFTER_E * first);
-        scale.strike =
-            if strike.is_empty() { Span::default() } else { fitted(scale.strike, strike) };
-        let window = self.view().window(&scale);
-        for graph in self.shown() {
-            let curves = curves(self, &GRAPHS[graph]);
-            let values = curves.iter().map(|curve| curve.upright_within(window));
-            let values = values.fold(Span::NONE, Span::and);
-            let is_new = is_new || shown != before.shown;
-            let start = if is_new { Span::default() } else { scale.upright[graph] };
-            let axis = match GRAPHS[graph].by_model {
-                Some(_) => start.fitted_closely(values),
-                None => start.fitted(values),
-            };
-            if !axis.is_empty() {
-                scale.upright[graph] = axis;
-            }
-        }
-        (Occasion { shown, ground }, scale)
+        let strike = if strike.is_empty() { Span::default() } else { strike.axis() };
+        Scale { across: ways.axis(), strike }
+    }
+
+    /// The values of a chart within the visible roll angles, with round ends.
+    #[must_use]
+    pub fn upright(&self, graph: usize) -> Span {
+        let (graph, window) = (&GRAPHS[graph], self.window());
+        let curves = curves(self, graph);
+        let values = curves.iter().map(|curve| curve.upright_within(window));
+        let values = values.fold(Span::NONE, Span::and);
+        if graph.by_model.is_some() { values.close_axis() } else { values.axis() }
     }
 
     /// The visible charts: the selected chart, and below it the next charts of the active method.

@@ -163,7 +163,6 @@ fn travel(app: &mut App, state: Option<(Case, usize)>, verb: &str) {
     app.tab.remember();
     let summary = save::summary(&changes::between(&app.tab.case, &case));
     app.replace_case(case, focus);
-    app.tab.undone = app.tab.serial;
     app.say(format!("{verb}: {summary}"));
 }
 

@@ -118,15 +118,11 @@ pub(super) fn select_chart(app: &mut App, at: usize) {
     run_chart(app, ChartCommand::Select(at));
 }
 
-/// Fits the axes to the visible curves.
-pub(super) fn fit_chart(app: &mut App) {
-    (app.tab.fitted, app.tab.scale) = app.charts().fitted(app.tab.fitted);
-}
-
 /// Scrolls to a moved cursor.
 pub(super) fn follow_cursor(app: &mut App, cursor_before: Option<f64>) {
     if let Some(cursor) = app.cursor.filter(|_| app.cursor != cursor_before) {
-        app.chart.view = app.chart.view.following(0.0 - cursor.to_degrees(), &app.tab.scale);
+        let scale = app.charts().scale();
+        app.chart.view = app.chart.view.following(0.0 - cursor.to_degrees(), &scale);
     }
 }
 

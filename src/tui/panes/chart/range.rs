@@ -1,10 +1,7 @@
 //! The axes of the charts, the range of roll angles of the incoming tooth, and the visible range.
 
-use crate::case::units::System;
-use crate::model::inputs::Method;
 use crate::model::{Solution, Station};
 use crate::report::chart::Span;
-use crate::report::graphs::GRAPHS;
 use crate::tui::solver::Answer;
 
 /// The last zoom step in. Each step is √2, and the last step shows a thousandth of the frame.
@@ -13,15 +10,13 @@ const LAST_STEP_IN: i32 = 20;
 /// range. Without this distance the charts would scroll with every step of the cursor.
 const MARGIN: f64 = 0.25;
 
-/// The axes of the charts.
+/// The roll angles of the charts, in deg after E, negative before E.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scale {
-    /// The driver's roll angle over the whole contact, in deg after E, negative before E.
+    /// The whole contact.
     pub across: Span,
-    /// The driver's roll angle from D to a little after E, in the same unit.
+    /// From D to a little after E; empty without corner contact.
     pub(crate) strike: Span,
-    /// The values of each chart, in its display unit.
-    pub upright: [Span; GRAPHS.len()],
 }
 
 /// The visible range of roll angles.
@@ -119,16 +114,6 @@ impl ChartView {
     }
 }
 
-/// What the axes are fitted to. They are fitted again when it changes, even if they still contain
-/// the values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Occasion {
-    /// The selected chart, the number of visible charts, and the units, for the value axes.
-    pub(crate) shown: (usize, usize, System),
-    /// The method, and the first request after the last undo, for all axes.
-    pub(crate) ground: (Option<Method>, u64),
-}
-
 /// The driver's angle before E at the last contact, in rad, negative after E. Only `static` and
 /// `dynamic` have a last contact.
 pub(crate) fn last_contact(solution: &Solution) -> Option<f64> {
@@ -156,11 +141,8 @@ pub(super) fn way(solution: &Solution) -> Span {
 mod tests {
     use super::*;
 
-    const SCALE: Scale = Scale {
-        across: Span { from: -5.0, to: 25.0 },
-        strike: Span { from: -1.5, to: 0.5 },
-        upright: [Span { from: 0.0, to: 1.0 }; GRAPHS.len()],
-    };
+    const SCALE: Scale =
+        Scale { across: Span { from: -5.0, to: 25.0 }, strike: Span { from: -1.5, to: 0.5 } };
 
     #[test]
     fn it_opens_on_the_strike_if_the_contact_continues_after_it() {

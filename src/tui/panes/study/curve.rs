@@ -61,7 +61,7 @@ pub(super) fn draw(
     let across = Span::new(x(axis, 0), last);
     let half = if across.is_empty() { 0.5 } else { 0.0 };
     let across = Span::new(across.from - half, across.to + half);
-    let up = Span::default().refit(Span::of(all().map(|value| value / factor)));
+    let up = Span::of(all().map(|value| value / factor)).axis();
     let drawn = TerminalChart { chart: &chart, looks, words, is_compared: false, theme };
     let plot = drawn.draw(area, (across, up), 0, buffer);
     if plot.cells.is_empty() {
