@@ -299,14 +299,14 @@ impl Charts<'_> {
         let shown = self.shown();
         let areas = Layout::vertical(vec![Constraint::Fill(1); shown.len()]).split(self.area);
         let areas: Vec<_> = shown.into_iter().zip(areas.iter().map(|area| below(*area))).collect();
-        let up = |graph: usize| self.scale.upright[graph];
-        let margin =
-            |(graph, area): &(usize, Rect)| label_margin(&Axis::default(), up(*graph), area.height);
-        let margin = areas.iter().map(margin).fold(MARGIN, u16::max);
-        let plot = |(graph, area): (usize, Rect)| {
-            (graph, area, Plot::new(area, margin, (self.window(), up(graph))))
+        let up: Vec<Span> = areas.iter().map(|(graph, _)| self.upright(*graph)).collect();
+        let margin = areas.iter().zip(&up);
+        let margin = margin.map(|((_, area), up)| label_margin(&Axis::default(), *up, area.height));
+        let (margin, window) = (margin.fold(MARGIN, u16::max), self.window());
+        let plot = |((graph, area), up): ((usize, Rect), Span)| {
+            (graph, area, Plot::new(area, margin, (window, up)))
         };
-        areas.into_iter().map(plot).collect()
+        areas.into_iter().zip(up).map(plot).collect()
     }
 
     /// The chart of the curves, with their looks.
