@@ -17,30 +17,104 @@ use clap::Subcommand;
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Solve cases and print the results
+    ///
+    /// D is the first contact of the driven tip, E the start and B the end of the path of
+    /// contact, as in the paper; ISO 21771 has A for E, and E for B. CSV: one row per case and
+    /// one column per quantity in SI units, such as `impact_force [N]`; with --stations one row
+    /// per station. JSON: one object per case and line, in SI units; missing values are absent.
     Solve(results::Solve),
     /// Check each case's [limits] against its results, one verdict per line
+    ///
+    /// A limit on impact_force applies to the free impact in every method. With static and
+    /// dynamic, the verdict also prints the force by the method; a separate limit can be set on
+    /// that force. Without corner contact every limit on the impact is met. If a quantity has no
+    /// value, the verdict is `unknown` with the reason, and the exit code is 1. JSON: one object
+    /// per verdict, in SI units.
     Check(results::Check),
     /// Explain a quantity of a case: formula, numbers, source, validity and sensitivity
     Explain(results::Explain),
     /// Measure accuracy against run time of every method on a case, on this machine
+    ///
+    /// Each setting is timed on this machine. Its total error is the greatest relative difference
+    /// of first contact, forces and curve from the finest setting of method dynamic. The model
+    /// error is that of the finest setting of the same method; the rest is numerical. Where no
+    /// method finds corner contact, no setting is recommended. JSON is one object in SI units;
+    /// missing values are absent.
     Trade(searches::Trade),
     /// Compare the tooth compliance of every model over the flank with finite elements
+    ///
+    /// The finite elements are plane strain on the whole gear, as in tooth_compliance =
+    /// "finite-element". CSV: one row per gear and radius, in SI units; a cell is empty where a
+    /// model does not cover the gear. JSON: one object in SI units; missing values are absent,
+    /// and gaps and refusal give the reason.
     Stiffness(searches::Stiffness),
     /// Solve a case over a range of one or more fields, as a table
+    ///
+    /// CSV has one row per point: the varied fields in the units of --vary, then the quantities
+    /// in SI units, then the outcome. A cell is empty where a quantity has no value, such as an
+    /// impact force without corner contact. A refused point has the outcome `refused` and no
+    /// values; standard error counts the refused points and gives the reason. JSON is one object
+    /// per line and point. Without --only the quantities are those of [limits], else the impact
+    /// force of the method. --out FILE.svg draws the curves; `tipstrike plot --sweep FILE.csv`
+    /// draws those of a CSV file.
     Sweep(studies::Sweep),
     /// Sample the distributions of [spread]: percentiles, probabilities, ranking of the fields
+    ///
+    /// The quantities of [limits] are always computed. A distribution is a line of [spread]: the
+    /// field in quotes, then { normal = WIDTH } with the standard deviation, or { uniform = WIDTH
+    /// }, { triangular = WIDTH } or { truncated = WIDTH } (a normal distribution cut off at three
+    /// standard deviations) with half the span, or { grade = CLASS } with a flank tolerance class
+    /// of ISO 1328-1, for a base pitch deviation. CSV has one row per solve in SI units: the
+    /// samples (set a), then the points of the ranking (set b, and b:FIELD with the value of b in
+    /// that field). JSON is one object in SI units.
     Tolerance(studies::Tolerance),
     /// Merge the shards of a sweep or a tolerance study
     Gather(studies::Gather),
     /// Compare the variants of a case, or several cases, side by side with their differences
+    ///
+    /// A variant is a table [variants.NAME] of the case file with the keys that it changes, such
+    /// as "driven.tip_relief" = "48 um". The first column is the reference of all differences. A
+    /// difference is in the unit of the quantity, or in percent if the quantity cannot be
+    /// negative and its value is at most ten times the reference. A refused case or variant keeps
+    /// its column, with the reason. CSV: one row per quantity in SI units. JSON: one object in SI
+    /// units; missing values are absent.
     Compare(results::Compare),
     /// Find the values of a field at which a condition on the results changes
+    ///
+    /// A crossing is a value at which the condition changes, with a bracket of 1e-9 of the value.
+    /// `always` and `never` are answers for the whole range. Without corner contact a quantity of
+    /// the impact is below every limit. JSON is one object; its numbers are in the unit of
+    /// --vary, and those of the quantity in SI.
     Seek(searches::Seek),
     /// Find the tip relief to specify on both gears: no corner contact, least transmission error
+    ///
+    /// The answer is what a drawing states: amounts in whole um, lengths in steps of 0.1 mm (0.05
+    /// mm or 0.01 mm on short paths of contact), and the roll angle and diameter where each
+    /// relief begins. Corner contact counts before the start and after the end of the path of
+    /// contact, at the greatest load. Every figure is that of the least favourable combination of
+    /// the tolerances. Among the kinds of relief within 10 % of the least transmission error, or
+    /// 2 % of the least peak force, the command chooses the one with the smallest amounts. The
+    /// transmission error is peak to peak, at rest and without base pitch deviations: the
+    /// greatest over six loads of the range, or the mean over a spectrum. With method dynamic the
+    /// motion must have no corner contact either. CSV has one row per choice and point of the
+    /// map, JSON is one object; both are in SI units.
     Relief(searches::Relief),
     /// Write a chart of a case, or its teeth, as a picture (SVG)
+    ///
+    /// The chart shows the method of the case. If the method has no such chart, the command draws
+    /// another method: load_share of paper and exact shows static; impact_energy of static and
+    /// dynamic shows exact. The legend names the method. The chart speed shows method dynamic at
+    /// the torque of the case, with the speed rising and falling. The picture follows the light
+    /// or dark setting of the browser. A sweep is drawn over the field with the most values, with
+    /// a curve for each combination of the others.
     Plot(results::Plot),
     /// Write cases side by side as one page or as data: .html, .md, .csv or .json
+    ///
+    /// The HTML page needs no other file. Verdict, limits, inputs, main results and charts of one
+    /// case print on one sheet, A4 or letter; the appendix has the rest. Markdown has the same
+    /// without charts. The page shows the keys of the table [about] of the case file, such as
+    /// project, author, date and drawing. CSV and JSON are those of `solve`, JSON with the
+    /// stations.
     Report(results::Report),
     /// List every field of a case with its unit, range, default and meaning
     Fields(documents::Fields),
@@ -49,6 +123,11 @@ pub enum Command {
     /// Write a commented case to start from
     New(documents::New),
     /// Import a spur stage of a REXS model as a commented case
+    ///
+    /// REXS is the exchange format of gear programs such as FVA-Workbench and Bearinx. Versions
+    /// 1.0 to 2.0 are read. Each value of the case has its source as a comment; standard error
+    /// lists the stages of the model and each field that stays empty, with the reason. Helical,
+    /// planetary, bevel and other stages are refused.
     Import(documents::Import),
     /// Write a shell's completions to standard output
     Completions(documents::Completions),

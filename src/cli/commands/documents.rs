@@ -88,13 +88,8 @@ fn examples() -> impl TypedValueParser<Value = &'static Example> {
         .try_map(|name| Example::find(&name))
 }
 
-const IMPORT_HELP: &str = "REXS is the exchange format of gear programs such as FVA-Workbench and Bearinx. Versions 1.0 to 2.0 \
-    are read. Each value of the case has its source as a comment; standard error lists the stages of the model and each field \
-    that stays empty, with the reason. Helical, planetary, bevel and other stages are refused.";
-
 /// The options of the command.
 #[derive(Debug, Args)]
-#[command(after_help = IMPORT_HELP)]
 pub struct Import {
     /// REXS model (.rexs, .rexsj or .rexsz); - is standard input
     #[arg(value_name = "MODEL", value_hint = ValueHint::FilePath)]

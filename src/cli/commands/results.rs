@@ -30,13 +30,8 @@ use crate::study::shard::Format;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 
-const SOLVE_HELP: &str = "D is the first contact of the driven tip, E the start and B the end of the path of contact, as in the paper; \
-    ISO 21771 has A for E, and E for B. CSV: one row per case and one column per quantity in SI units, such as `impact_force [N]`; with --stations \
-    one row per station. JSON: one object per case and line, in SI units; missing values are absent.";
-
 /// The options of the command.
 #[derive(Debug, Args)]
-#[command(after_help = SOLVE_HELP)]
 pub struct Solve {
     /// The cases
     #[command(flatten)]
@@ -100,15 +95,8 @@ fn print(
     }
 }
 
-const CHECK_HELP: &str = "A limit on impact_force applies to the free impact in every \
-    method. With static and dynamic, the verdict also prints the force by the method; a separate \
-    limit can be set on that force. Without corner contact every limit on the impact is met. If a \
-    quantity has no value, the verdict is `unknown` with the reason, and the exit code is 1. \
-    JSON: one object per verdict, in SI units.";
-
 /// The options of the command.
 #[derive(Debug, Args)]
-#[command(after_help = CHECK_HELP)]
 pub struct Check {
     /// The cases
     #[command(flatten)]
@@ -214,16 +202,8 @@ impl Explain {
     }
 }
 
-const COMPARE_HELP: &str = "A variant is a table [variants.NAME] of the case file with the keys \
-    that it changes, such as \"driven.tip_relief\" = \"48 um\". The first column is the reference \
-    of all differences. A difference is in the unit of the quantity, or in percent if the \
-    quantity cannot be negative and its value is at most ten times the reference. A refused case \
-    or variant keeps its column, with the reason. CSV: one row per quantity in SI units. JSON: \
-    one object in SI units; missing values are absent.";
-
 /// The options of the command.
 #[derive(Debug, Args)]
-#[command(after_help = COMPARE_HELP)]
 pub struct Compare {
     /// Case files, each with its variants; - is standard input
     #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
@@ -309,16 +289,8 @@ fn solve((file, edits, document): &Edited, selection: &Selection) -> ComparedCas
     ComparedCase { file: file.clone(), variant: edits.variant.clone(), ..solved }
 }
 
-const PLOT_HELP: &str = "The chart shows the method of the case. If the method has no \
-    such chart, the command draws another method: load_share of paper and exact shows static; \
-    impact_energy of static and dynamic shows exact. The legend names the method. The chart speed \
-    shows method dynamic at the torque of the case, with the speed rising and falling. The \
-    picture follows the light or dark setting of the browser. A sweep is drawn over the field with \
-    the most values, with a curve for each combination of the others.";
-
 /// The options of the command.
 #[derive(Debug, Args)]
-#[command(after_help = PLOT_HELP)]
 pub struct Plot {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", required_unless_present = "sweep", value_hint = ValueHint::FilePath)]
@@ -382,15 +354,8 @@ impl Plot {
 /// Greatest size of the CSV file of a sweep to draw.
 const MOST_SWEEP_BYTES: usize = 64 << 20;
 
-const REPORT_HELP: &str = "The HTML page needs no other file. Verdict, limits, inputs, main results \
-    and charts of one case print on one sheet, A4 or letter; the appendix has the rest. Markdown \
-    has the same without charts. The page shows the keys of the table [about] of the case file, \
-    such as project, author, date and drawing. CSV and JSON are those of `solve`, JSON with the \
-    stations.";
-
 /// The options of the command.
 #[derive(Debug, Args)]
-#[command(after_help = REPORT_HELP)]
 pub struct Report {
     /// The cases
     #[command(flatten)]

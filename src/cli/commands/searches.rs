@@ -21,13 +21,8 @@ use crate::study::trade::{self as study, STEADY};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
-const SEEK_HELP: &str = "A crossing is a value at which the condition changes, with a bracket of 1e-9 of the value. `always` and `never` \
-    are answers for the whole range. Without corner contact a quantity of the impact is below every limit. JSON is one object; its \
-    numbers are in the unit of --vary, and those of the quantity in SI.";
-
 /// The options of the command.
 #[derive(Debug, Args)]
-#[command(after_help = SEEK_HELP)]
 pub struct Seek {
     /// The field and its range, such as 'deviations.base_pitch=0..40 um'
     #[arg(long, value_name = "KEY=FROM..TO")]
@@ -82,18 +77,8 @@ impl Seek {
     }
 }
 
-const RELIEF_HELP: &str = "The answer is what a drawing states: amounts in whole um, lengths in steps of 0.1 mm (0.05 mm or 0.01 mm on \
-    short paths of contact), and the roll angle and diameter where each relief begins. Corner contact counts before the start and after \
-    the end of the path of contact, at the greatest load. Every figure is that of the least favourable combination of the tolerances. \
-    Among the kinds of relief within 10 % of the least transmission error, or 2 % of the least peak force, the command chooses the one \
-    with the smallest amounts. The transmission \
-    error is peak to peak, at rest and without base pitch deviations: the greatest over six loads of the range, or the mean over a \
-    spectrum. With method dynamic the motion must have no corner contact either. CSV has one row per choice and point of the map, JSON \
-    is one object; both are in SI units.";
-
 /// The options of the command.
 #[derive(Debug, Args)]
-#[command(after_help = RELIEF_HELP)]
 pub struct Relief {
     /// Loads that the relief must serve, in percent of the load of the case
     #[arg(
@@ -181,13 +166,8 @@ impl Relief {
     }
 }
 
-const STIFFNESS_HELP: &str = "The finite elements are plane strain on the whole gear, as in tooth_compliance = \"finite-element\". CSV: one row \
-    per gear and radius, in SI units; a cell is empty where a model does not cover the gear. JSON: one object in SI units; missing \
-    values are absent, and gaps and refusal give the reason.";
-
 /// The options of the command.
 #[derive(Debug, Args)]
-#[command(after_help = STIFFNESS_HELP)]
 pub struct Stiffness {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
@@ -229,14 +209,8 @@ fn point_count(text: &str) -> Result<usize, String> {
     count.ok_or_else(|| format!("write a number from {LEAST_POINTS} to {MOST_POINTS}"))
 }
 
-const TRADE_HELP: &str = "Each setting is timed on this machine. Its total error is the greatest relative difference of first contact, \
-    forces and curve from the finest setting of method dynamic. The model error is that of the finest setting of the same method; \
-    the rest is numerical. Where no method finds corner contact, no setting is recommended. JSON is one object in SI units; missing \
-    values are absent.";
-
 /// The options of the command.
 #[derive(Debug, Args)]
-#[command(after_help = TRADE_HELP)]
 pub struct Trade {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]

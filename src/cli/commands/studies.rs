@@ -24,15 +24,8 @@ use crate::study::sweep::Grid;
 use crate::study::tolerance::{self, MOST_SAMPLES, Samples, Size, USUAL_SAMPLES};
 use clap::{Args, ValueHint};
 
-const SWEEP_HELP: &str = "CSV has one row per point: the varied fields in the units of --vary, then the quantities in SI units, then the \
-    outcome. A cell is empty where a quantity has no value, such as an impact force without corner contact. A refused point has the outcome \
-    `refused` and no values; standard error counts the refused points and gives the reason. JSON is one object per line and point. \
-    Without --only the quantities are those of [limits], else the impact force of the method. --out FILE.svg draws the curves; \
-    `tipstrike plot --sweep FILE.csv` draws those of a CSV file.";
-
 /// The options of the command.
 #[derive(Debug, Args)]
-#[command(after_help = SWEEP_HELP)]
 pub struct Sweep {
     /// Vary a field over a range, such as 'operation.speed=500..3000 rpm', or over a list, such as
     /// 'driven.teeth=20,30,40'; of several fields the first varies slowest
@@ -109,17 +102,8 @@ fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
     grid.axes.iter().filter_map(warning).collect()
 }
 
-const TOLERANCE_HELP: &str = "The quantities of [limits] are always computed. A distribution is a line of [spread]: the field in quotes, then { \
-    normal = WIDTH } with the standard deviation, or { uniform = WIDTH }, { triangular = WIDTH } \
-    or { truncated = WIDTH } (a normal distribution cut off at three standard deviations) with \
-    half the span, or { grade = CLASS } with a flank tolerance class of ISO 1328-1, for a base \
-    pitch deviation. CSV has one row per solve in SI units: the samples (set a), then the points \
-    of the ranking (set b, and b:FIELD with the value of b in that field). JSON is one object in \
-    SI units.";
-
 /// The options of the command.
 #[derive(Debug, Args)]
-#[command(after_help = TOLERANCE_HELP)]
 pub struct Tolerance {
     /// Number of samples
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = USUAL_SAMPLES, value_parser = count)]
