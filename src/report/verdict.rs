@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::{self, Write};
 
 use super::absence::Absence;
-use super::json::{Json, json, write_line};
+use super::json::{json, write_line};
 use super::{shown_in, value};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
@@ -151,18 +151,9 @@ pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Option<Verdict<'a>>
 /// The stages for every limit of a case.
 #[must_use]
 pub fn stages(case: &Case) -> Stages {
-    all_stages(case.limits.iter().flat_map(Limit::quantities))
-}
-
-/// The stages of the counterparts of the limited quantities in a method.
-#[must_use]
-pub fn stages_beside(case: &Case, method: Method) -> Stages {
-    let beside = limited(case).filter(|quantity| quantity.is_of_free_impact());
-    all_stages(beside.filter_map(|quantity| quantity.by(method)))
-}
-
-fn all_stages(quantities: impl Iterator<Item = &'static Quantity>) -> Stages {
-    quantities.fold(Stages::of(Stage::Geometry), |stages, own| stages.and(Stages::of(own.stage)))
+    let quantities = case.limits.iter().flat_map(Limit::quantities);
+    let stages = Stages::of(Stage::Geometry);
+    quantities.fold(stages, |stages, own| stages.and(Stages::of(own.stage)))
 }
 
 fn limited(case: &Case) -> impl Iterator<Item = &'static Quantity> {
@@ -254,14 +245,14 @@ pub fn write_json(
     (method, outcome): (Method, Option<&str>),
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let head = json!({"case": case, "method": method.name(), "verdict": outcome});
-    let line = |more: Json| {
-        let members = [&head, &more].into_iter().filter_map(Json::as_object).flatten();
-        members.map(|(key, value)| (key.clone(), value.clone())).collect::<Json>()
-    };
+    let method = method.name();
     if verdicts.is_empty() {
         let standing = Standing::Within.name();
-        return write_line(&line(json!({"standing": standing, "message": "no limits"})), out);
+        let line = json!({
+            "case": case, "method": method, "verdict": outcome, "standing": standing,
+            "message": "no limits",
+        });
+        return write_line(&line, out);
     }
     verdicts.iter().try_for_each(|verdict| {
         let Verdict { limit, quantity, value, bound, standing, beside, .. } = verdict;
@@ -269,7 +260,10 @@ pub fn write_json(
         let own = beside.and_then(|beside| beside.own);
         let own =
             own.map(|(own, value)| json!({"quantity": own.key, "value": value, "unit": own.unit}));
-        let line = line(json!({
+        let line = json!({
+            "case": case,
+            "method": method,
+            "verdict": outcome,
             "standing": standing.name(),
             "quantity": quantity.key,
             "value": value,
@@ -279,7 +273,7 @@ pub fn write_json(
             "of": beside.map(|_| "free-impact"),
             "own": own,
             "message": verdict.to_string(),
-        }));
+        });
         write_line(&line, out)
     })
 }
