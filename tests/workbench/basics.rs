@@ -353,7 +353,7 @@ fn a_request_that_another_case_put_aside_is_asked_for_again() {
     desk.keys(&["Alt-1"]).go_to("operation.speed");
     update(&mut desk.app, harness::run("method"));
     desk.keys(&["Alt-2", "Alt-1"]);
-    assert!(desk.shows("▸static") && desk.app.tab.is_settled);
+    assert!(desk.shows(" by static") && desk.app.tab.is_settled);
 }
 
 #[test]

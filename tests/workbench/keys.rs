@@ -39,14 +39,14 @@ fn an_invalid_value_keeps_the_last_valid_results_and_marks_them() {
 #[test]
 fn the_method_is_a_field_and_a_key() {
     let mut desk = Desk::new(SMALL);
-    assert!(desk.shows("▸exact"));
+    assert!(desk.shows(" by exact"));
     desk.go_to("model.method").keys(&["Left"]);
-    assert!(desk.shows("▸paper"));
+    assert!(desk.shows(" by paper"));
     assert!(desk.shows("‹ paper ›"));
     desk.keys(&["Space"]);
-    assert!(desk.shows("▸exact"));
+    assert!(desk.shows(" by exact"));
     desk.go_to("pair.module").keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
-    assert!(desk.shows("▸paper"));
+    assert!(desk.shows(" by paper"));
     assert!(desk.shows("5 mm"));
 }
 
@@ -71,9 +71,12 @@ fn switching_through_methods_is_one_step_of_undo() {
     desk.keys(&["6", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
     desk.assert(desk.shows("method auto") && desk.shows("6 mm"));
     desk.keys(&["Ctrl-Z"]);
-    desk.assert(desk.shows("▸exact") && desk.shows("6 mm") && desk.shows(": auto -> "));
+    desk.assert(desk.shows(" by exact") && desk.shows("6 mm") && desk.shows(": auto -> "));
     desk.keys(&["Ctrl-T", "7", "Ctrl-Z"]);
-    desk.assert_at("later typing is a separate step", desk.shows("▸static") && desk.shows("6 mm"));
+    desk.assert_at(
+        "later typing is a separate step",
+        desk.shows(" by static") && desk.shows("6 mm"),
+    );
 }
 
 #[test]

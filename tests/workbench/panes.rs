@@ -61,8 +61,11 @@ fn the_top_of_the_results_is_shown_without_a_selection() {
     for (relief, first) in [("80 um", "Δ  "), ("0 um", "F_S  ")] {
         desk.fill("driven.tip_relief", relief);
         let screen = desk.screen();
-        let below_heading =
-            screen.lines().skip_while(|line| !line.contains("▸exact")).nth(1).expect("a first row");
+        let below_heading = screen
+            .lines()
+            .skip_while(|line| !line.contains("(Esc f)"))
+            .nth(1)
+            .expect("a first row");
         assert!(below_heading.contains(first), "{screen}");
     }
 }

@@ -142,7 +142,8 @@ impl Results<'_> {
     /// The key of the quantity at a cell, if any.
     pub(crate) fn key_at(&self, at: Position) -> Option<&'static str> {
         let (head, rows) = parts(self);
-        let line = usize::from(at.y - self.area.y).checked_sub(head.len() + 2)?;
+        let above = head.len() + 1 + usize::from(self.has_header());
+        let line = usize::from(at.y - self.area.y).checked_sub(above)?;
         let listed = self.listed();
         listed.get(self.state.top + line).filter(|_| line < rows).map(|quantity| quantity.key)
     }
@@ -151,6 +152,11 @@ impl Results<'_> {
     #[must_use]
     pub(crate) fn variants_page(&self) -> usize {
         table::variants_page(self)
+    }
+
+    /// Whether the columns need names; otherwise the title names the only method.
+    fn has_header(&self) -> bool {
+        self.shows_every_method || self.variants.is_some() || self.baseline.is_some()
     }
 
     fn shows_last_valid(&self) -> bool {
@@ -196,8 +202,9 @@ fn parts(pane: &Results<'_>) -> (Vec<Line<'static>>, usize) {
     let width = usize::from(pane.area.width.saturating_sub(1));
     let height = usize::from(pane.area.height.saturating_sub(1));
     let (mut head, mut hidden) = (Vec::new(), 0);
-    let kept = |rows: usize| height.saturating_sub(rows + 1);
-    let most = if pane.answer.is_some() { kept(LEAST_ROWS) } else { height };
+    let height = height.saturating_sub(usize::from(pane.has_header()));
+    let kept = |rows: usize| height.saturating_sub(rows);
+    let most = if pane.answer.is_some() { kept(LEAST_ROWS + 1) } else { height };
     for Sentence { text, style, place } in sentences(pane) {
         let lines = text::wrap(&text, width).into_iter().map(|line| Line::styled(line, style));
         // The last line counts the hidden sentences.
@@ -347,6 +354,8 @@ fn title(pane: &Results<'_>, rows: usize) -> String {
     let pending = pending.map(|method| format!(", {} pending", method.name()));
     let cost = pane.answer.filter(|_| pane.shows_cost).map(|answer| answer.cost);
     let cost = cost.map(|cost| format!(", {} stages in {} us", cost.stages, cost.micros));
-    let parts = [position, base, pending, cost].into_iter().flatten();
+    let method = pane.answer.filter(|_| !pane.has_header());
+    let method = method.map(|answer| format!(" by {}", answer.active.name()));
+    let parts = [position, method, base, pending, cost].into_iter().flatten();
     name.to_owned() + &parts.collect::<String>()
 }

@@ -124,8 +124,10 @@ pub(super) fn table(pane: &Results<'_>, answer: &Answer) -> Table<'static> {
     };
     let rows = 0..columns.first().map_or(0, |column| column.cells.len());
     let widths = columns.iter().map(|column| Constraint::Length(column.width() as u16));
-    Table::new(rows.map(|at| row(|column, at| &column.cells[at], 1, at)), widths)
-        .header(row(|column, _| &column.heading, 0, 0))
+    let table = Table::new(rows.map(|at| row(|column, at| &column.cells[at], 1, at)), widths);
+    let heading = row(|column, _| &column.heading, 0, 0);
+    let table = if pane.has_header() { table.header(heading) } else { table };
+    table
         .style(if pane.is_stale || is_outdated { theme.faint } else { Style::new() })
         .highlight_symbol(Text::styled("▸", theme.focus))
         .highlight_spacing(HighlightSpacing::Always)
