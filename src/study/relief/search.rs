@@ -32,12 +32,14 @@ const LEAST: &str = "least amount";
 /// The name of the relief with the least overlap, if none prevents corner contact.
 const LEAST_OVERLAP: &str = "least overlap";
 
-/// Number of start lengths, in equal steps up to the longest length.
-const PARTS: u32 = 20;
+/// Start lengths are multiples of this part of the longest length if they are the same on both gears.
+const PARTS: i32 = 20;
+/// Start lengths of gears with different lengths, in these parts.
+const OWN_PARTS: [i32; 6] = [6, 9, 12, 15, 18, 20];
 /// Start amounts, relative to the least amount without corner contact.
 const TIMES: [f64; 4] = [1.0, 1.15, 1.4, 1.8];
 /// Number of starts that the search follows.
-const FOLLOWED: usize = 5;
+const FOLLOWED: usize = 4;
 /// Greatest stride of the search, in steps; it is halved down to one step.
 const STRIDE: i32 = 8;
 /// The directions of the search: both gears alike, then one gear or both in opposite directions.
@@ -212,7 +214,10 @@ impl<'a> Search<'a> {
         directions: &[[Steps; 4]],
     ) -> Result<Option<Tried>, NoRelief> {
         let mut best: Option<Tried> = None;
-        for &(steps, _) in starts.iter().take(FOLLOWED) {
+        // Steps with both gears alike keep their lengths alike.
+        let is_free = directions.len() > 1;
+        let starts = starts.iter().filter(|(steps, _)| is_free || steps[2] == steps[3]);
+        for &(steps, _) in starts.take(FOLLOWED) {
             let start = (steps, self.cost(shape, steps, f64::INFINITY)?);
             let cost = |search: &mut Self, steps, bound| search.cost(shape, steps, bound);
             let found = self.followed(start, directions, STRIDE, &cost)?;
@@ -228,9 +233,11 @@ impl<'a> Search<'a> {
     fn starts(&mut self, shape: ReliefShape) -> Result<Vec<Tried>, NoRelief> {
         let grid = self.grid;
         let mut starts: Vec<Tried> = Vec::new();
-        for part in 1..=PARTS {
-            let part = f64::from(part) / f64::from(PARTS) * f64::from(grid.most_length);
-            let lengths = [(part.round() as i32).max(grid.least_length); 2];
+        let own = OWN_PARTS.iter().flat_map(|one| OWN_PARTS.map(|other| [*one, other]));
+        let own = own.filter(|[one, other]| one != other);
+        for parts in (1..=PARTS).map(|part| [part; 2]).chain(own) {
+            let lengths =
+                parts.map(|part| (part * grid.most_length / PARTS).max(grid.least_length));
             let Some(clears) = self.least_clear(shape, lengths)? else { continue };
             for times in TIMES {
                 let steps = grid.equal((f64::from(clears) * times).round() as i32, lengths);
@@ -254,7 +261,7 @@ impl<'a> Search<'a> {
         let mut best: Option<Tried> = None;
         let mut lengths: Vec<[i32; 2]> = Vec::new();
         for &([_, _, one, other], _) in starts {
-            if lengths.contains(&[one, other]) {
+            if one != other || lengths.contains(&[one, other]) {
                 continue;
             }
             lengths.push([one, other]);
