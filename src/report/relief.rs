@@ -74,9 +74,8 @@ impl ReliefReport<'_> {
             ),
             (
                 format!(
-                    "{} of the transmission error by length and amount of the relief, um; - corner \
-                     contact at the greatest load, * the relief to specify",
-                    capital(figure)
+                    "Map of the {figure} transmission error over length and amount, um; - corner \
+                     contact at the greatest load, * the relief to specify"
                 ),
                 self.map(),
             ),
@@ -447,7 +446,7 @@ impl Results for ReliefReport<'_> {
 type Number = fn(&Specification, &Choice) -> Option<f64>;
 
 /// The columns of numbers: key, header, unit in SI, unit and digits in text, value.
-const NUMBERS: [(&str, &str, &str, (&str, usize), Number); 21] = [
+const NUMBERS: [(&str, &str, &str, (&str, usize), Number); 19] = [
     ("driver.tip_relief", "C_a1", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[0])),
     ("driver.tip_relief_length", "L_1", "m", ("mm", 4), |_, of| of.length(0)),
     ("driven.tip_relief", "C_a2", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[1])),
@@ -473,14 +472,8 @@ const NUMBERS: [(&str, &str, &str, (&str, usize), Number); 21] = [
     }),
     ("entry_force", "", "N", ("N", 3), |_, of| Some(of.nominal.entry)),
     ("peak_force", "", "N", ("N", 4), |_, of| Some(of.nominal.peak)),
-    ("driver.begin_roll_angle", "", "rad", ("deg", 4), |all, of| {
-        Some(of.reliefs.begins(&all.geometry)[0].roll_angle)
-    }),
     ("driver.begin_diameter", "", "m", ("mm", 5), |all, of| {
         Some(of.reliefs.begins(&all.geometry)[0].diameter)
-    }),
-    ("driven.begin_roll_angle", "", "rad", ("deg", 4), |all, of| {
-        Some(of.reliefs.begins(&all.geometry)[1].roll_angle)
     }),
     ("driven.begin_diameter", "", "m", ("mm", 5), |all, of| {
         Some(of.reliefs.begins(&all.geometry)[1].diameter)
@@ -576,8 +569,4 @@ fn percent(part: f64) -> String {
 /// A change in percent.
 fn change(from: f64, to: f64) -> String {
     format!("{:+.0} %", 100.0 * (to / from - 1.0))
-}
-
-fn capital(text: &str) -> String {
-    text[..1].to_uppercase() + &text[1..]
 }

@@ -145,8 +145,9 @@ impl<'a> Search<'a> {
     ) -> Result<Vec<(&'static str, TipReliefs)>, NoRelief> {
         let (mut found, mut least) = (Vec::new(), None);
         for (shape, names) in KINDS {
-            let mut starts = self.starts(shape)?;
-            least = least.or(self.least(shape, &starts)?);
+            let (mut starts, clear) = self.starts(shape)?;
+            let fixed = self.best(shape, &clear, &[])?;
+            least = least.or(fixed.map(|(steps, _)| self.grid.reliefs(shape, steps)));
             for (kind, directions) in [(1, &DIRECTIONS[..1]), (0, &DIRECTIONS[..])] {
                 let Some(mut best) = self.best(shape, &starts, directions)? else { continue };
                 starts.insert(0, best);
@@ -217,7 +218,8 @@ impl<'a> Search<'a> {
         // Steps with both gears alike keep their lengths alike.
         let is_free = directions.len() > 1;
         let starts = starts.iter().filter(|(steps, _)| is_free || steps[2] == steps[3]);
-        for &(steps, _) in starts.take(FOLLOWED) {
+        let count = if directions.is_empty() { usize::MAX } else { FOLLOWED };
+        for &(steps, _) in starts.take(count) {
             let start = (steps, self.cost(shape, steps, f64::INFINITY)?);
             let cost = |search: &mut Self, steps, bound| search.cost(shape, steps, bound);
             let found = self.followed(start, directions, STRIDE, &cost)?;
@@ -228,11 +230,11 @@ impl<'a> Search<'a> {
         Ok(best)
     }
 
-    /// Reliefs of several lengths with the least amounts without corner contact, and with greater
-    /// amounts; those with the least nominal error first.
-    fn starts(&mut self, shape: ReliefShape) -> Result<Vec<Tried>, NoRelief> {
+    /// Reliefs of several lengths with the least amounts without corner contact and with greater
+    /// amounts, those with the least nominal error first; and those with the least amounts alone.
+    fn starts(&mut self, shape: ReliefShape) -> Result<(Vec<Tried>, Vec<Tried>), NoRelief> {
         let grid = self.grid;
-        let mut starts: Vec<Tried> = Vec::new();
+        let (mut starts, mut least): (Vec<Tried>, Vec<Tried>) = (Vec::new(), Vec::new());
         let own = OWN_PARTS.iter().flat_map(|one| OWN_PARTS.map(|other| [*one, other]));
         let own = own.filter(|[one, other]| one != other);
         for parts in (1..=PARTS).map(|part| [part; 2]).chain(own) {
@@ -241,49 +243,14 @@ impl<'a> Search<'a> {
             let Some(clears) = self.least_clear(shape, lengths)? else { continue };
             for times in TIMES {
                 let steps = grid.equal((f64::from(clears) * times).round() as i32, lengths);
-                if starts.iter().all(|(known, _)| *known != steps) {
-                    let error = self.figure(Figure::Error, &grid.reliefs(shape, steps))?;
-                    starts.push((steps, error));
-                }
+                let error = self.figure(Figure::Error, &grid.reliefs(shape, steps))?;
+                starts.push((steps, error));
             }
+            least.push(starts[starts.len() - TIMES.len()]);
         }
         starts.sort_by(|one, other| one.1.total_cmp(&other.1));
-        Ok(starts)
-    }
-
-    /// The relief with the least error among those with the least amounts, which are reduced gear
-    /// by gear.
-    fn least(
-        &mut self,
-        shape: ReliefShape,
-        starts: &[Tried],
-    ) -> Result<Option<TipReliefs>, NoRelief> {
-        let mut best: Option<Tried> = None;
-        let mut lengths: Vec<[i32; 2]> = Vec::new();
-        for &([_, _, one, other], _) in starts {
-            if one != other || lengths.contains(&[one, other]) {
-                continue;
-            }
-            lengths.push([one, other]);
-            let Some(amount) = self.least_clear(shape, [one, other])? else { continue };
-            let mut steps = self.grid.equal(amount, [one, other]);
-            for at in 0..2 {
-                while steps[at] > 0 {
-                    let mut less = steps;
-                    less[at] -= 1;
-                    if !self.clears(shape, less)? {
-                        break;
-                    }
-                    steps = less;
-                }
-            }
-            let bound = best.map_or(f64::INFINITY, |best| best.1);
-            let cost = self.cost(shape, steps, bound)?;
-            if cost < bound {
-                best = Some((steps, cost));
-            }
-        }
-        Ok(best.map(|(steps, _)| self.grid.reliefs(shape, steps)))
+        starts.dedup();
+        Ok((starts, least))
     }
 
     /// The least amount, the same on both gears, without overlap. Amounts are tried in rising
