@@ -46,7 +46,6 @@ pub mod pane {
 }
 
 pub mod chart {
-    pub use crate::tui::panes::chart::range::Frame;
     pub use crate::tui::panes::chart::{first_contact, readout};
 
     pub mod curves {

@@ -28,7 +28,7 @@ use crate::tui::theme::Look;
 pub use curves::readout;
 use curves::{Curve, curves, value_at};
 pub(crate) use range::last_contact;
-use range::{ChartView, Frame, Scale};
+use range::{ChartView, Scale};
 
 /// Least height of each chart, in rows; it decides the number of charts.
 const ROWS: u16 = 16;
@@ -143,9 +143,10 @@ impl Charts<'_> {
 
     /// The view of the pane. A chart of the path of contact starts with the whole contact.
     fn view(&self) -> ChartView {
-        let view = self.pane.view;
-        let is_whole = view.frame == Frame::Opening && self.is_by_model();
-        ChartView { frame: if is_whole { Frame::Whole } else { view.frame }, ..view }
+        match self.pane.view {
+            ChartView::Opening if self.is_by_model() => ChartView::Whole,
+            view => view,
+        }
     }
 
     /// Whether the selected chart has a curve for each compliance model.
@@ -180,15 +181,15 @@ impl Charts<'_> {
                 (pane.view == self.view()).then_some(end)
             }
             ChartCommand::Whole => {
-                pane.view = ChartView::whole();
+                pane.view = ChartView::Whole;
                 Some(WHOLE)
             }
             ChartCommand::Strike => {
                 pane.view = self.view().strike_or_whole(&self.scale());
                 let has_strike = !self.scale().strike.is_empty();
-                Some(match (pane.view.frame, has_strike) {
-                    (Frame::Strike, true) => "the charts show the strike",
-                    (Frame::Strike, false) => "no corner contact: no strike to show",
+                Some(match (pane.view, has_strike) {
+                    (ChartView::Strike, true) => "the charts show the strike",
+                    (ChartView::Strike, false) => "no corner contact: no strike to show",
                     _ => WHOLE,
                 })
             }

@@ -4,8 +4,8 @@ use crate::model::{Solution, Station};
 use crate::report::chart::Span;
 use crate::tui::solver::Answer;
 
-/// The last zoom step in. Each step is √2, and the last step shows a thousandth of the frame.
-const LAST_STEP_IN: i32 = 20;
+/// The closest zoom, as a fraction of the whole contact.
+const CLOSEST: f64 = 1e-3;
 /// Distance from the edge, as a fraction of the visible range, of a cursor after it has left the
 /// range. Without this distance the charts would scroll with every step of the cursor.
 const MARGIN: f64 = 0.25;
@@ -21,18 +21,7 @@ pub struct Scale {
 
 /// The visible range of roll angles.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ChartView {
-    /// The range without zoom.
-    pub frame: Frame,
-    /// Zoom steps of √2: in above 0, out below.
-    pub(crate) zoom: i32,
-    /// The angle in the middle, in deg after E; the middle of the frame if `None`.
-    pub(crate) middle: Option<f64>,
-}
-
-/// The range of roll angles without zoom.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Frame {
+pub enum ChartView {
     /// The strike if the contact continues after it, otherwise the whole contact.
     #[default]
     Opening,
@@ -40,47 +29,45 @@ pub enum Frame {
     Whole,
     /// From D to a little after E.
     Strike,
+    /// A part, in deg after E.
+    Part(Span),
 }
 
 impl ChartView {
     /// The visible roll angles, in deg after E.
     #[must_use]
-    pub(crate) fn window(&self, scale: &Scale) -> Span {
-        let frame = self.frame(scale);
-        let all = scale.across.and(frame);
-        let half =
-            0.5 * (frame.length() * 2f64.powf(-0.5 * f64::from(self.zoom))).min(all.length());
-        let middle = self.middle.unwrap_or_else(|| f64::midpoint(frame.from, frame.to));
-        if self.zoom == 0 && self.middle.is_none() {
-            frame
-        } else {
-            Span::new(middle - half, middle + half).within(all)
+    pub(crate) fn window(self, scale: &Scale) -> Span {
+        let Scale { across, strike } = *scale;
+        match self {
+            ChartView::Part(part) => part.within(across.and(strike)),
+            ChartView::Strike if !strike.is_empty() => strike,
+            ChartView::Opening if !strike.is_empty() && strike.to < across.to => strike,
+            ChartView::Opening | ChartView::Whole | ChartView::Strike => across,
         }
     }
 
-    /// The view zoomed in by `steps` around an angle, or out if `steps` is negative, at most to
-    /// the whole contact.
+    /// The view zoomed in by `steps` of √2 around an angle, or out if `steps` is negative, at most
+    /// to the whole contact.
     #[must_use]
     pub(crate) fn zoomed(self, steps: i32, around: f64, scale: &Scale) -> ChartView {
-        let zoom = (self.zoom + steps).min(LAST_STEP_IN);
-        let view = ChartView { zoom, middle: Some(around), ..self };
-        let shows_all = view.window(scale).length() >= scale.across.length() * (1.0 - 1e-9);
-        if steps < 0 && shows_all { ChartView::whole() } else { view }
+        let all = scale.across.and(scale.strike);
+        let length = self.window(scale).length() * 2f64.powf(-0.5 * f64::from(steps));
+        let length = length.max(CLOSEST * all.length());
+        if steps < 0 && length >= scale.across.length() * (1.0 - 1e-9) {
+            return ChartView::Whole;
+        }
+        ChartView::around(around, length, scale)
     }
 
-    /// The whole contact.
-    #[must_use]
-    pub(crate) fn whole() -> ChartView {
-        ChartView { frame: Frame::Whole, ..ChartView::default() }
+    fn around(middle: f64, length: f64, scale: &Scale) -> ChartView {
+        let part = Span::new(middle - 0.5 * length, middle + 0.5 * length);
+        ChartView::Part(part.within(scale.across.and(scale.strike)))
     }
 
     /// Switches between the strike and the whole contact.
     pub(crate) fn strike_or_whole(self, scale: &Scale) -> ChartView {
-        let frame = match self.resolved(scale) {
-            Frame::Strike => Frame::Whole,
-            Frame::Opening | Frame::Whole => Frame::Strike,
-        };
-        ChartView { frame, ..ChartView::default() }
+        let is_strike = self.window(scale) == scale.strike;
+        if is_strike { ChartView::Whole } else { ChartView::Strike }
     }
 
     /// The view, scrolled if necessary to make an angle visible.
@@ -90,27 +77,8 @@ impl ChartView {
             return self;
         }
         let inward = (0.5 - MARGIN) * window.length();
-        ChartView {
-            middle: Some(if angle > window.to { angle + inward } else { angle - inward }),
-            ..self
-        }
-    }
-
-    /// The frame of the view on these axes: `Strike` or `Whole`.
-    pub(crate) fn resolved(&self, scale: &Scale) -> Frame {
-        let opens_on_strike = !scale.strike.is_empty() && scale.strike.to < scale.across.to;
-        match self.frame {
-            Frame::Opening if opens_on_strike => Frame::Strike,
-            Frame::Opening => Frame::Whole,
-            chosen => chosen,
-        }
-    }
-
-    fn frame(&self, scale: &Scale) -> Span {
-        match self.resolved(scale) {
-            Frame::Strike if !scale.strike.is_empty() => scale.strike,
-            _ => scale.across,
-        }
+        let middle = if angle > window.to { angle + inward } else { angle - inward };
+        ChartView::around(middle, window.length(), scale)
     }
 }
 
@@ -157,10 +125,11 @@ mod tests {
 
     #[test]
     fn zooming_out_ends_at_the_whole_contact() {
-        let view = ChartView::whole();
+        let view = ChartView::Whole;
         assert_eq!(view.window(&SCALE), SCALE.across);
         let close = (0..4).fold(view, |view, _| view.zoomed(1, -1.0, &SCALE));
-        assert_eq!(close.window(&SCALE), Span::new(-4.75, 2.75));
+        let window = close.window(&SCALE);
+        assert!((window.from + 4.75).abs() + (window.to - 2.75).abs() < 1e-9, "{window:?}");
         assert_eq!((0..4).fold(close, |view, _| view.zoomed(-1, -1.0, &SCALE)), view);
         assert_eq!(view.strike_or_whole(&SCALE).window(&SCALE), SCALE.strike);
         assert_eq!(view.strike_or_whole(&SCALE).strike_or_whole(&SCALE), view);
@@ -172,7 +141,7 @@ mod tests {
 
     #[test]
     fn the_closest_zoom_still_shows_a_range() {
-        let view = (0..99).fold(ChartView::whole(), |view, _| view.zoomed(1, 25.0, &SCALE));
+        let view = (0..99).fold(ChartView::Whole, |view, _| view.zoomed(1, 25.0, &SCALE));
         let window = view.window(&SCALE);
         assert!(window.length() > 0.02 && window.to == 25.0, "{window:?}");
     }
