@@ -147,14 +147,13 @@ pub(crate) fn top_for(pane: &Form<'_>) -> usize {
     }
     let (height, rows) = (pane.height(), pane.rows());
     let focused = rows.iter().position(|row| *row == Row::Line(pane.state.focus)).unwrap_or(0);
-    let reasons =
-        rows[focused + 1..].iter().take_while(|row| matches!(row, Row::Reason(_))).count();
+    let below = rows[focused + 1..].iter();
+    let reasons = below.take_while(|row| matches!(row, Row::Reason(_))).count();
     let follows_group = focused > 0 && matches!(rows[focused - 1], Row::Group(_));
-    let first = focused - usize::from(follows_group);
-    let ahead = usize::from(height > 4);
-    let least = (focused + reasons + 1 + ahead).min(rows.len()).saturating_sub(height);
+    let (first, ahead) = (focused - usize::from(follows_group), usize::from(height > 4));
+    let end = (focused + reasons + 1 + ahead).min(rows.len());
     let most = rows.len().saturating_sub(height);
-    pane.state.top.max(least).min(first.max(least)).min(most)
+    pane.state.top.max(end.saturating_sub(height)).min(first).min(most)
 }
 
 /// The field at a cell, if any.

@@ -104,24 +104,14 @@ impl Results<'_> {
     /// The state with the selection `by` quantities further.
     #[must_use]
     pub(crate) fn stepped(&self, by: isize) -> ResultsState {
-        self.with_selection(self.row().saturating_add_signed(by))
-    }
-
-    fn with_selection(&self, row: usize) -> ResultsState {
-        let listed = self.listed();
+        let (listed, row) = (self.listed(), self.row().saturating_add_signed(by));
         let quantity = listed.get(row).or(listed.last());
         ResultsState { selected: quantity.map(|quantity| quantity.key), ..self.state }
     }
 
-    /// The state scrolled by `by` lines; the selection moves if it would leave the visible lines.
+    /// The state with selection and visible lines `by` quantities further.
     pub(crate) fn turned(&self, by: isize) -> ResultsState {
-        let top = self.scrolled(by);
-        let row = if top == self.state.top {
-            self.row().saturating_add_signed(by)
-        } else {
-            self.row().clamp(top, top + self.page().saturating_sub(1))
-        };
-        ResultsState { top, ..self.with_selection(row) }
+        ResultsState { top: self.scrolled(by), ..self.stepped(by) }
     }
 
     /// The first visible line after scrolling by lines downwards.
