@@ -296,7 +296,7 @@ pub fn specify(
         mesh_force: solution.mesh_force,
         geometry: solution.geometry,
         loads: demand.loads().into_iter().map(|(load, _)| load).collect(),
-        map: bench.map(&choices[best].reliefs, &grid, &demand),
+        map: bench.map(&choices[best].reliefs, &grid),
         choices,
         best,
         tries: search.tries(),
@@ -529,7 +529,7 @@ impl WholeSolves<'_> {
             if !(self.go_on)(self.part.get()) {
                 return Err(NoRelief::Refused(Refusal::Stopped));
             }
-            Ok(self.bench.overlap_under(reliefs, self.demand, times)? <= 0.0)
+            Ok(self.bench.overlap_under(reliefs, times)? <= 0.0)
         };
         let (mut low, mut high) = (0.0, 1.0);
         while clears(high)? {

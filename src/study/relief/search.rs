@@ -471,15 +471,15 @@ impl<'a> Bench<'a> {
     ///
     /// # Errors
     /// Refusals of the mesh.
-    pub(super) fn overlap_under(
-        &self,
-        reliefs: &TipReliefs,
-        demand: &Demand,
-        times: f64,
-    ) -> Result<f64, Refusal> {
-        let corners = self.corners(reliefs.removed() + 2.0 * demand.tolerance, times)?;
-        let overlap = |off: Off| self.overlap_at(&reliefs.off(off), &corners);
-        Ok(demand.corners().into_iter().map(overlap).fold(f64::NEG_INFINITY, f64::max))
+    pub(super) fn overlap_under(&self, reliefs: &TipReliefs, times: f64) -> Result<f64, Refusal> {
+        let most = reliefs.removed() + 2.0 * self.demand.tolerance;
+        Ok(self.worst_overlap(reliefs, &self.corners(most, times)?))
+    }
+
+    fn worst_overlap(&self, reliefs: &TipReliefs, corners: &Corners) -> f64 {
+        let all = self.demand.corners().into_iter();
+        let all = all.map(|off| self.overlap_at(&reliefs.off(off), corners));
+        all.fold(f64::NEG_INFINITY, f64::max)
     }
 
     fn overlap_at(&self, reliefs: &TipReliefs, corners: &Corners) -> f64 {
@@ -491,12 +491,7 @@ impl<'a> Bench<'a> {
 
     /// The map around a relief over both amounts and both lengths in proportion; the map contains
     /// the relief itself.
-    pub(super) fn map(
-        &self,
-        reliefs: &TipReliefs,
-        grid: &Grid,
-        demand: &Demand,
-    ) -> Vec<Vec<MapPoint>> {
+    pub(super) fn map(&self, reliefs: &TipReliefs, grid: &Grid) -> Vec<Vec<MapPoint>> {
         const AMOUNTS: [f64; 7] = [0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6];
         const LENGTHS: [f64; 6] = [0.25, 0.4, 0.55, 0.7, 0.85, 1.0];
         /// A length of the map this close to the length of the relief is omitted.
@@ -515,9 +510,7 @@ impl<'a> Bench<'a> {
                 amounts: reliefs.amounts.map(|amount| times * amount),
                 lengths: reliefs.lengths.map(|length| scale * length),
             };
-            let overlap = |off: Off| self.overlap(&reliefs.off(off));
-            let overlap =
-                demand.corners().into_iter().map(overlap).fold(f64::NEG_INFINITY, f64::max);
+            let overlap = self.worst_overlap(&reliefs, &self.corners);
             MapPoint { reliefs, error: self.error(&reliefs), margin: -overlap }
         };
         let row = |part| AMOUNTS.map(|times| point(part, times)).to_vec();
