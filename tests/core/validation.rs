@@ -7,14 +7,14 @@ mod compliance;
 mod sources;
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
 
-use tipstrike::case::file::Document;
 use tipstrike::model::Inputs;
 use tipstrike::model::inputs::ToothCompliance;
 use tipstrike::numeric::decimal::significant;
 
 use sources::SOURCES;
+
+use crate::support::{inputs, path};
 
 const HEAD: &str = "# Validation
 
@@ -52,18 +52,25 @@ pub(crate) struct Figure {
     fair: &'static str,
 }
 
-fn folder(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name)
+/// A figure that depends on the tooth compliance.
+const fn figure(
+    name: &'static str,
+    unit: &'static str,
+    published: f64,
+    ours: fn(&Inputs) -> Option<f64>,
+    fair: &'static str,
+) -> Figure {
+    Figure { name, unit, published, ours, by_model: true, alone: None, fair }
 }
 
-/// The inputs of a case file.
-pub(crate) fn inputs(file: &str) -> Inputs {
-    let text = std::fs::read_to_string(folder(file)).unwrap();
-    Document::parse(file, &text)
-        .unwrap_or_else(|faults| panic!("{file}: {}", faults[0]))
-        .case
-        .inputs()
-        .unwrap_or_else(|problems| panic!("{file}: {}", problems[0]))
+impl Figure {
+    const fn by_no_model(self) -> Figure {
+        Figure { by_model: false, ..self }
+    }
+
+    const fn alone(self, alone: fn(&Inputs) -> Option<f64>) -> Figure {
+        Figure { alone: Some(alone), ..self }
+    }
 }
 
 /// The same inputs with a tooth compliance.
@@ -80,7 +87,7 @@ fn row(figure: &Figure, published: &str, model: &str, ours: Option<f64>) -> Stri
     format!("| {published} | {model} | {shown} | {deviation} |\n")
 }
 
-fn figure(figure: &Figure, inputs: &Inputs) -> String {
+fn rows(figure: &Figure, inputs: &Inputs) -> String {
     let unit = if figure.unit.is_empty() { String::new() } else { format!(" {}", figure.unit) };
     let published = format!("{} | {}{unit}", figure.name, figure.published);
     if !figure.by_model {
@@ -108,7 +115,7 @@ fn source(source: &Source) -> String {
         source.title, source.from
     );
     for one in source.figures {
-        text += &figure(one, &inputs);
+        text += &rows(one, &inputs);
     }
     text += "\nIs it fair?\n\n";
     for one in source.figures.iter().filter(|one| !one.fair.is_empty()) {
@@ -130,7 +137,7 @@ fn page() -> String {
 
 #[test]
 fn the_validation_page_shows_what_the_program_computes() {
-    let path = folder("docs/validation.md");
+    let path = path("docs/validation.md");
     let page = page();
     if std::env::var_os("TIPSTRIKE_REGENERATE").is_some() {
         std::fs::write(path, page).unwrap();

@@ -6,8 +6,9 @@ use tipstrike::model::inputs::{InertiaModel, Method, ToothCompliance};
 use tipstrike::model::{Inputs, Solution, Stages, solve};
 use tipstrike::numeric::decimal::significant;
 
-use super::{inputs, with_model};
+use super::with_model;
 use crate::coupling::uncoupled;
+use crate::support::inputs;
 
 const PAIRS: [(&str, &str); 3] = [
     ("Table 1", "cases/zhou-chen-2014.toml"),

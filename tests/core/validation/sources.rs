@@ -9,10 +9,11 @@ use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Method, ToothComp
 use tipstrike::model::position::tip_at;
 use tipstrike::model::static_load::{StaticLoad, static_load};
 use tipstrike::model::stations::Spacing;
-use tipstrike::model::{Inputs, Quantity, Solution, Stages, Station, solve};
+use tipstrike::model::{Inputs, Solution, Stages, Station, solve};
 
-use super::{Figure, Source};
+use super::{Source, figure};
 use crate::stiffness::{ISO_PAIRS, at_pitch, iso_single_stiffness, pairs, stiffness};
+use crate::support::value;
 
 const PER_MICROMETRE: f64 = 1e-6;
 
@@ -22,12 +23,34 @@ fn solved(inputs: &Inputs, method: Method) -> Option<Solution> {
     solve(&inputs, wanted).ok()
 }
 
-fn value(solution: &Solution, key: &str) -> Option<f64> {
-    (Quantity::find(key)?.value)(solution)
-}
-
 fn by(inputs: &Inputs, method: Method, key: &str) -> Option<f64> {
     value(&solved(inputs, method)?, key)
+}
+
+fn exact(inputs: &Inputs, key: &str) -> Option<f64> {
+    by(inputs, Method::Exact, key)
+}
+
+/// Mean mesh stiffness at rest, in N/um.
+fn mean_stiffness(inputs: &Inputs) -> Option<f64> {
+    Some(PER_MICROMETRE * by(inputs, Method::Static, "mesh_stiffness")?)
+}
+
+/// Required additional tip relief at rest, in um.
+fn required_relief(inputs: &Inputs) -> Option<f64> {
+    let inputs = Inputs { method: Method::Static, ..inputs.clone() };
+    Some(1e6 * value(&solve(&inputs, Stages::EVERY).ok()?, "clearing_relief")?)
+}
+
+/// Length of the path of contact, in mm.
+fn path_length(inputs: &Inputs) -> Option<f64> {
+    let geometry = geometry::<f64>(&inputs.shape()).ok()?;
+    Some(1e3 * (geometry.end - geometry.start))
+}
+
+/// Reduced mass per unit width, in kg/mm.
+fn mass_per_width(inputs: &Inputs) -> Option<f64> {
+    Some(1e-3 * exact(inputs, "reduced_mass")? / inputs.common_width())
 }
 
 /// The same pair with many stations.
@@ -165,61 +188,30 @@ const LIGHT: &str = "partly. The pair, its damping and the load are the same. Th
 
 macro_rules! light {
     ($speed:literal, $published:literal, $fair:expr) => {
-        Figure {
-            name: concat!("dynamic factor of one tooth at ", $speed, " rpm"),
-            unit: "",
-            published: $published,
-            ours: |inputs| light_factor(inputs, f64::from($speed)),
-            by_model: true,
-            alone: None,
-            fair: $fair,
-        }
+        figure(
+            concat!("dynamic factor of one tooth at ", $speed, " rpm"),
+            "",
+            $published,
+            |inputs| light_factor(inputs, f64::from($speed)),
+            $fair,
+        )
     };
 }
 
+#[rustfmt::skip]
 pub(super) const SOURCES: &[Source] = &[
     Source {
         title: "ROSS",
         from: "petrobras/ross, its gear tests; potential energy, constant contact",
         case: "ross-62-62",
         figures: &[
-            Figure {
-                name: "contact ratio",
-                unit: "",
-                published: 1.789_779_866_8,
-                ours: |inputs| by(inputs, Method::Exact, "contact_ratio"),
-                by_model: false,
-                alone: None,
-                fair: "yes. It is geometry alone.",
-            },
-            Figure {
-                name: "mesh stiffness at the start of double contact",
-                unit: "N/um",
-                published: 396.62,
-                ours: |inputs| stiffness_at(inputs, 0.0),
-                by_model: true,
-                alone: None,
-                fair: SUM_OF_ENERGY,
-            },
-            Figure {
-                name: "greatest mesh stiffness",
-                unit: "N/um",
-                published: 419.57,
-                ours: greatest_stiffness,
-                by_model: true,
-                alone: None,
-                fair: SUM_OF_ENERGY,
-            },
-            Figure {
-                name: "polar inertia of a gear",
-                unit: "kg m2",
-                published: 0.003_602_5,
-                ours: |inputs| by(inputs, Method::Exact, "inertia_driver"),
-                by_model: false,
-                alone: None,
-                fair: "partly. The source takes a disc to the reference circle; tipstrike \
-                    integrates the outline.",
-            },
+            figure("contact ratio", "", 1.789_779_866_8, |inputs| exact(inputs, "contact_ratio"),
+                "yes. It is geometry alone.").by_no_model(),
+            figure("mesh stiffness at the start of double contact", "N/um", 396.62, |inputs| stiffness_at(inputs, 0.0),
+                SUM_OF_ENERGY),
+            figure("greatest mesh stiffness", "N/um", 419.57, greatest_stiffness, SUM_OF_ENERGY),
+            figure("polar inertia of a gear", "kg m2", 0.003_602_5, |inputs| exact(inputs, "inertia_driver"),
+                "partly. The source takes a disc to the reference circle; tipstrike integrates the outline.").by_no_model(),
         ],
     },
     Source {
@@ -227,40 +219,15 @@ pub(super) const SOURCES: &[Source] = &[
         from: "code TPM-Vibration, figures of its port",
         case: "dias-27-35",
         figures: &[
-            Figure {
-                name: "mean mesh stiffness",
-                unit: "N/um",
-                published: 353.2,
-                ours: |inputs| Some(PER_MICROMETRE * by(inputs, Method::Static, "mesh_stiffness")?),
-                by_model: true,
-                alone: None,
-                fair: "partly. The source uses the potential-energy method.",
-            },
-            Figure {
-                name: "equivalent mass",
-                unit: "kg",
-                published: 0.3493,
-                ours: |inputs| by(inputs, Method::Exact, "reduced_mass"),
-                by_model: false,
-                alone: None,
-                fair: "partly. The source's body is not known to us in full; the density is \
-                    assumed.",
-            },
-            Figure {
-                name: "relief of least dynamic load, on both gears",
-                unit: "um",
-                published: 43.58,
-                ours: |inputs| {
-                    let inputs = Inputs { method: Method::Static, ..inputs.clone() };
-                    Some(1e6 * value(&solve(&inputs, Stages::EVERY).ok()?, "clearing_relief")?)
-                },
-                by_model: true,
-                alone: None,
-                fair: "no, because the teeth of the source are softer by the potential-energy method \
-                    on base-circle cantilevers. With that stiffness model the formula of tipstrike \
-                    gives 43.23 um (-0.8 %). The source minimizes the dynamic load; tipstrike's figure \
-                    is the relief of the driven tip without contact before E.",
-            },
+            figure("mean mesh stiffness", "N/um", 353.2, mean_stiffness,
+                "partly. The source uses the potential-energy method."),
+            figure("equivalent mass", "kg", 0.3493, |inputs| exact(inputs, "reduced_mass"),
+                "partly. The source's body is not known to us in full; the density is assumed.").by_no_model(),
+            figure("relief of least dynamic load, on both gears", "um", 43.58, required_relief,
+                "no, because the teeth of the source are softer by the potential-energy method on base-circle \
+                cantilevers. With that stiffness model the formula of tipstrike gives 43.23 um (-0.8 %). The \
+                source minimizes the dynamic load; tipstrike's figure is the relief of the driven tip without \
+                contact before E."),
             light!(500, 1.327, LIGHT),
             light!(1000, 1.322, ""),
             light!(2000, 1.263, ""),
@@ -275,187 +242,71 @@ pub(super) const SOURCES: &[Source] = &[
         from: "GEARpie's report on FZG C14; DIN 3990",
         case: "fzg-c14",
         figures: &[
-            Figure {
-                name: "contact ratio",
-                unit: "",
-                published: 1.46,
-                ours: |inputs| by(inputs, Method::Exact, "contact_ratio"),
-                by_model: false,
-                alone: None,
-                fair: "yes. It is geometry alone.",
-            },
-            Figure {
-                name: "path of contact",
-                unit: "mm",
-                published: 19.43,
-                ours: |inputs| {
-                    let geometry = geometry::<f64>(&inputs.shape()).ok()?;
-                    Some(1e3 * (geometry.end - geometry.start))
-                },
-                by_model: false,
-                alone: None,
-                fair: "yes. It is geometry alone.",
-            },
-            Figure {
-                name: "force along the line of action",
-                unit: "N",
-                published: 5912.1,
-                ours: |inputs| by(inputs, Method::Exact, "mesh_force"),
-                by_model: false,
-                alone: None,
-                fair: "yes. It is torque over base radius.",
-            },
-            Figure {
-                name: "reduced mass per width",
-                unit: "kg/mm",
-                published: 0.012_86,
-                ours: |inputs| {
-                    let mass = by(inputs, Method::Exact, "reduced_mass")?;
-                    Some(1e-3 * mass / inputs.common_width())
-                },
-                by_model: false,
-                alone: None,
-                fair: "partly. DIN 3990 takes a disc to the mean diameter; tipstrike integrates the \
-                    outline. The bores are assumed.",
-            },
-            Figure {
-                name: "dynamic factor K_V at 1500 rpm",
-                unit: "",
-                published: 1.02,
-                ours: dynamic_factor,
-                by_model: true,
-                alone: None,
-                fair: "no. K_V applies to the whole mesh, follows an empirical rule and includes \
-                    pitch deviations. The factor of tipstrike is the peak force of one tooth in \
-                    motion divided by its peak force at rest, without deviations.",
-            },
-            Figure {
-                name: "dynamic factor K_V in resonance",
-                unit: "",
-                published: 2.01,
-                ours: resonant_factor,
-                by_model: true,
-                alone: None,
-                fair: "no, for the same reason.",
-            },
+            figure("contact ratio", "", 1.46, |inputs| exact(inputs, "contact_ratio"),
+                "yes. It is geometry alone.").by_no_model(),
+            figure("path of contact", "mm", 19.43, path_length,
+                "yes. It is geometry alone.").by_no_model(),
+            figure("force along the line of action", "N", 5912.1, |inputs| exact(inputs, "mesh_force"),
+                "yes. It is torque over base radius.").by_no_model(),
+            figure("reduced mass per width", "kg/mm", 0.012_86, mass_per_width,
+                "partly. DIN 3990 takes a disc to the mean diameter; tipstrike integrates the outline. The bores \
+                are assumed.").by_no_model(),
+            figure("dynamic factor K_V at 1500 rpm", "", 1.02, dynamic_factor,
+                "no. K_V applies to the whole mesh, follows an empirical rule and includes pitch deviations. The \
+                factor of tipstrike is the peak force of one tooth in motion divided by its peak force at rest, \
+                without deviations."),
+            figure("dynamic factor K_V in resonance", "", 2.01, resonant_factor, "no, for the same reason."),
         ],
     },
     Source {
         title: "ISO/TR 6336-30, example 1",
         from: "ISO/TR 6336-30, example 1, taken as a spur pair",
         case: "iso-6336-30-1",
-        figures: &[Figure {
-            name: "c'/cos β",
-            unit: "N/(um mm)",
-            published: 12.86,
-            ours: single_stiffness,
-            by_model: true,
-            alone: None,
-            fair: "partly. The example is helical, and c' is a fit to measured stiffness without \
-                the twist of the body. `beam` and `finite-element` also exclude the twist.",
-        }],
+        figures: &[figure("c'/cos β", "N/(um mm)", 12.86, single_stiffness,
+                "partly. The example is helical, and c' is a fit to measured stiffness without the twist of the \
+                body. `beam` and `finite-element` also exclude the twist.")],
     },
     Source {
         title: "Plane-strain finite elements",
         from: "git-akai/gearcalc, notes",
         case: "gearcalc-17-43",
         figures: &[
-            Figure {
-                name: "both teeth without contact at the pitch point, with the twist of the bodies",
-                unit: "um mm/N",
-                published: 0.043_11,
-                ours: |inputs| {
-                    teeth_alone(inputs, |geometry| geometry.start + geometry.approach_length)
-                },
-                by_model: true,
-                alone: None,
-                fair: "yes. The same pair, bores and elasticity, by finite elements in plane \
-                    strain. The source includes the twist of the bodies, which the models here \
-                    exclude; the table adds it by its closed form.",
-            },
-            Figure {
-                name: "both teeth without contact at the wheel's tip, with the twist of the bodies",
-                unit: "um mm/N",
-                published: 0.070_37,
-                ours: |inputs| teeth_alone(inputs, |geometry| geometry.start),
-                by_model: true,
-                alone: None,
-                fair: "partly, with the same remark. The place of the load patch at the tip corner is not \
-                    known to us.",
-            },
-            Figure {
-                name: "c' at the pitch point",
-                unit: "N/(um mm)",
-                published: 17.06,
-                ours: single_stiffness,
-                by_model: true,
-                alone: None,
-                fair: "partly. The load of the source is not known to us, and the contact depends on \
-                    it.",
-            },
+            figure("both teeth without contact at the pitch point, with the twist of the bodies", "um mm/N", 0.043_11,
+                |inputs| teeth_alone(inputs, |geometry| geometry.start + geometry.approach_length),
+                "yes. The same pair, bores and elasticity, by finite elements in plane strain. The source includes \
+                the twist of the bodies, which the models here exclude; the table adds it by its closed form."),
+            figure("both teeth without contact at the wheel's tip, with the twist of the bodies", "um mm/N", 0.070_37,
+                |inputs| teeth_alone(inputs, |geometry| geometry.start),
+                "partly, with the same remark. The place of the load patch at the tip corner is not known to us."),
+            figure("c' at the pitch point", "N/(um mm)", 17.06, single_stiffness,
+                "partly. The load of the source is not known to us, and the contact depends on it."),
         ],
     },
     Source {
         title: "Contact outside the line of action",
-        from: "git-akai/gearcalc, two-dimensional contact model: the spur pair of its field oracle, \
-            records `phase/s0` and `state/s0/0.75`",
+        from: "git-akai/gearcalc, two-dimensional contact model: the spur pair of its \
+                    field oracle, records `phase/s0` and `state/s0/0.75`",
         case: "gearcalc-17-43-rounded",
         figures: &[
-            Figure {
-                name: "pair stiffness at the pitch point",
-                unit: "N/(um mm)",
-                published: 15.821,
-                ours: single_stiffness_without_friction,
-                by_model: true,
-                alone: None,
-                fair: "partly. The pair and the load of 250.4 N/mm are the same. The source computes \
-                    the tooth by its potential energy with the foundation of a half-plane, not by \
-                    finite elements.",
-            },
-            Figure {
-                name: "first contact before the path begins, pinion",
-                unit: "deg",
-                published: 2.155,
-                ours: |inputs| first_contact(inputs, true),
-                by_model: true,
-                alone: Some(|inputs| first_contact(inputs, false)),
-                fair: "partly. The pair, the load, the friction and the rounded tips are the same, but \
-                    in the source no tooth displaces its neighbours. The row with independent teeth \
-                    shows how much of the deviation of `finite-element` this explains. The rest \
-                    agrees in sign with the softer pair of the source; whether it has other reasons \
-                    is not known. `beam` has independent teeth and nearly the pair stiffness of the \
-                    source. `kuang-yang` is softer, so its contact begins too early.",
-            },
-            Figure {
-                name: "last contact after the path ends, pinion",
-                unit: "deg",
-                published: 3.229,
-                ours: |inputs| last_contact(inputs, true),
-                by_model: true,
-                alone: Some(|inputs| last_contact(inputs, false)),
-                fair: "partly, for the same reasons.",
-            },
-            Figure {
-                name: "mean number of loaded pairs",
-                unit: "",
-                published: 1.8032,
-                ours: |inputs| loaded_pairs(inputs, true),
-                by_model: true,
-                alone: Some(|inputs| loaded_pairs(inputs, false)),
-                fair: "partly, for the same reasons.",
-            },
-            Figure {
-                name: "force of the entering pair where the wheel's tip touches the pinion radius \
-                    8.0282 mm",
-                unit: "N/mm",
-                published: 91.46,
-                ours: |inputs| force_before_path(inputs, 8.0282e-3, true),
-                by_model: true,
-                alone: Some(|inputs| force_before_path(inputs, 8.0282e-3, false)),
-                fair: "partly, for the same reasons. The source gives the force in the middle of the \
-                    face, tipstrike the mean over the face width. The contact is on the rounded tip \
-                    before the path begins.",
-            },
+            figure("pair stiffness at the pitch point", "N/(um mm)", 15.821, single_stiffness_without_friction,
+                "partly. The pair and the load of 250.4 N/mm are the same. The source computes the tooth by its \
+                potential energy with the foundation of a half-plane, not by finite elements."),
+            figure("first contact before the path begins, pinion", "deg", 2.155, |inputs| first_contact(inputs, true),
+                "partly. The pair, the load, the friction and the rounded tips are the same, but in the source no \
+                tooth displaces its neighbours. The row with independent teeth shows how much of the deviation of \
+                `finite-element` this explains. The rest agrees in sign with the softer pair of the source; \
+                whether it has other reasons is not known. `beam` has independent teeth and nearly the pair \
+                stiffness of the source. `kuang-yang` is softer, so its contact begins too early.")
+                .alone(|inputs| first_contact(inputs, false)),
+            figure("last contact after the path ends, pinion", "deg", 3.229, |inputs| last_contact(inputs, true),
+                "partly, for the same reasons.").alone(|inputs| last_contact(inputs, false)),
+            figure("mean number of loaded pairs", "", 1.8032, |inputs| loaded_pairs(inputs, true),
+                "partly, for the same reasons.").alone(|inputs| loaded_pairs(inputs, false)),
+            figure("force of the entering pair where the wheel's tip touches the pinion radius 8.0282 mm", "N/mm", 91.46,
+                |inputs| force_before_path(inputs, 8.0282e-3, true),
+                "partly, for the same reasons. The source gives the force in the middle of the face, tipstrike the \
+                mean over the face width. The contact is on the rounded tip before the path begins.")
+                .alone(|inputs| force_before_path(inputs, 8.0282e-3, false)),
         ],
     },
 ];
