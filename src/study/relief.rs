@@ -384,7 +384,7 @@ fn grid(
     let steps = |length: f64, step: f64| (length / step).floor().max(0.0) as i32;
     Ok(Grid {
         length_step,
-        least_length: steps(least, length_step).max(1),
+        least_length: (least / length_step - 1e-9).ceil() as i32,
         most_length: steps(longest * (1.0 + 1e-9), length_step),
         most_amounts: tips.map(|tip| steps(tip.min(MOST * needed), AMOUNT_STEP)),
         tips,
