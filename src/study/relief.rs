@@ -373,7 +373,10 @@ fn grid(
         + 2.0 * demand.tolerance;
     let shortest = demand.tolerance_length.unwrap_or(0.0) + length_step;
     let least = (needed / STEEPEST).max(shortest);
-    if least > longest {
+    let steps = |length: f64, step: f64| (length / step).floor().max(0.0) as i32;
+    let least_length = (least / length_step - 1e-9).ceil() as i32;
+    let most_length = steps(longest * (1.0 + 1e-9), length_step);
+    if least_length > most_length {
         return Err(NoRelief::ShortPath { length: longest, least, ratio: geometry.contact_ratio });
     }
     let tip = |gear, circles| {
@@ -381,11 +384,10 @@ fn grid(
         PART_OF_TIP * thickness.max(0.0)
     };
     let tips = [tip(&inputs.driver, &geometry.driver), tip(&inputs.driven, &geometry.driven)];
-    let steps = |length: f64, step: f64| (length / step).floor().max(0.0) as i32;
     Ok(Grid {
         length_step,
-        least_length: (least / length_step - 1e-9).ceil() as i32,
-        most_length: steps(longest * (1.0 + 1e-9), length_step),
+        least_length,
+        most_length,
         most_amounts: tips.map(|tip| steps(tip.min(MOST * needed), AMOUNT_STEP)),
         tips,
     })
