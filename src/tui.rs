@@ -7,7 +7,6 @@
 
 mod app;
 mod ascii;
-mod dialogs;
 mod events;
 mod form_aids;
 mod header;

@@ -2,6 +2,7 @@
 //! to other work, and the panes with the state that they show.
 
 pub(crate) mod actions;
+pub(crate) mod dialogs;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -9,9 +10,7 @@ use std::time::Duration;
 
 use ratatui::layout::{Position, Rect, Size};
 
-use super::dialogs::cursor_to::CursorScope;
-use super::dialogs::{Prompt, Surroundings};
-use super::jobs::{Job, Slot, TradeView};
+use super::jobs::TradeView;
 use super::keys::Place;
 use super::layout::{Layout, Pane};
 use super::panes::Title;
@@ -36,7 +35,9 @@ use crate::report;
 use crate::report::graphs::GRAPHS;
 use crate::study::trade::STEADY;
 
-use actions::{Effect, Work};
+use actions::{Effect, Slot, Work};
+use dialogs::cursor_to::CursorScope;
+use dialogs::{Prompt, Surroundings};
 
 /// The whole state of the screen.
 #[derive(Debug, Clone)]
@@ -396,7 +397,7 @@ impl App {
             .zip(answer)
             .and_then(|(quantity, answer)| report::value(quantity, answer.of(answer.active)?));
         StudyPane {
-            state: self.study,
+            state: &self.study,
             study: &tab.study,
             case: &tab.case,
             present,
@@ -470,21 +471,14 @@ impl App {
 
     /// Starts work, which replaces other work of its slot, and returns its number.
     pub(super) fn start(&mut self, work: Work) -> u64 {
-        let number = self.number_of_work(work.slot);
-        self.want(Effect::Work(number, work));
-        number
-    }
-
-    /// Starts a job as work.
-    pub(super) fn start_job(&mut self, job: Job) {
-        let number = self.number_of_work(job.slot());
-        self.want(Effect::Job(number, job));
-    }
-
-    fn number_of_work(&mut self, slot: Slot) -> u64 {
         self.last_serial += 1;
-        self.running.insert(slot, self.last_serial);
+        self.running.insert(work.slot, self.last_serial);
+        self.want(Effect::Work(self.last_serial, work));
         self.last_serial
+    }
+
+    pub(super) fn start_all(&mut self, works: impl IntoIterator<Item = Work>) {
+        works.into_iter().for_each(|work| drop(self.start(work)));
     }
 
     /// Stops the work of a slot and ignores its further results. Returns whether it ran.

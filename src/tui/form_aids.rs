@@ -156,7 +156,7 @@ impl Case {
     /// The text of a field after a step from its text, otherwise from its default. A field that its
     /// alternative replaces has no step.
     #[must_use]
-    pub fn stepped(&self, field: usize, by: i32) -> Option<String> {
+    pub fn stepped(&self, field: usize, by: isize) -> Option<String> {
         let default =
             if let Absent::Default(text) = FIELDS[field].absent { Some(text) } else { None };
         let default = default.filter(|_| !self.is_replaced(field));
@@ -169,7 +169,7 @@ impl Case {
 /// numbers, a choice to the next name. `None` if the text is empty or invalid, or if the range ends
 /// here.
 #[must_use]
-pub(crate) fn step(text: &str, field: usize, by: i32) -> Option<String> {
+pub(crate) fn step(text: &str, field: usize, by: isize) -> Option<String> {
     match FIELDS[field].kind {
         Kind::Text => None,
         Kind::Choice(names, _) => named(text, names, by),
@@ -179,7 +179,7 @@ pub(crate) fn step(text: &str, field: usize, by: i32) -> Option<String> {
 
 /// The text of a limit after steps of its last digit, not below zero.
 #[must_use]
-pub(crate) fn step_limit(text: &str, quantity: &str, by: i32) -> Option<String> {
+pub(crate) fn step_limit(text: &str, quantity: &str, by: isize) -> Option<String> {
     moved(text, by, |text| Limit::new(quantity, text).is_ok_and(|limit| limit.value >= 0.0))
 }
 
@@ -191,15 +191,15 @@ fn is_taken(field: usize, text: &str) -> bool {
 }
 
 /// The name `by` places further in the list, or the last name in that direction.
-fn named(text: &str, names: &[&str], by: i32) -> Option<String> {
+fn named(text: &str, names: &[&str], by: isize) -> Option<String> {
     let at = names.iter().position(|name| *name == text.trim())?;
-    let to = at.saturating_add_signed(isize::try_from(by).ok()?).min(names.len().saturating_sub(1));
+    let to = at.saturating_add_signed(by).min(names.len().saturating_sub(1));
     (to != at).then(|| names[to].to_owned())
 }
 
 /// The text after as many of the `by` steps as remain valid: the number keeps its decimals, and the
 /// exponent and the unit after it stay.
-fn moved(text: &str, by: i32, is_taken: impl Fn(&str) -> bool) -> Option<String> {
+fn moved(text: &str, by: isize, is_taken: impl Fn(&str) -> bool) -> Option<String> {
     let start = text.len() - text.trim_start().len();
     let is_part = |letter: char| letter.is_ascii_digit() || matches!(letter, '.' | '+' | '-');
     let end = text[start..].find(|letter| !is_part(letter)).map_or(text.len(), |at| start + at);
@@ -207,12 +207,12 @@ fn moved(text: &str, by: i32, is_taken: impl Fn(&str) -> bool) -> Option<String>
     let decimals = number.split_once('.').map_or(0, |(_, decimals)| decimals.len());
     let unit = 10f64.powi(i32::try_from(decimals).ok()?);
     let value: f64 = number.parse().ok().filter(|_| is_taken(text))?;
-    let after = |steps: u32| {
-        let digits = (value * unit).round() + f64::from(by.signum()) * f64::from(steps);
+    let after = |steps: isize| {
+        let digits = (value * unit).round() + (by.signum() * steps) as f64;
         let text = format!("{}{:.decimals$}{}", &text[..start], digits / unit + 0.0, &text[end..]);
         is_taken(&text).then_some(text)
     };
-    (1..=by.unsigned_abs()).rev().find_map(after)
+    (1..=by.abs()).rev().find_map(after)
 }
 
 #[cfg(test)]
@@ -300,7 +300,7 @@ mod tests {
     }
 
     #[track_caller]
-    fn steps(key: &str, text: &str, by: i32, to: Option<&str>) {
+    fn steps(key: &str, text: &str, by: isize, to: Option<&str>) {
         assert_eq!(step(text, place_of(key), by).as_deref(), to, "{key} = {text} by {by}");
     }
 
@@ -424,18 +424,18 @@ mod tests {
         }
 
         #[test]
-        fn no_text_makes_a_step_panic(text in ".*", by in -20..20i32, field in 0..FIELDS.len()) {
+        fn no_text_makes_a_step_panic(text in ".*", by in -20..20isize, field in 0..FIELDS.len()) {
             let next = step(&text, field, by);
             prop_assert!(next.is_none_or(|next| is_taken(field, &next)));
         }
 
         #[test]
-        fn a_step_changes_the_value_by_its_last_digit(digits in -9999i32..9999, by in -20i32..20) {
+        fn a_step_changes_the_value_by_its_last_digit(digits in -9999i32..9999, by in -20isize..20) {
             let text = format!("{:.1} um", f64::from(digits) / 10.0);
             let next = step(&text, index_of("deviations.base_pitch").unwrap(), by);
             let value = |text: &str| parse(text, Dimension::Length, "um").unwrap();
             let moved = next.map_or(0.0, |next| value(&next) - value(&text));
-            prop_assert!((moved - f64::from(by) * 1e-7).abs() < 1e-15);
+            prop_assert!((moved - by as f64 * 1e-7).abs() < 1e-15);
         }
     }
 }

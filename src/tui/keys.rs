@@ -2,9 +2,11 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-pub(in crate::tui) const CTRL: KeyModifiers = KeyModifiers::CONTROL;
-pub(in crate::tui) const ALT: KeyModifiers = KeyModifiers::ALT;
-pub(in crate::tui) const SHIFT: KeyModifiers = KeyModifiers::SHIFT;
+const PREFIXES: [(KeyModifiers, &str); 3] = [
+    (KeyModifiers::CONTROL, "Ctrl-"),
+    (KeyModifiers::ALT, "Alt-"),
+    (KeyModifiers::SHIFT, "Shift-"),
+];
 
 /// The key of the command that goes to the next error.
 pub(in crate::tui) const NEXT_FAULT: &str = "Alt-E";
@@ -12,10 +14,6 @@ pub(in crate::tui) const NEXT_FAULT: &str = "Alt-E";
 /// A set of places that receive keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place(u32);
-
-/// A key with its modifiers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Chord(pub(in crate::tui) KeyCode, pub(in crate::tui) KeyModifiers);
 
 impl Place {
     /// No place.
@@ -104,65 +102,34 @@ impl Place {
     }
 }
 
-pub(in crate::tui) const fn key(code: KeyCode) -> Chord {
-    Chord(code, KeyModifiers::NONE)
-}
-
-pub(in crate::tui) const fn letter(letter: char) -> Chord {
-    key(KeyCode::Char(letter))
-}
-
-pub(in crate::tui) const fn function(number: u8) -> Chord {
-    key(KeyCode::F(number))
-}
-
-pub(in crate::tui) const fn ctrl(letter: char) -> Chord {
-    Chord(KeyCode::Char(letter), CTRL)
-}
-
-pub(in crate::tui) const fn alt(letter: char) -> Chord {
-    Chord(KeyCode::Char(letter), ALT)
-}
-
-pub(in crate::tui) const fn with(modifiers: KeyModifiers, code: KeyCode) -> Chord {
-    Chord(code, modifiers)
-}
-
-impl Chord {
-    // Shift is part of a letter and of BackTab, and terminals differ in whether they report it.
-    // Ctrl-4 and Ctrl-\ are one byte, which the reader decodes as Ctrl-4.
-    pub(in crate::tui) fn of(event: KeyEvent) -> Chord {
-        let held = event.modifiers & (CTRL | ALT | SHIFT);
-        match event.code {
-            KeyCode::Char('4') if held == CTRL => Chord(KeyCode::Char('\\'), CTRL),
-            KeyCode::Char(letter) if held.contains(CTRL) => {
-                Chord(KeyCode::Char(letter.to_ascii_lowercase()), held - SHIFT)
-            }
-            KeyCode::Char(_) | KeyCode::BackTab => Chord(event.code, held - SHIFT),
-            code => Chord(code, held),
-        }
+/// The name of a key with its modifiers, such as `Ctrl-S`, `Shift-Tab` or `x`.
+#[must_use]
+pub(crate) fn name(event: KeyEvent) -> String {
+    let (code, mut held) = (event.code, event.modifiers);
+    // Shift is part of a letter and of Shift-Tab, and terminals differ in whether they report it.
+    if matches!(code, KeyCode::Char(_) | KeyCode::BackTab) {
+        held -= KeyModifiers::SHIFT;
     }
+    let name = match code {
+        // Ctrl-4 and Ctrl-\ are one byte, which the reader decodes as Ctrl-4.
+        KeyCode::Char('4') if held == KeyModifiers::CONTROL => "\\".to_owned(),
+        KeyCode::Char(' ') => "Space".to_owned(),
+        KeyCode::Char(letter) if letter_of(code, held).is_some() => letter.to_string(),
+        KeyCode::Char(letter) => letter.to_ascii_uppercase().to_string(),
+        KeyCode::F(number) => format!("F{number}"),
+        KeyCode::BackTab => "Shift-Tab".to_owned(),
+        code => format!("{code:?}"),
+    };
+    let held = PREFIXES.iter().filter(|(one, _)| held.contains(*one));
+    held.map(|(_, prefix)| *prefix).collect::<String>() + &name
+}
 
-    /// The key as text.
-    #[must_use]
-    pub fn name(&self) -> String {
-        let name = match self.0 {
-            KeyCode::Char(' ') => "Space".to_owned(),
-            KeyCode::Char(letter) if self.1.is_empty() => letter.to_string(),
-            KeyCode::Char(letter) => letter.to_ascii_uppercase().to_string(),
-            KeyCode::F(number) => format!("F{number}"),
-            KeyCode::BackTab => "Shift-Tab".to_owned(),
-            code => format!("{code:?}"),
-        };
-        let held = [(CTRL, "Ctrl-"), (ALT, "Alt-"), (SHIFT, "Shift-")]
-            .into_iter()
-            .filter(|(one, _)| self.1.contains(*one));
-        held.map(|(_, prefix)| prefix).collect::<String>() + &name
-    }
+/// The letter of a key without modifiers.
+pub(crate) fn letter(event: KeyEvent) -> Option<char> {
+    letter_of(event.code, event.modifiers)
+}
 
-    /// The shortest readable text of the key.
-    #[must_use]
-    pub(crate) fn short_name(&self) -> String {
-        self.name().replace("Ctrl-", "^").replace("Shift-Tab", "S-Tab")
-    }
+fn letter_of(code: KeyCode, held: KeyModifiers) -> Option<char> {
+    let is_plain = !held.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT);
+    code.as_char().filter(|_| is_plain)
 }

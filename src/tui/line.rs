@@ -7,6 +7,9 @@ use tui_input::{Input, InputRequest, StateChanged};
 /// The extension of a case file.
 pub(super) const CASE_ENDING: &str = ".toml";
 
+/// The extensions of an export, of which a typed one replaces the suggested one.
+const EXPORT_ENDINGS: [&str; 5] = [".html", ".md", ".csv", ".json", ".svg"];
+
 /// A line of text with a cursor and a selection.
 #[derive(Debug, Clone, Default)]
 pub struct Line {
@@ -99,7 +102,9 @@ impl Line {
         let cursor = self.input.cursor();
         let typed: String = self.input.value().chars().take(cursor).collect();
         let is_rest = self.input.value().strip_prefix(&typed) == Some(ending);
-        if is_rest && (typed.ends_with(ending) || typed.ends_with(CASE_ENDING)) {
+        let exports = EXPORT_ENDINGS.iter().filter(|_| EXPORT_ENDINGS.contains(&ending));
+        let mut known = exports.copied().chain([ending, CASE_ENDING]);
+        if is_rest && known.any(|known| typed.ends_with(known)) {
             self.input = Input::new(typed).with_cursor(cursor);
         }
     }
@@ -179,6 +184,8 @@ mod tests {
             ("a/case.txt", "pair.toml", "a/pair.toml"),
             ("a/case.txt", "pair.txt", "a/pair.txt"),
             ("a/case", "pair.toml", "a/pair.toml"),
+            ("a/case.html", "pair.svg", "a/pair.svg"),
+            ("a/case.toml", "pair.svg", "a/pair.svg.toml"),
             ("a/case.toml", "/b/pair.toml", "/b/pair.toml"),
             ("a/case.toml", "~/pair", "~/pair.toml"),
             ("a/case.toml", "b/pair", "a/b/pair.toml"),

@@ -105,7 +105,7 @@ pub(crate) fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
 
 /// The text of a row after a step.
 #[must_use]
-pub(crate) fn stepped(case: &Case, at: usize, by: i32) -> Option<String> {
+pub(crate) fn stepped(case: &Case, at: usize, by: isize) -> Option<String> {
     match row(case, at) {
         Row::Field(field) => case.stepped(field, by),
         Row::Limit(limit) => step_limit(&limit.text, limit.quantity, by),

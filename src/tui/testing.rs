@@ -18,10 +18,9 @@ pub mod commands {
 }
 
 pub mod dialogs {
-    pub use crate::tui::dialogs::Prompt;
-    pub use crate::tui::dialogs::page::Explanation;
-    pub use crate::tui::dialogs::picker::Item;
-    pub use crate::tui::dialogs::question::Question;
+    pub use crate::tui::app::dialogs::Prompt;
+    pub use crate::tui::app::dialogs::page::Explanation;
+    pub use crate::tui::app::dialogs::picker::Item;
 }
 
 pub mod effects {
@@ -37,8 +36,7 @@ pub mod help {
 }
 
 pub mod jobs {
-    pub use crate::tui::jobs::{Job, Slot};
-    pub use crate::tui::update::work_of;
+    pub use crate::tui::app::actions::Slot;
 }
 
 pub mod pane {
@@ -79,7 +77,6 @@ pub mod solver {
 
 pub mod store {
     pub use crate::tui::store::built_in;
-    pub use crate::tui::store::folder::Target;
     pub use crate::tui::store::state::State;
 
     pub mod case_search {

@@ -2,15 +2,12 @@
 //! work that it starts.
 
 pub(super) mod commands;
-mod dialogs;
 mod edit;
 mod export;
 pub(super) mod files;
 mod navigation;
 mod panes;
-mod study;
-mod trade;
-mod variants;
+mod studies;
 
 use std::mem;
 use std::path::PathBuf;
@@ -23,15 +20,11 @@ use super::panes::form;
 use super::theme::Look;
 use crate::case::Document;
 
-use dialogs::{browse_up, is_in_empty_line, line_changed};
-
-pub use dialogs::work_of;
-
 /// Applies an action to the state. Returns the effects to carry out.
 pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     if matches!(
         action,
-        Action::Do(_) | Action::Insert(_) | Action::Stray(_) | Action::Paste(_) | Action::Click(_)
+        Action::Do(..) | Action::Insert(_) | Action::Stray(_) | Action::Paste(_) | Action::Click(_)
     ) {
         app.last_message = app.message.take();
     }
@@ -42,13 +35,13 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     }
     app.catch_up();
     settle(app);
-    dialogs::refresh_page(app);
+    panes::refresh_page(app);
     panes::follow_cursor(app, cursor);
-    dialogs::preview(app);
-    study::request(app);
+    navigation::preview(app);
+    studies::request(app);
     panes::request_chart(app);
-    variants::request(app);
-    trade::stop_unseen(app);
+    studies::request_variants(app);
+    studies::stop_unseen(app);
     mem::take(&mut app.effects.0)
 }
 
@@ -70,12 +63,8 @@ pub fn opened(document: Document, path: Option<PathBuf>, look: Look, size: Size)
 
 fn happen(app: &mut App, action: Action) {
     match action {
-        Action::Do(command) => (command.run)(app),
-        Action::Insert(letter) => {
-            if !dialogs::letter(app, letter) {
-                edit::insert(app, letter);
-            }
-        }
+        Action::Do(command, way) => command.run(app, way),
+        Action::Insert(letter) => navigation::letter(app, letter),
         Action::Paste(text) => edit::paste(app, &text),
         Action::Stray(letter) => panes::stray(app, letter),
         Action::Click(at) => navigation::click(app, at),
@@ -89,7 +78,7 @@ fn happen(app: &mut App, action: Action) {
         }
         Action::Solved(answer) => {
             app.take(*answer);
-            variants::pin_baseline(app);
+            studies::pin_baseline(app);
         }
         Action::SolverFailed(serial) => solver_failed(app, serial),
         Action::Solving(serial, part) => {
@@ -126,7 +115,7 @@ fn solver_failed(app: &mut App, serial: u64) {
 /// Runs the command with a name.
 fn run(app: &mut App, name: &str) {
     if let Some(command) = commands::named(name).next() {
-        (command.run)(app);
+        command.run(app, 1);
     }
 }
 

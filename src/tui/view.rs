@@ -10,7 +10,6 @@ use unicode_width::UnicodeWidthStr;
 use super::app::App;
 use super::ascii::{self, symbol};
 use super::form_aids::materials;
-use super::keys::Chord;
 use super::layout::{self, Pane, SMALLEST};
 use super::panes::chart::{self, Charts};
 use super::panes::form::{self, Form};
@@ -73,9 +72,9 @@ pub(crate) fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     let mut shown: Vec<&str> = Vec::new();
     let mut left = usize::from(area.width);
     for binding in
-        BINDINGS.iter().filter(|binding| binding.places.meets(place) && binding.footer.meets(place))
+        BINDINGS.iter().filter(|binding| binding.places.meets(place) && binding.status.meets(place))
     {
-        let key = binding.chords.first().map(Chord::short_name).unwrap_or_default();
+        let key = binding.first_key().replace("Ctrl-", "^").replace("Shift-Tab", "S-Tab");
         let used = key.width() + binding.name.width() + 3;
         if used > left + 2 {
             break;
@@ -209,8 +208,10 @@ fn about_field(app: &App, index: usize) -> String {
         }
         _ => partial_relevance(index, inputs).map(|why| format!("Limited effect: {why}.")),
     };
+    let spread = app.tab.case.spread.iter().find(|spread| spread.field == field.key);
+    let spread = spread.map(|spread| format!("Spread: {}.", spread.in_words()));
     let about = about(field, app.look.ascii, units);
-    let parts = [converted.map(|value| value + "."), idle, material(app, field), Some(about)];
+    let parts = [converted.map(|value| value + "."), idle, spread, material(app, field), Some(about)];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 

@@ -18,7 +18,7 @@ use super::store::{self, Opening, Trouble};
 use super::tab::Origin;
 use super::terminal::Screen;
 use super::theme::Look;
-use super::update::{self, update, work_of};
+use super::update::{self, update};
 use super::worker::{self, Workers};
 use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
 
@@ -213,7 +213,6 @@ impl Workbench {
                     Effect::Solve(request) => self.workers.solve(*request),
                     Effect::CancelSolve => self.workers.stop_solve(),
                     Effect::Work(number, work) => self.workers.work(number, work)?,
-                    Effect::Job(number, job) => self.workers.work(number, work_of(job))?,
                     Effect::Cancel(slot) => self.workers.cancel(slot),
                     Effect::Keep(settings) => self.chosen = Some(settings),
                     Effect::Copy(text) => self.screen.copy(&text)?,

@@ -208,11 +208,11 @@ fn no_files_import_each_other_in_a_circle() {
 }
 
 #[test]
-fn update_names_no_view_and_a_component_does_not_name_the_workbench() {
+fn update_names_no_view_and_a_pane_does_not_name_the_workbench() {
     let rules: [(&str, &[&str]); 3] = [
         ("update", &["view"]),
-        ("panes", &["app", "tab", "dialogs", "update", "view"]),
-        ("dialogs", &["app", "tab", "update", "view"]),
+        ("panes", &["app", "tab", "update", "view"]),
+        ("app", &["update", "view"]),
     ];
     for source in sources("src/tui") {
         let modules = source.modules();

@@ -22,12 +22,11 @@ use tipstrike::tui::testing::actions::{Effect, Work};
 use tipstrike::tui::testing::app::App;
 use tipstrike::tui::testing::dialogs::Prompt;
 use tipstrike::tui::testing::events::{Event, take_action};
-use tipstrike::tui::testing::jobs::{Job, Slot, work_of};
+use tipstrike::tui::testing::jobs::Slot;
 use tipstrike::tui::testing::session::Autosave;
 use tipstrike::tui::testing::session::JournalWriter;
 use tipstrike::tui::testing::solver::{self, Request};
 use tipstrike::tui::testing::store::State;
-use tipstrike::tui::testing::store::Target;
 use tipstrike::tui::testing::store::{self, recents};
 use tipstrike::tui::testing::theme::Look;
 use tipstrike::tui::testing::update::update;
@@ -346,19 +345,23 @@ impl Bench {
                 saving.path = self.within(&saving.path);
                 self.outside(Effect::Save(saving, next))
             }
-            Effect::Job(_, Job::Recents) => {
-                if let Some(Prompt::Browse(browser)) = self.app.prompts.last_mut() {
-                    let recent = self.folder.path().join("case.toml");
-                    browser.remember(recents::looked_at(vec![recent]));
+            Effect::Work(number, mut work) => match work.slot {
+                Slot::Recents => {
+                    if let Some(Prompt::Browse(browser)) = self.app.prompts.last_mut() {
+                        let recent = self.folder.path().join("case.toml");
+                        browser.remember(recents::looked_at(vec![recent]));
+                    }
+                    Vec::new()
                 }
-                Vec::new()
-            }
-            // A search for a relief takes seconds, and no key needs its result.
-            Effect::Job(_, Job::Relief(_) | Job::Preview(Target::Folder(_), _)) => Vec::new(),
-            Effect::Job(number, job) => results(number, work_of(self.job_within(job))),
-            Effect::Work(number, work) => match work.slot {
-                Slot::Study | Slot::Chart | Slot::Benchmark => Vec::new(),
-                _ => results(number, work),
+                // A search for a relief takes seconds, and no key needs its result.
+                Slot::Study | Slot::Chart | Slot::Benchmark | Slot::Relief => Vec::new(),
+                Slot::Preview if !work.path.starts_with(self.folder.path()) => Vec::new(),
+                _ => {
+                    if !work.path.as_os_str().is_empty() {
+                        work.path = self.within(&work.path);
+                    }
+                    results(number, work)
+                }
             },
             Effect::Play(plays) => {
                 assert_eq!(plays, self.app.is_playing, "it ticks while something plays");
@@ -374,22 +377,6 @@ impl Bench {
 
     fn outside(&mut self, effect: Effect) -> Vec<Action> {
         effects::perform(effect, &mut self.autosave).into_iter().collect()
-    }
-
-    /// A job whose files are in the folder.
-    fn job_within(&self, job: Job) -> Job {
-        match job {
-            Job::Folder(asked, place) => Job::Folder(asked, self.within(&place)),
-            Job::Search(asked, place) => Job::Search(asked, self.within(&place)),
-            Job::Preview(Target::File(path), units) => {
-                Job::Preview(Target::File(self.within(&path)), units)
-            }
-            Job::Export(mut exporting) => {
-                exporting.path = self.within(&exporting.path);
-                Job::Export(exporting)
-            }
-            job => job,
-        }
     }
 
     /// A path limited to the folder.

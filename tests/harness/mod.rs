@@ -22,7 +22,7 @@ use tipstrike::tui::testing::actions::{self, Action, Effect, Work};
 use tipstrike::tui::testing::app::App;
 use tipstrike::tui::testing::commands::named as command;
 use tipstrike::tui::testing::dialogs::Prompt;
-use tipstrike::tui::testing::jobs::{Job, Slot, work_of};
+use tipstrike::tui::testing::jobs::Slot;
 use tipstrike::tui::testing::session::Autosave;
 use tipstrike::tui::testing::session::JournalWriter;
 use tipstrike::tui::testing::settings::Settings;
@@ -180,9 +180,10 @@ impl Desk {
                     Effect::Solve(request) => {
                         actions.push_back(Action::Solved(Box::new(solver::answer(&request))));
                     }
+                    Effect::Work(_, work) if work.slot == Slot::Recents => {
+                        show_recents(&mut self.app, &self.recents);
+                    }
                     Effect::Work(number, work) => actions.extend(results(number, work)),
-                    Effect::Job(_, Job::Recents) => show_recents(&mut self.app, &self.recents),
-                    Effect::Job(number, job) => actions.extend(results(number, work_of(job))),
                     Effect::Quit => self.has_quit = true,
                     Effect::Copy(text) => self.copied = Some(text),
                     Effect::Mouse(takes) => self.has_mouse = takes,
@@ -315,7 +316,7 @@ pub(crate) fn show_recents(app: &mut App, paths: &[PathBuf]) {
 
 /// The action that runs the command with a name.
 pub(crate) fn run(name: &str) -> Action {
-    Action::Do(command(name).next().expect("a command of that name"))
+    Action::Do(command(name).next().expect("a command of that name"), 1)
 }
 
 /// All results of work, which runs at once.
@@ -329,7 +330,6 @@ pub(crate) fn results(number: u64, work: Work) -> Vec<Action> {
 pub(crate) fn requested(effects: Vec<Effect>, slot: Slot) -> Option<(u64, Work)> {
     effects.into_iter().find_map(|effect| match effect {
         Effect::Work(number, work) if work.slot == slot => Some((number, work)),
-        Effect::Job(number, job) if job.slot() == slot => Some((number, work_of(job))),
         _ => None,
     })
 }

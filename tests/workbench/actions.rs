@@ -52,6 +52,12 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 6 +", "-", "l", "m = 5.05 mm:"),
     ("Esc 6 +", "0", "l", "m = 5.05 mm:"),
     ("Esc 6", "s", "", "Second field of the map"),
+    ("Esc 6", "r", "", "Range of the study"),
+    ("Esc 6", "v", "", "exact F_S"),
+    ("Esc 6", "p", "", "Field of the study"),
+    ("Esc 6", "o", "", "Result of the study"),
+    ("", ":sweep", "", "Range of the study"),
+    ("", ":spread", "", "Commands"),
     ("Esc 6", "d", "", "▸ 6 Tolerance 1 to 14 of 28"),
     ("Esc 6 d", "j", "", "▸ 6 Tolerance 2 to 15 of 28"),
     ("Esc 6 d j j", "k", "", "▸ 6 Tolerance 2 to 15 of 28"),
@@ -238,15 +244,13 @@ fn out(desk: &Desk) -> String {
 /// The line of the table for a key in the present state.
 fn called(desk: &Desk, key: &str) -> Option<usize> {
     if let Some(name) = key.strip_prefix(':').filter(|name| !name.is_empty()) {
-        return BINDINGS.iter().position(|binding| {
-            binding.name == name.replace('_', " ") && binding.chords.is_empty()
-        });
+        return BINDINGS
+            .iter()
+            .position(|binding| binding.name == name.replace('_', " ") && binding.keys.is_empty());
     }
     let key = if key == "BackTab" { "Shift-Tab" } else { key };
     let place = desk.app.place();
-    BINDINGS.iter().position(|binding| {
-        binding.places.meets(place) && binding.chords.iter().any(|chord| chord.name() == key)
-    })
+    BINDINGS.iter().position(|binding| binding.places.meets(place) && binding.way(key).is_some())
 }
 
 #[test]
@@ -289,7 +293,7 @@ fn the_help_has_every_key_with_its_sentence() {
     let lines = tipstrike::tui::testing::help::lines();
     for binding in BINDINGS.iter().filter(|binding| !binding.sentence.is_empty()) {
         let keys =
-            if binding.chords.is_empty() { format!(":{}", binding.name) } else { binding.keys() };
+            if binding.keys.is_empty() { format!(":{}", binding.name) } else { binding.keys() };
         let stands = |line: &String| {
             line.trim_start()
                 .strip_prefix(&keys)

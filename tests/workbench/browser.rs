@@ -265,7 +265,7 @@ fn a_folder_of_ten_thousand_is_read_once_and_a_key_requests_at_most_one_preview(
         desk.screen();
     }
     let count = |slot| {
-        let is_it = |effect: &&Effect| matches!(effect, Effect::Job(_, job) if job.slot() == slot);
+        let is_it = |effect: &&Effect| matches!(effect, Effect::Work(_, work) if work.slot == slot);
         asked.iter().filter(is_it).count()
     };
     let (previews, searches) = (count(Slot::Preview), count(Slot::Search));

@@ -6,7 +6,7 @@ use std::fs;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
 use tipstrike::tui::testing::actions::{Effect, of_key};
-use tipstrike::tui::testing::jobs::Job;
+use tipstrike::tui::testing::jobs::Slot;
 use tipstrike::tui::testing::update::update;
 
 /// A workbench on `pair.toml` with an unsaved edit.
@@ -106,7 +106,7 @@ fn one_export_runs_at_a_time_and_quitting_asks_about_it() {
     // The export is requested and not carried out.
     let accept = of_key(harness::event("Enter"), desk.app.place()).expect("an action");
     let effects = update(&mut desk.app, accept);
-    assert!(matches!(effects.first(), Some(Effect::Job(_, Job::Export(_)))));
+    assert!(matches!(effects.first(), Some(Effect::Work(_, work)) if work.slot == Slot::Export));
     desk.keys(&["Enter"]);
     desk.assert_shows("still runs: wait for its end");
     desk.keys(&["Esc", "Esc", "Ctrl-S", "Ctrl-Q"]);

@@ -6,8 +6,6 @@ use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::case::Change;
 use tipstrike::tui::testing::actions::Action;
-use tipstrike::tui::testing::dialogs::Prompt;
-use tipstrike::tui::testing::dialogs::Question;
 use tipstrike::tui::testing::session::Next;
 use tipstrike::tui::testing::session::SaveFault;
 use tipstrike::tui::testing::session::{Access, Claim, Offer};
@@ -73,7 +71,8 @@ const SCREENS: &[(&str, Way)] = &[
             changes,
             is_file_changed: true,
         };
-        desk.app.prompts.push(Prompt::Ask(Question::recover("case.toml", offer)));
+        let claim = Claim::of(desk.app.tab.id, Access::Own);
+        desk.act(Action::Claimed(Box::new(Claim { offers: vec![offer], ..claim })));
     }),
     ("quit", |desk| {
         desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-Q"]);

@@ -105,6 +105,74 @@ fn two_fields_make_a_map_with_a_limit_and_the_edge_of_contact() {
     }
 }
 
+fn key_and_ends(desk: &Desk) -> Vec<String> {
+    let shown = desk.app.tab.study.shown.as_ref().expect("a study");
+    let ends = shown.request.parameters.axes().iter().map(|axis| {
+        let last = axis.points.len() - 1;
+        format!("{} {} {} {last}", axis.key(), axis.with_unit(0), axis.with_unit(last))
+    });
+    ends.collect()
+}
+
+#[test]
+fn a_typed_range_makes_a_curve_or_a_map_and_a_usual_range_replaces_it() {
+    let mut desk = study(SMALL, "operation.speed");
+    desk.keys(&["r", "1000..1500 rpm, 6 points", "Enter"]);
+    assert_eq!(key_and_ends(&desk), ["operation.speed 1000 rpm 1500 rpm 5"]);
+    desk.keys(&["r", "5..2 rpm", "Enter"]);
+    assert!(desk.shows("the range is reversed"), "{}", desk.screen());
+    let map = "driven.tip_relief = 0..40 um, 5 points; operation.speed = 1..2 rpm, 2 points";
+    desk.keys(&["Ctrl-U", map, "Enter"]);
+    let expected = ["operation.speed 1 rpm 2 rpm 1", "driven.tip_relief 0 um 40 um 4"];
+    assert_eq!(key_and_ends(&desk), expected);
+    desk.keys(&["s", "p", "+"]);
+    assert!(key_and_ends(&desk)[0].starts_with("operation.speed 1500 rpm"));
+}
+
+#[test]
+fn the_sweep_command_studies_any_field_and_result_from_every_pane() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    desk.keys(&["Esc", ":", "sweep driven.tip_relief = 0..40 um, 5 points", "Enter"]);
+    assert_eq!(key_and_ends(&desk), ["driven.tip_relief 0 um 40 um 4"]);
+    desk.keys(&["o", "dynamic_factor", "Enter"]);
+    let shown = desk.app.tab.study.shown.as_ref().expect("a study");
+    assert_eq!(shown.quantity().map(|quantity| quantity.key), Some("dynamic_factor"));
+    desk.keys(&["p", "o"]);
+    let shown = desk.app.tab.study.shown.as_ref().expect("a study");
+    assert_eq!(shown.quantity().map(|quantity| quantity.key), Some("impact_force"));
+    assert!(!key_and_ends(&desk)[0].starts_with("driven.tip_relief"));
+}
+
+#[test]
+fn the_table_has_a_row_for_each_point_and_its_cursor_follows_them() {
+    let mut desk = study(SMALL, "operation.speed");
+    desk.keys(&["r", "1000..1500 rpm, 6 points", "Enter", "v", "l", "j"]);
+    assert_snapshot!("table_80x24", desk.screen());
+    assert_eq!(desk.app.tab.study.cursor, Some((5, 0)), "the present value is above the range");
+    desk.keys(&["k", "Enter"]);
+    assert_eq!(written(&desk, "operation.speed"), "1400 rpm");
+}
+
+#[test]
+fn the_shown_points_are_exported_as_by_the_command_that_is_named() {
+    for (name, part) in [
+        ("a.csv", "operation.speed [rpm],impact_force [N],outcome\n1000,"),
+        ("a.json", "{\"varied\":{\"operation.speed\":{\"value\":1000.0"),
+        ("a.svg", "<svg"),
+    ] {
+        let mut desk = study(SMALL, "operation.speed");
+        desk.keys(&["r", "1000..1500 rpm, 6 points", "Enter", "Alt-X"]);
+        assert!(desk.shows("case.csv"), "{}", desk.screen());
+        desk.keys(&[name, "Enter"]);
+        assert!(desk.read(name).contains(part), "{}", desk.read(name));
+    }
+    let mut desk = study(SMALL, "operation.speed");
+    desk.keys(&["r", "1000..1500 rpm, 6 points", "Enter", "y"]);
+    let command = "tipstrike sweep --vary 'operation.speed=1000..1500 rpm' --points 6 --only \
+        impact_force --format csv 'case.toml'";
+    assert_eq!(desk.copied.as_deref(), Some(command));
+}
+
 #[test]
 fn the_tolerance_fills_its_page_and_needs_distributions() {
     let mut desk = study(SMALL, "operation.speed");

@@ -3,14 +3,14 @@
 
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use ratatui::layout::{Position, Size};
 
 use super::App;
 use crate::case::Document;
-use crate::tui::jobs::{Job, Slot};
-use crate::tui::keys::{Chord, Place};
+use crate::tui::keys::Place;
 use crate::tui::session::save::{Claim, Next, SaveFault, Saving, Written};
 use crate::tui::settings::Settings;
 use crate::tui::solver::{Answer, Request};
@@ -18,8 +18,9 @@ use crate::tui::solver::{Answer, Request};
 /// A command with its keys: a row of the table of commands.
 #[derive(Debug, Clone, Copy)]
 pub struct Binding {
-    /// The keys of the command; empty if only the palette runs it.
-    pub chords: &'static [Chord],
+    /// The names of the keys, separated by blanks; empty if only the palette runs it. `l/h` are two
+    /// keys of opposite directions, `Alt-1..9` are nine keys.
+    pub keys: &'static str,
     /// The places in which the keys work.
     pub places: Place,
     /// One or two words for status line and palette, the same in every row of the command; empty if
@@ -28,15 +29,68 @@ pub struct Binding {
     /// One sentence for palette and help.
     pub sentence: &'static str,
     /// The places in which the status line shows it.
-    pub(crate) footer: Place,
-    pub(crate) run: fn(&mut App),
+    pub(crate) status: Place,
+    pub(crate) run: Run,
+}
+
+/// The function of a command.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Run {
+    Once(fn(&mut App)),
+    /// With the direction 1 or -1, or with a number.
+    Way(fn(&mut App, isize)),
+}
+
+impl Binding {
+    /// The row with its name in the status line of all its places.
+    pub(crate) const fn shown(self) -> Binding {
+        self.shown_in(self.places)
+    }
+
+    /// The row with its name in the status line of these places.
+    pub(crate) const fn shown_in(self, status: Place) -> Binding {
+        Binding { status, ..self }
+    }
+
+    /// The direction or number of a key; `None` if it is not a key of this row.
+    #[must_use]
+    pub fn way(&self, key: &str) -> Option<isize> {
+        self.keys.split(' ').find_map(|item| match both(item) {
+            (forth, _) if key == forth => Some(1),
+            (_, back) if key == back => Some(-1),
+            _ => key.strip_prefix(item.strip_suffix("1..9")?)?.parse().ok().filter(|way| *way > 0),
+        })
+    }
+
+    /// The name of the first key.
+    pub(crate) fn first_key(&self) -> &'static str {
+        both(self.keys.split(' ').next().unwrap_or_default()).0
+    }
+
+    /// The keys as text, without Ctrl-H.
+    #[must_use]
+    pub fn keys(&self) -> String {
+        self.keys.replace(" Ctrl-H", "").replace(' ', ", ")
+    }
+
+    pub(crate) fn run(&self, app: &mut App, way: isize) {
+        match self.run {
+            Run::Once(run) => run(app),
+            Run::Way(run) => run(app, way),
+        }
+    }
+}
+
+// The keys of both directions; a key without the opposite one has itself.
+fn both(item: &'static str) -> (&'static str, &'static str) {
+    item.split_once('/').filter(|(forth, _)| !forth.is_empty()).unwrap_or((item, item))
 }
 
 /// An event for the state: from a key, the mouse, the clock, a worker, or a completed effect.
 #[derive(Debug)]
 pub enum Action {
-    /// A command of the table.
-    Do(&'static Binding),
+    /// A command of the table, with its direction or number.
+    Do(&'static Binding, isize),
     /// A typed character.
     Insert(char),
     /// A letter without a command in the present place.
@@ -85,8 +139,6 @@ pub enum Effect {
     CancelSolve,
     /// Runs work with this number.
     Work(u64, Work),
-    /// Runs a job with this number, as work.
-    Job(u64, Job),
     /// Stops the work of a slot.
     Cancel(Slot),
     /// Reads a case and returns [`Action::Loaded`].
@@ -137,16 +189,66 @@ impl fmt::Debug for Change {
     }
 }
 
+/// A change of the state that a dialog offers.
+#[derive(Clone)]
+pub(crate) struct Choice(Arc<dyn Fn(&mut App) + Send + Sync>);
+
+impl Choice {
+    pub(crate) fn of(run: impl Fn(&mut App) + Send + Sync + 'static) -> Choice {
+        Choice(Arc::new(run))
+    }
+
+    /// The choice as a change.
+    pub(crate) fn change(&self) -> Change {
+        let run = Arc::clone(&self.0);
+        Change::of(move |app| run(app))
+    }
+}
+
+impl fmt::Debug for Choice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Choice")
+    }
+}
+
+/// A kind of work beside the loop. It has a thread, in which the latest request wins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "each is named after its work")]
+pub enum Slot {
+    Folder,
+    Search,
+    Preview,
+    Recents,
+    Model,
+    Explanation,
+    Report,
+    Export,
+    Variants,
+    Relief,
+    Study,
+    Chart,
+    Benchmark,
+}
+
+impl fmt::Display for Slot {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&format!("{self:?}").to_lowercase())
+    }
+}
+
 /// Work beside the loop.
 pub struct Work {
     /// The kind.
     pub slot: Slot,
+    /// The file or folder of the work, which a test redirects; empty without one.
+    pub path: PathBuf,
     run: Box<dyn FnOnce(&Running<'_>) + Send>,
     failed: Change,
 }
 
 /// Running work.
 pub(crate) struct Running<'a> {
+    pub(crate) path: &'a Path,
     is_wanted: &'a dyn Fn() -> bool,
     send: &'a dyn Fn(Change),
 }
@@ -182,7 +284,12 @@ impl Work {
         let failed = Change::of(move |app| {
             app.complain(format!("internal error: the {slot} failed"));
         });
-        Work { slot, run: Box::new(run), failed }
+        Work { slot, path: PathBuf::new(), run: Box::new(run), failed }
+    }
+
+    /// The same work on a file or folder.
+    pub(crate) fn at(self, path: PathBuf) -> Work {
+        Work { path, ..self }
     }
 
     /// The same work with another change of the state if it panics.
@@ -192,15 +299,18 @@ impl Work {
 
     /// Runs the work with a number and sends its results and its end.
     pub fn run(self, number: u64, is_wanted: &dyn Fn() -> bool, send: &dyn Fn(Action)) {
-        let Work { slot, run, failed } = self;
+        let Work { slot, path, run, failed } = self;
         let step = |change| send(Action::Worked(slot, number, change));
-        let running = Running { is_wanted, send: &step };
+        let running = Running { path: &path, is_wanted, send: &step };
         if catch_unwind(AssertUnwindSafe(|| run(&running))).is_err() {
             step(failed);
         }
         send(Action::WorkEnded(slot, number));
     }
 }
+
+/// What an export writes, once it is computed.
+pub(crate) type Content = Box<dyn FnOnce(&Running<'_>) -> Result<String, String> + Send>;
 
 impl fmt::Debug for Work {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

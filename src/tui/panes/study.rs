@@ -1,9 +1,10 @@
-//! The study pane: the selected result over the range of the focused field, a map over two fields,
-//! or the tolerance of the case.
+//! The study pane: a result over the range of a field, a map over two fields, the same as a table, or
+//! the tolerance of the case.
 
-mod curve;
+pub(crate) mod curve;
 mod map;
 pub(crate) mod range;
+mod table;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -16,7 +17,7 @@ use crate::case::{Case, FIELDS};
 use crate::model::Outcome;
 use crate::model::inputs::Method;
 use crate::report::chart::Axis;
-use crate::report::{common_unit, shown_in};
+use crate::report::{common_unit, shown_in, shown_with};
 use crate::study::axis::Axis as StudyAxis;
 use crate::study::batch::PointOutcome;
 use crate::study::batch::Refused;
@@ -40,10 +41,18 @@ const NO_CONTACT: &str = "_";
 const REFUSED: &str = "!";
 
 /// The state of the pane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct StudyState {
     /// Whether the pane shows the tolerance.
     pub(crate) is_tolerance: bool,
+    /// Whether the pane shows the points as a table.
+    pub(crate) is_table: bool,
+    /// The chosen field; otherwise the study follows the focused one.
+    pub(crate) field: Option<usize>,
+    /// The key of the chosen quantity; otherwise the study follows the selected result.
+    pub(crate) quantity: Option<&'static str>,
+    /// The typed ranges.
+    pub(crate) ranges: Vec<StudyAxis>,
     /// The second field of a map.
     pub(crate) second: Option<usize>,
     /// Number of halvings of the ranges; negative for doublings.
@@ -56,7 +65,7 @@ pub struct StudyState {
 #[derive(Debug, Clone)]
 pub(crate) struct StudyPane<'a> {
     /// The state of the pane.
-    pub(crate) state: StudyState,
+    pub(crate) state: &'a StudyState,
     /// The study of the open case.
     pub(crate) study: &'a Study,
     /// The case in the form.
@@ -101,6 +110,7 @@ pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
     let (about, width) = (below(pane, shown), usize::from(inner.width).saturating_sub(2));
     let (plot, words) = split(inner, text::wrap(&about, width).len());
     match grid.axes.as_slice() {
+        _ if pane.state.is_table => table::draw(pane, shown, grid, plot, buffer),
         [across] => curve::draw(pane, shown, across, plot, buffer),
         [up, across] => map::draw(pane, shown, (across, up), plot, buffer),
         _ => {}
@@ -120,7 +130,7 @@ pub(crate) fn hint(pane: &StudyPane<'_>) -> String {
         Some(StudyParameters::Tolerance(_)) => {
             format!("{SAMPLES} samples draw every field of [spread] from its distribution.")
         }
-        None => "The study varies the focused field over a range.".to_owned(),
+        None => "The study varies a field over a range; r types the range.".to_owned(),
     }
 }
 
@@ -136,7 +146,14 @@ pub(crate) fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
 #[must_use]
 pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(usize, usize)> {
     let shown = pane.study.shown.as_ref()?;
-    let moved = places(pane, shown).into_iter().zip([across, up]).map(|((axis, at), by)| {
+    let places = places(pane, shown);
+    if pane.state.is_table {
+        let [width, height] = [0, 1].map(|at| places.get(at).map_or(1, |(axis, _)| axis.points.len()));
+        let (x, y) = cursor(pane, shown);
+        let next = (y * width + x).saturating_add_signed(across - up).min(width * height - 1);
+        return Some((next % width, next / width));
+    }
+    let moved = places.into_iter().zip([across, up]).map(|((axis, at), by)| {
         at.saturating_add_signed(by).min(axis.points.len().saturating_sub(1))
     });
     let moved: Vec<usize> = moved.collect();
@@ -294,24 +311,35 @@ fn values_at_cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
     let settings: Vec<String> = settings.collect();
     let index = places.iter().rev().fold(0, |index, (axis, at)| index * axis.points.len() + at);
     let layers = grid.layers.iter().zip(&shown.layers);
-    let values: Vec<String> =
-        layers.filter_map(|(layer, found)| value(pane, layer, found, index)).collect();
+    let value = |(layer, found): (&Layer, &LayerFound)| {
+        let words = value_words(layer, found, index, pane.units, true)?;
+        Some(format!("{} {words}", layer.source.name()))
+    };
+    let values: Vec<String> = layers.filter_map(value).collect();
     format!("{}: {}", settings.join(", "), values.join(", "))
 }
 
-fn value(pane: &StudyPane<'_>, layer: &Layer, found: &LayerFound, at: usize) -> Option<String> {
-    let (name, known) = (layer.source.name(), layer.quantity()?);
-    let words = match (found.outcomes.get(at)?, found.values.get(at)?) {
-        (_, Some(value)) => format!(
-            "{} {}",
-            known.symbol_in(layer.inputs.method),
-            shown_in(known, *value, pane.units)
-        ),
+/// The value of a point, or why there is none; with the symbol and unit of the quantity.
+fn value_words(
+    layer: &Layer,
+    found: &LayerFound,
+    at: usize,
+    units: System,
+    has_name: bool,
+) -> Option<String> {
+    let known = layer.quantity()?;
+    Some(match (found.outcomes.get(at)?, found.values.get(at)?) {
+        (_, Some(value)) if has_name => {
+            format!("{} {}", known.symbol_in(layer.inputs.method), shown_in(known, *value, units))
+        }
+        (_, Some(value)) => {
+            let unit = common_unit(known, found.values.iter().flatten().copied(), units);
+            shown_with(known, *value, unit).number
+        }
         (PointOutcome::Refused, None) => "refused".to_owned(),
         (PointOutcome::Solved(Outcome::NoCornerContact), None) => "no contact".to_owned(),
         (PointOutcome::Solved(_), None) => "no value".to_owned(),
-    };
-    Some(format!("{name} {words}"))
+    })
 }
 
 /// The refused points of the first curve that has some: their number and the most frequent reason.

@@ -52,6 +52,16 @@ pub enum Target {
     Example(&'static Example),
 }
 
+impl Target {
+    /// The path; empty for an example.
+    pub(crate) fn path(&self) -> PathBuf {
+        match self {
+            Target::File(path) | Target::Folder(path) => path.clone(),
+            Target::Example(_) => PathBuf::new(),
+        }
+    }
+}
+
 /// The content of a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Listing {

@@ -3,30 +3,27 @@
 
 use std::collections::BTreeSet;
 
-use crossterm::event::KeyCode::{
-    BackTab, Backspace, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up,
-};
-use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+use crossterm::event::{KeyEvent, KeyEventKind};
 use ratatui::symbols::Marker;
 use tui_input::InputRequest as Line;
 
-use super::{dialogs, edit, export, files, navigation, panes, study, trade, variants};
+use super::{edit, export, files, navigation, panes, studies};
 use crate::case::{Acting, FIELDS, Field, relevance};
 use crate::model::inputs::Method;
+use crate::model::{QUANTITIES, Quantity};
+use crate::report::graphs::GRAPHS;
 use crate::tui::app::App;
-use crate::tui::app::actions::{Action, Binding, Effect};
-use crate::tui::dialogs::Prompt;
-use crate::tui::dialogs::page::Page;
-use crate::tui::dialogs::picker::{Context, Item, Pick, Picker};
-use crate::tui::keys::{
-    self, ALT, CTRL, Chord, Place, SHIFT, alt, ctrl, function, key, letter, with,
-};
+use crate::tui::app::actions::{Action, Binding, Choice, Effect, Run};
+use crate::tui::app::dialogs::Prompt;
+use crate::tui::app::dialogs::page::Page;
+use crate::tui::app::dialogs::picker::{Item, Picker, Typed};
+use crate::tui::jobs::WorkerChart;
+use crate::tui::keys::{self, Place};
 use crate::tui::layout::Pane;
 use crate::tui::panes::chart::ChartCommand as Chart;
 use crate::tui::panes::results::Results;
 use crate::tui::panes::teeth::TeethCommand as Teeth;
 use crate::tui::rows;
-use crate::tui::session::save::Next;
 use crate::tui::settings::marker_name;
 
 /// A command of the status line that the palette leaves out.
@@ -89,25 +86,19 @@ pub fn of_key(event: KeyEvent, place: Place) -> Option<Action> {
     if event.kind == KeyEventKind::Release {
         return None;
     }
-    let chord = Chord::of(event);
-    called(chord, place).map(Action::Do).or_else(|| typed(chord, place))
-}
-
-fn called(chord: Chord, place: Place) -> Option<&'static Binding> {
-    let mut bound = BINDINGS.iter().filter(|binding| binding.places.meets(place));
-    bound.find(|binding| binding.chords.contains(&chord))
-}
-
-fn typed(chord: Chord, place: Place) -> Option<Action> {
-    match chord {
-        Chord(KeyCode::Char(letter), KeyModifiers::NONE) if place.meets(Place::TYPED) => {
-            Some(Action::Insert(letter))
-        }
-        Chord(KeyCode::Char(letter), KeyModifiers::NONE) if place.meets(Place::OUTSIDE) => {
-            Some(Action::Stray(letter))
-        }
-        _ => None,
+    if let Some((command, way)) = called(&keys::name(event), place) {
+        return Some(Action::Do(command, way));
     }
+    let letter = keys::letter(event)?;
+    if place.meets(Place::TYPED) {
+        return Some(Action::Insert(letter));
+    }
+    place.meets(Place::OUTSIDE).then_some(Action::Stray(letter))
+}
+
+fn called(key: &str, place: Place) -> Option<(&'static Binding, isize)> {
+    let mut bound = BINDINGS.iter().filter(|binding| binding.places.meets(place));
+    bound.find_map(|binding| Some((binding, binding.way(key)?)))
 }
 
 /// The rows of the command with a name.
@@ -118,7 +109,8 @@ pub fn named(name: &str) -> impl Iterator<Item = &'static Binding> {
 /// The first key of the command with a name in a place, and its name in the palette if it has no
 /// key. Esc precedes a key that a field takes as text.
 pub(super) fn key_in(place: Place, name: &str) -> String {
-    let key = |binding: &Binding| binding.chords.first().map(Chord::name);
+    let key =
+        |binding: &Binding| Some(binding.first_key().to_owned()).filter(|key| !key.is_empty());
     let mut here = named(name).filter(|binding| binding.places.meets(place));
     let after_esc = || named(name).find_map(key).map(|key| format!("Esc {key}"));
     here.find_map(key).or_else(after_esc).unwrap_or_else(|| {
@@ -139,22 +131,133 @@ enum Scope {
 }
 
 /// The commands of the palette, those of the focused pane and field first.
-pub(crate) fn items(app: &App) -> Vec<Item> {
+fn items(app: &App) -> Vec<Item> {
     let mut seen = BTreeSet::new();
     let names = BINDINGS.iter().filter(|binding| is_listed(binding)).map(|binding| binding.name);
     let mut names: Vec<&str> = names.filter(|name| seen.insert(*name)).collect();
     names.sort_by_key(|name| scope(app, name));
+    let item = |name| {
+        let keys = named(name).map(Binding::keys).filter(|keys| !keys.is_empty());
+        let keys = keys.collect::<Vec<_>>().join(", ");
+        let command = named(name).next()?;
+        let choice = Choice::of(|app| command.run(app, 1));
+        Some(Item::command(choice, name.to_owned(), command.sentence.to_owned(), keys))
+    };
     names.into_iter().filter_map(item).collect()
 }
 
-fn item(name: &'static str) -> Option<Item> {
-    let keys = named(name).map(Binding::keys).filter(|keys| !keys.is_empty());
-    Some(Item {
-        pick: Pick::Run(name),
-        name: name.to_owned(),
-        about: named(name).next()?.sentence.to_owned(),
-        keys: keys.collect::<Vec<_>>().join(", "),
-    })
+/// What decides the order of fields and results in a list.
+#[derive(Debug, Clone, Default)]
+struct Context {
+    /// The keys of the present results.
+    results: Vec<&'static str>,
+    /// Whether results precede fields with equal scores.
+    are_results_first: bool,
+    /// The fields without effect in the case.
+    idle: Vec<usize>,
+}
+
+impl Context {
+    fn of(app: &App) -> Context {
+        let inputs = &app.tab.inputs_so_far;
+        let idle = |field: &usize| matches!(relevance(*field, inputs), Acting::No(_));
+        let every = Results { shows_every_method: true, ..app.results() };
+        Context {
+            results: every.listed().iter().map(|quantity| quantity.key).collect(),
+            are_results_first: app.layout.focus() == Pane::Results,
+            idle: (0..FIELDS.len()).filter(idle).collect(),
+        }
+    }
+
+    /// The fields of the form and the present results, in the preferred order.
+    fn places(&self) -> impl Iterator<Item = Item> {
+        let (of_fields, of_results) = if self.are_results_first { (2, 0) } else { (0, 2) };
+        let fields = FIELDS.iter().enumerate().map(|(at, field)| {
+            let loss = if self.idle.contains(&at) { IDLE } else { 0 };
+            let order = of_fields + usize::from(field.key != FOREMOST);
+            Item::field(Choice::of(move |app| panes::go_to(app, at)), field).ranked(loss, order)
+        });
+        let known = QUANTITIES.iter().filter(|quantity| self.results.contains(&quantity.key));
+        let known = known.map(|quantity| {
+            let Quantity { key, symbol, label, equation, .. } = quantity;
+            let about = format!("{symbol} {}, a result; {equation}", label.trim_start());
+            let choice = Choice::of(move |app| panes::show_result(app, key));
+            Item::result(choice, quantity, about).ranked(0, of_results)
+        });
+        if self.are_results_first {
+            known.chain(fields).collect::<Vec<_>>().into_iter()
+        } else {
+            fields.chain(known).collect::<Vec<_>>().into_iter()
+        }
+    }
+
+    /// Every field of the form, and every result.
+    fn search(&self) -> Picker {
+        Picker::new("Go to a field or a result", self.places(), &[])
+    }
+
+    /// Every command; a typed word also finds charts, fields and results.
+    fn palette(&self, commands: Vec<Item>) -> Picker {
+        let graphs = GRAPHS.iter().map(|graph| {
+            let symbols: Vec<_> = graph.all_columns().map(|column| column.symbol).collect();
+            (graph.label, format!("Show {} over the driver's roll angle.", symbols.join(", ")))
+        });
+        let others = WorkerChart::ALL.into_iter().map(|chart| {
+            let [name, about, _] = chart.words();
+            (name, about.to_owned())
+        });
+        let charts = graphs.chain(others).enumerate().map(|(at, (label, about))| {
+            let choice = Choice::of(move |app| panes::select_chart(app, at));
+            let name = format!("chart: {}", label.to_lowercase());
+            Item::command(choice, name, about, String::new())
+        });
+        let items = commands.into_iter().chain(charts).chain(self.places());
+        Picker::new("Commands", items, TYPED)
+    }
+}
+
+/// Penalty of fields without effect: they follow similar fields, but a typed symbol still finds
+/// them first.
+const IDLE: u32 = 9;
+/// The most frequent choice among fields with equal scores.
+const FOREMOST: &str = "driven.tip_relief";
+
+const TYPED: &[Typed] = &[
+    Typed {
+        name: "variant",
+        about: |name| format!("Keep the edits as variant {name}, or show that variant in the form."),
+        run: studies::keep_variant,
+    },
+    Typed {
+        name: "sweep",
+        about: |text| format!("Study a result over {text}."),
+        run: studies::set_range,
+    },
+    Typed {
+        name: "spread",
+        about: |text| format!("Sample the focused field in the tolerance: {text}."),
+        run: edit::set_spread,
+    },
+    Typed {
+        name: "export",
+        about: |name| format!("Write the report, the picture or the study to {name}."),
+        run: |app, name| export::begin(app, name.into(), false),
+    },
+];
+
+fn search(app: &mut App) {
+    app.prompts.push(Prompt::Pick(Context::of(app).search()));
+}
+
+fn palette(app: &mut App) {
+    type_command(app, "");
+}
+
+/// Opens the palette with a typed text.
+fn type_command(app: &mut App, typed: &str) {
+    let mut picker = Context::of(app).palette(items(app));
+    picker.input = typed.into();
+    app.prompts.push(Prompt::Pick(picker));
 }
 
 /// The scope of a command; in the form, the focused row decides too.
@@ -176,7 +279,7 @@ fn scope(app: &App, name: &str) -> Scope {
     }
     let is_of_some = |places: Place| !places.holds(Place::OUTSIDE);
     let scope = |binding: &Binding| {
-        let is_shown_here = binding.footer.meets(pane.place()) && is_of_some(binding.footer);
+        let is_shown_here = binding.status.meets(pane.place()) && is_of_some(binding.status);
         match binding.places {
             places if is_of_some(places) && !places.meets(place) => Scope::Elsewhere,
             places if is_of_some(places) || is_shown_here => Scope::Own,
@@ -186,324 +289,284 @@ fn scope(app: &App, name: &str) -> Scope {
     named(name).map(scope).min().unwrap_or(Scope::Everywhere)
 }
 
-impl Binding {
-    /// The keys as text, without Ctrl-H.
-    #[must_use]
-    pub fn keys(&self) -> String {
-        let names = self.chords.iter().filter(|chord| **chord != keys::ctrl('h')).map(Chord::name);
-        names.collect::<Vec<_>>().join(", ")
-    }
-}
-
 /// Every key of the workbench, in the order of the help; the status line shows as many as fit.
 #[rustfmt::skip]
 pub static BINDINGS: &[Binding] = &[
     // Outside fields, where letters are commands.
-    shown(Place::FIELD, &[key(Enter), letter('i')], edit::begin, "edit",
-        "Type into the focused field; Esc leaves it."),
-    shown(Place::RESULTS, &[key(Enter)], dialogs::explain, "explain",
-        "Explain the selected result."),
-    shown(Place::RESULTS, &[letter('v')], variants::next, "variants",
+    row(Place::FIELD, "Enter i", "edit", edit::begin,
+        "Type into the focused field; Esc leaves it.").shown(),
+    row(Place::RESULTS, "Enter", "explain", panes::explain,
+        "Explain the selected result.").shown(),
+    row(Place::RESULTS, "v", "variants", studies::next_variants,
         "Show the variants of the case with their differences; again: the next variants, then the \
-            methods."),
-    shown(Place::TRADE, &[key(Enter)], trade::take, "apply setting",
-        "Use the selected setting in the case."),
-    shown(Place::TRADE, &[letter('m')], trade::measure, "measure",
-        "Benchmark every method and setting with this case on this machine."),
-    shown(Place::TRADE, &[letter('v')], trade::switch_view, "chart/table",
-        "Switch between the chart of all settings and the table of methods and compliances."),
-    helped(Place::TRADE, &[letter('l'), letter('j'), key(Right), key(Down)], |app| navigation::step(app, 1),
-        "Select the next slower setting."),
-    helped(Place::TRADE, &[letter('h'), letter('k'), key(Left), key(Up)], |app| navigation::step(app, -1),
-        "Select the next faster setting."),
-    shown(Place::CURSOR, &[letter(' ')], panes::play, "play",
-        "Play the visible part of the contact, or stop."),
-    helped(Place::CURSOR, &[letter('h'), key(Left)], |app| panes::step_cursor(app, -1),
-        "Move the cursor one column towards D."),
-    shown(Place::CURSOR, &[letter('l'), key(Right)], |app| panes::step_cursor(app, 1), "cursor",
-        "Move the cursor one column towards E."),
-    helped(Place::CURSOR, &[letter('H'), with(SHIFT, Left)], |app| panes::step_cursor(app, -10),
-        "Move the cursor ten columns towards D."),
-    helped(Place::CURSOR, &[letter('L'), with(SHIFT, Right)], |app| panes::step_cursor(app, 10),
-        "Move the cursor ten columns towards E."),
-    listed(Place::CURSOR, &[key(Home)], panes::cursor_to_start, "cursor to D",
+            methods.").shown(),
+    row(Place::TRADE, "Enter", "apply setting", studies::take_setting,
+        "Use the selected setting in the case.").shown(),
+    row(Place::TRADE, "m", "measure", studies::measure,
+        "Benchmark every method and setting with this case on this machine.").shown(),
+    row(Place::TRADE, "v", "chart/table", studies::switch_view,
+        "Switch between the chart of all settings and the table of methods and compliances.").shown(),
+    pair(Place::TRADE, "l/h j/k Right/Left Down/Up", "", navigation::step,
+        "Select the next slower or faster setting."),
+    row(Place::CURSOR, "Space", "play", panes::play,
+        "Play the visible part of the contact, or stop.").shown(),
+    pair(Place::CURSOR, "l/h Right/Left", "cursor", panes::step_cursor,
+        "Move the cursor one column towards E or D.").shown(),
+    pair(Place::CURSOR, "L/H Shift-Right/Shift-Left", "", |app, by| panes::step_cursor(app, 10 * by),
+        "Move the cursor ten columns towards E or D."),
+    row(Place::CURSOR, "Home", "cursor to D", panes::cursor_to_start,
         "Move the cursor to the first contact D."),
-    listed(Place::CURSOR, &[key(End)], panes::cursor_to_end, "cursor to E",
+    row(Place::CURSOR, "End", "cursor to E", panes::cursor_to_end,
         "Move the cursor to E, where the normal path of contact begins."),
-    listed(Place::OUTSIDE, &[letter('a')], panes::ask_cursor, "cursor to angle",
+    row(Place::OUTSIDE, "a", "cursor to angle", panes::ask_cursor,
         "Move the cursor to a roll angle, a time, D, E, B, L or the peak."),
-    helped(Place::WORKER_CHART, &[letter('h'), key(Left)], |app| panes::run_chart(app, Chart::Move(-1)),
-        "Move the cursor of a chart with its own axes one point left."),
-    shown(Place::WORKER_CHART, &[letter('l'), key(Right)], |app| panes::run_chart(app, Chart::Move(1)), "point",
-        "Move the cursor of a chart with its own axes one point right."),
-    helped(Place::WORKER_CHART, &[letter('H'), with(SHIFT, Left)], |app| panes::run_chart(app, Chart::Move(-10)),
-        "Move that cursor ten points left."),
-    helped(Place::WORKER_CHART, &[letter('L'), with(SHIFT, Right)], |app| panes::run_chart(app, Chart::Move(10)),
-        "Move that cursor ten points right."),
-    listed(Place::CURSOR.or(Place::WORKER_CHART), &[letter('c')], panes::hide_cursor, "hide cursor", "Hide the cursor."),
-    shown(Place::CHARTS, &[letter('j'), key(Down)], |app| panes::run_chart(app, Chart::Step(1)), "next chart", "Show the next chart."),
-    listed(Place::CHARTS, &[letter('k'), key(Up)], |app| panes::run_chart(app, Chart::Step(-1)), "previous chart",
+    pair(Place::WORKER_CHART, "l/h Right/Left", "point", |app, by| panes::run_chart(app, Chart::Move(by)),
+        "Move the cursor of a chart with its own axes one point right or left.").shown(),
+    pair(Place::WORKER_CHART, "L/H Shift-Right/Shift-Left", "", |app, by| panes::run_chart(app, Chart::Move(10 * by)),
+        "Move that cursor ten points right or left."),
+    row(Place::CURSOR.or(Place::WORKER_CHART), "c", "hide cursor", panes::hide_cursor, "Hide the cursor."),
+    row(Place::CHARTS, "j Down", "next chart", |app| panes::run_chart(app, Chart::Step(1)),
+        "Show the next chart.").shown(),
+    row(Place::CHARTS, "k Up", "previous chart", |app| panes::run_chart(app, Chart::Step(-1)),
         "Show the previous chart."),
-    shown(Place::CHART, &[letter('+'), letter('=')], |app| panes::run_chart(app, Chart::Zoom(1)), "zoom in",
-        "Zoom the charts in, around the cursor or D."),
-    shown(Place::CHART, &[letter('-')], |app| panes::run_chart(app, Chart::Zoom(-1)), "zoom out",
-        "Zoom the charts out, up to the whole contact."),
-    shown(Place::CHART, &[letter('0')], |app| panes::run_chart(app, Chart::Whole), "whole contact",
-        "Show the whole contact in the charts, from D to the last contact."),
-    shown(Place::CHART, &[letter('v')], |app| panes::run_chart(app, Chart::Strike), "strike",
-        "Show the charts from D to shortly after E, or the whole contact."),
-    shown(Place::CHART, &[letter('t')], |app| panes::run_chart(app, Chart::Time), "time axis",
-        "Switch the x axis of the charts: roll angle before E or time after E."),
-    shown(Place::TEETH, &[letter('+'), letter('=')], |app| panes::run_teeth(app, Teeth::Zoom(1)), "closer", "Zoom the teeth in."),
-    shown(Place::TEETH, &[letter('-')], |app| panes::run_teeth(app, Teeth::Zoom(-1)), "farther",
-        "Zoom the teeth out, up to the whole pair."),
-    listed(Place::TEETH, &[letter('0')], |app| panes::run_teeth(app, Teeth::Reset), "reset teeth",
+    row(Place::CHART, "+ =", "zoom in", |app| panes::run_chart(app, Chart::Zoom(1)),
+        "Zoom the charts in, around the cursor or D.").shown(),
+    row(Place::CHART, "-", "zoom out", |app| panes::run_chart(app, Chart::Zoom(-1)),
+        "Zoom the charts out, up to the whole contact.").shown(),
+    row(Place::CHART, "0", "whole contact", |app| panes::run_chart(app, Chart::Whole),
+        "Show the whole contact in the charts, from D to the last contact.").shown(),
+    row(Place::CHART, "v", "strike", |app| panes::run_chart(app, Chart::Strike),
+        "Show the charts from D to shortly after E, or the whole contact.").shown(),
+    row(Place::CHART, "t", "time axis", |app| panes::run_chart(app, Chart::Time),
+        "Switch the x axis of the charts: roll angle before E or time after E.").shown(),
+    row(Place::TEETH, "+ =", "closer", |app| panes::run_teeth(app, Teeth::Zoom(1)),
+        "Zoom the teeth in.").shown(),
+    row(Place::TEETH, "-", "farther", |app| panes::run_teeth(app, Teeth::Zoom(-1)),
+        "Zoom the teeth out, up to the whole pair.").shown(),
+    row(Place::TEETH, "0", "reset teeth", |app| panes::run_teeth(app, Teeth::Reset),
         "Show the teeth around the strike again."),
-    shown(Place::TEETH, &[letter('v'), letter('j'), key(Down)], |app| panes::run_teeth(app, Teeth::Centre(1)), "view",
-        "Switch the view of the teeth: strike, pitch point or whole pair."),
-    helped(Place::TEETH, &[letter('k'), key(Up)], |app| panes::run_teeth(app, Teeth::Centre(-1)),
-        "Show the previous view."),
-    listed(Place::TEETH, &[letter('x')], |app| panes::run_teeth(app, Teeth::Gap), "gap",
+    pair(Place::TEETH, "v j/k Down/Up", "view", |app, by| panes::run_teeth(app, Teeth::Centre(by)),
+        "Switch the view of the teeth: strike, pitch point or whole pair.").shown(),
+    row(Place::TEETH, "x", "gap", |app| panes::run_teeth(app, Teeth::Gap),
         "Draw the gap between the teeth enlarged by the printed factor, or true to scale."),
-    shown(Place::STUDY, &[key(Enter)], study::take, "use value",
-        "Use the value at the cursor in the case."),
-    helped(Place::STUDY, &[letter('h'), key(Left)], |app| study::move_cursor(app, -1, 0),
-        "Move the cursor of the study left."),
-    shown(Place::STUDY, &[letter('l'), key(Right)], |app| study::move_cursor(app, 1, 0), "move",
-        "Move the cursor of the study right."),
-    helped(Place::STUDY, &[with(SHIFT, Left)], |app| study::move_cursor(app, -10, 0),
-        "Move the cursor of the study ten points left."),
-    helped(Place::STUDY, &[with(SHIFT, Right)], |app| study::move_cursor(app, 10, 0),
-        "Move the cursor of the study ten points right."),
-    helped(Place::STUDY, &[letter('j'), key(Down)], |app| study::move_cursor(app, 0, -1),
-        "Move the cursor of the map down."),
-    helped(Place::STUDY, &[letter('k'), key(Up)], |app| study::move_cursor(app, 0, 1),
-        "Move the cursor of the map up."),
-    shown(Place::STUDY, &[letter('+'), letter('=')], |app| study::zoom(app, 1), "narrower",
-        "Halve the range of the study around the present value."),
-    shown(Place::STUDY, &[letter('-')], |app| study::zoom(app, -1), "wider",
-        "Double the range of the study, up to the limits of the field."),
-    listed(Place::STUDY, &[letter('0')], study::reset_range, "usual range",
+    row(Place::STUDY, "Enter", "use value", studies::take,
+        "Use the value at the cursor in the case.").shown(),
+    pair(Place::STUDY, "l/h Right/Left", "move", |app, by| studies::move_cursor(app, by, 0),
+        "Move the cursor of the study right or left.").shown(),
+    pair(Place::STUDY, "Shift-Right/Shift-Left", "", |app, by| studies::move_cursor(app, 10 * by, 0),
+        "Move the cursor of the study ten points right or left."),
+    pair(Place::STUDY, "k/j Up/Down", "", |app, by| studies::move_cursor(app, 0, by),
+        "Move the cursor of the map up or down."),
+    row(Place::STUDY, "+ =", "narrower", |app| studies::zoom(app, 1),
+        "Halve the range of the study around the present value.").shown(),
+    row(Place::STUDY, "-", "wider", |app| studies::zoom(app, -1),
+        "Double the range of the study, up to the limits of the field.").shown(),
+    row(Place::STUDY, "0", "usual range", studies::reset_range,
         "Show the usual range of the study again."),
-    shown(Place::STUDY, &[letter('s')], study::second, "second field",
-        "Choose a second field for a map, or go back to the curve."),
-    shown(Place::TOLERANCE, &[letter('j'), key(Down)], |app| study::scroll(app, 1), "scroll",
-        "Scroll the tolerance one line down."),
-    helped(Place::TOLERANCE, &[letter('k'), key(Up)], |app| study::scroll(app, -1),
-        "Scroll the tolerance one line up."),
-    shown(Place::TOLERANCE, &[letter('l'), key(Right), key(PageDown)], |app| study::page(app, 1),
-        "next page", "Go to the next page of the tolerance."),
-    helped(Place::TOLERANCE, &[letter('h'), key(Left), key(PageUp)], |app| study::page(app, -1),
-        "Go to the previous page of the tolerance."),
-    shown(Place::STUDY.or(Place::TOLERANCE), &[letter('d')], study::tolerance, "tolerance",
-        "Sample the distributions of [spread], or show the curve again."),
-    shown_in(Place::OUTSIDE, Place::COMMANDED, &[letter('/')], |app| list(app, Picker::places, ""), "search",
-        "Find a field or a result by name, symbol, key or a word of its help."),
-    shown_in(Place::FIELD, Place::WORK, &[alt('g')], edit::ask_material, "material",
-        "Give this gear, or both gears, a material of the catalogue."),
-    shown_in(Place::RESULTS, Place::OUTSIDE, &[letter('n')], dialogs::notes, "notes",
-        "Show the outcome, the limits and every note in full."),
-    shown_in(Place::RESULTS, Place::OUTSIDE, &[letter('f')], |app| app.shows_every_method = !app.shows_every_method, "other methods",
-        "Show the free impact and the other methods beside the method of the case, or fold them."),
-    shown_in(Place::RESULTS, Place::WORK, &[alt('l')], edit::ask_limit, "limit",
-        "Set a limit on the selected result, or on a result from a list."),
-    shown_in(Place::OUTSIDE, Place::COMMANDED, &[letter(':')], |app| list(app, Picker::commands, ""), "commands",
+    row(Place::STUDY, "r", "range", studies::ask_range,
+        "Type the range of the study, such as 50..200 N m, or two ranges for a map.").shown(),
+    row(Place::STUDY, "v", "curve/table", studies::table,
+        "Switch between the curve or map and the table of its points.").shown(),
+    row(Place::STUDY, "p", "field", studies::first,
+        "Choose the field of the study, or follow the focused field again.").shown(),
+    row(Place::STUDY, "o", "result", studies::result,
+        "Choose the result of the study, or follow the selected result again.").shown(),
+    row(Place::STUDY, "s", "second field", studies::second,
+        "Choose a second field for a map, or go back to the curve.").shown(),
+    pair(Place::TOLERANCE, "j/k Down/Up", "scroll", studies::scroll,
+        "Scroll the tolerance one line down or up.").shown(),
+    pair(Place::TOLERANCE, "l/h Right/Left PageDown/PageUp", "next page", studies::page,
+        "Go to the next or previous page of the tolerance.").shown(),
+    row(Place::STUDY.or(Place::TOLERANCE), "d", "tolerance", studies::tolerance,
+        "Sample the distributions of [spread], or show the curve again.").shown(),
+    row(Place::COMMANDED, "/", "search", search,
+        "Find a field or a result by name, symbol, key or a word of its help.").shown_in(Place::OUTSIDE),
+    row(Place::WORK, "Alt-G", "material", edit::ask_material,
+        "Give this gear, or both gears, a material of the catalogue.").shown_in(Place::FIELD),
+    row(Place::OUTSIDE, "n", "notes", panes::notes,
+        "Show the outcome, the limits and every note in full.").shown_in(Place::RESULTS),
+    row(Place::OUTSIDE, "f", "other methods", |app| app.shows_every_method = !app.shows_every_method,
+        "Show the free impact and the other methods beside the method of the case, or fold them.").shown_in(Place::RESULTS),
+    row(Place::WORK, "Alt-L", "limit", edit::ask_limit,
+        "Set a limit on the selected result, or on a result from a list.").shown_in(Place::RESULTS),
+    row(Place::COMMANDED, ":", "commands", palette,
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
-            there."),
-    shown(Place::OUTSIDE, &[letter('q')], files::quit, "quit", "Quit; asks if there are unsaved edits."),
-    shown(Place::OUTSIDE, &[letter('?')], help_page, "help", "Show this page."),
-    shown(Place::OUTSIDE, &[key(Tab)], |app| panes::step(app, 1), "next pane", "Go to the next pane."),
-    listed(Place::OUTSIDE, &[key(BackTab)], |app| panes::step(app, -1), "previous pane",
+            there.").shown_in(Place::OUTSIDE),
+    row(Place::OUTSIDE, "q", "quit", files::quit, "Quit; asks if there are unsaved edits.").shown(),
+    row(Place::OUTSIDE, "?", "help", help_page, "Show this page.").shown(),
+    row(Place::OUTSIDE, "Tab", "next pane", |app| panes::step(app, 1),
+        "Go to the next pane.").shown(),
+    row(Place::OUTSIDE, "Shift-Tab", "previous pane", |app| panes::step(app, -1),
         "Go to the previous pane."),
-    shown(Place::OUTSIDE, &[letter('u')], edit::undo, "undo", "Undo the last edit."),
-    shown(Place::OUTSIDE, &[letter('b')], variants::toggle_baseline, "baseline",
-        "Pin the results as the baseline to compare with, or unpin them."),
-    shown(Place::OUTSIDE, &[letter('y')], export::copy_value, "copy value",
-        "Copy the focused value, or the values at the cursor, to the clipboard of the terminal."),
-    shown(Place::OUTSIDE, &[letter('Y')], export::copy_results, "copy results",
+    row(Place::OUTSIDE, "u", "undo", edit::undo, "Undo the last edit.").shown(),
+    row(Place::OUTSIDE, "b", "baseline", studies::toggle_baseline,
+        "Pin the results as the baseline to compare with, or unpin them.").shown(),
+    row(Place::OUTSIDE, "y", "copy value", export::copy_value,
+        "Copy the focused value, the values at the cursor, or the command that repeats the study, to \
+            the clipboard of the terminal.").shown(),
+    row(Place::OUTSIDE, "Y", "copy results", export::copy_results,
         "Copy title, verdict, inputs and results with their units to the clipboard of the \
-            terminal."),
-    shown(Place::OUTSIDE, &[letter('z')], panes::zoom, "zoom",
-        "Show the focused pane alone, or all panes."),
-    listed(Place::OUTSIDE, &[letter('1')], |app| panes::show(app, Pane::Form), "form", "Go to the form."),
-    listed(Place::OUTSIDE, &[letter('2')], |app| panes::show(app, Pane::Results), "results", "Go to the results."),
-    listed(Place::OUTSIDE, &[letter('3')], |app| panes::show(app, Pane::Chart), "chart", "Go to the chart."),
-    listed(Place::OUTSIDE, &[letter('4')], |app| panes::show(app, Pane::Teeth), "teeth", "Go to the teeth."),
-    listed(Place::OUTSIDE, &[letter('5')], |app| panes::show(app, Pane::Trade), "trade",
+            terminal.").shown(),
+    row(Place::OUTSIDE, "z", "zoom", panes::zoom,
+        "Show the focused pane alone, or all panes.").shown(),
+    row(Place::OUTSIDE, "1", "form", |app| panes::show(app, Pane::Form), "Go to the form."),
+    row(Place::OUTSIDE, "2", "results", |app| panes::show(app, Pane::Results),
+        "Go to the results."),
+    row(Place::OUTSIDE, "3", "chart", |app| panes::show(app, Pane::Chart), "Go to the chart."),
+    row(Place::OUTSIDE, "4", "teeth", |app| panes::show(app, Pane::Teeth), "Go to the teeth."),
+    row(Place::OUTSIDE, "5", "trade", |app| panes::show(app, Pane::Trade),
         "Go to accuracy against run time."),
-    listed(Place::OUTSIDE, &[letter('6')], |app| panes::show(app, Pane::Study), "study",
+    row(Place::OUTSIDE, "6", "study", |app| panes::show(app, Pane::Study),
         "Go to the study: the selected result over a range of the focused field."),
-    helped(Place::FIELD.or(Place::RESULTS), &[letter('j'), key(Down)], |app| navigation::step(app, 1), "Go to the next line."),
-    helped(Place::FIELD.or(Place::RESULTS), &[letter('k'), key(Up)], |app| navigation::step(app, -1),
-        "Go to the previous line."),
-    helped(Place::FIELD.or(Place::RESULTS), &[letter('l'), key(Right)], |app| navigation::leap(app, 1),
-        "Go to the next group, or page of results."),
-    helped(Place::FIELD.or(Place::RESULTS), &[letter('h'), key(Left)], |app| navigation::leap(app, -1),
-        "Go to the previous group, or page of results."),
-    helped(Place::FIELD.or(Place::RESULTS), &[letter('g'), key(Home)], |app| navigation::go_to_end(app, -1), "Go to the first line."),
-    helped(Place::FIELD.or(Place::RESULTS), &[letter('G'), key(End)], |app| navigation::go_to_end(app, 1), "Go to the last line."),
+    pair(Place::FIELD.or(Place::RESULTS), "j/k Down/Up", "", navigation::step, "Go to the next or previous line."),
+    pair(Place::FIELD.or(Place::RESULTS), "l/h Right/Left", "", navigation::leap,
+        "Go to the next or previous group, or page of results."),
+    pair(Place::FIELD.or(Place::RESULTS), "G/g End/Home", "", navigation::go_to_end, "Go to the last or first line."),
     // Everywhere.
-    shown(Place::WORK, &[function(1), alt('h')], help_page, "help", "Show this page."),
-    shown(Place::WORK, &[ctrl('s')], |app| files::save(app, Next::Stay), "save",
-        "Save the case; the file keeps its comments and order."),
-    shown(Place::WORK, &[ctrl('p')], |app| list(app, Picker::commands, ""), "commands",
+    row(Place::WORK, "F1 Alt-H", "help", help_page, "Show this page.").shown(),
+    row(Place::WORK, "Ctrl-S", "save", files::save_here,
+        "Save the case; the file keeps its comments and order.").shown(),
+    row(Place::WORK, "Ctrl-P", "commands", palette,
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
-            there."),
-    shown(Place::WORK, &[ctrl('o')], |app| dialogs::open_browser(app, false), "open", "Open another case in a tab."),
-    shown(Place::WORK, &[ctrl('q')], files::quit, "quit", "Quit; asks if there are unsaved edits."),
-    shown(Place::FORM, &[key(Esc)], navigation::leave, LEAVE_FIELD,
-        "Leave the field and keep its value; letters and digits are then commands."),
-    shown(Place::WORK, &[ctrl('t'), function(6)], edit::next_method, "method",
-        "Switch the method: paper, exact, static, dynamic, auto."),
-    listed(Place::WORK, &[], |app| edit::set_method(app, Method::Paper), "method paper",
+            there.").shown(),
+    row(Place::WORK, "Ctrl-O", "open", navigation::open_browser,
+        "Open another case in a tab.").shown(),
+    row(Place::WORK, "Ctrl-Q", "quit", files::quit,
+        "Quit; asks if there are unsaved edits.").shown(),
+    row(Place::FORM, "Esc", LEAVE_FIELD, navigation::leave,
+        "Leave the field and keep its value; letters and digits are then commands.").shown(),
+    row(Place::WORK, "Ctrl-T F6", "method", edit::next_method,
+        "Switch the method: paper, exact, static, dynamic, auto.").shown(),
+    row(Place::WORK, "", "method paper", |app| edit::set_method(app, Method::Paper),
         "Use the closed form as printed."),
-    listed(Place::WORK, &[], |app| edit::set_method(app, Method::Exact), "method exact",
+    row(Place::WORK, "", "method exact", |app| edit::set_method(app, Method::Exact),
         "Use the closed form with the exact first contact."),
-    listed(Place::WORK, &[], |app| edit::set_method(app, Method::Static), "method static",
+    row(Place::WORK, "", "method static", |app| edit::set_method(app, Method::Static),
         "Use the static load sharing of all pairs in contact."),
-    listed(Place::WORK, &[], |app| edit::set_method(app, Method::Dynamic), "method dynamic",
+    row(Place::WORK, "", "method dynamic", |app| edit::set_method(app, Method::Dynamic),
         "Use the motion with inertia and damping."),
-    listed(Place::WORK, &[], |app| edit::set_method(app, Method::Auto), "method auto",
+    row(Place::WORK, "", "method auto", |app| edit::set_method(app, Method::Auto),
         "Use the fastest of exact, static and dynamic within the tolerance."),
-    shown(Place::WORK, &[ctrl('z')], edit::undo, "undo", "Undo the last edit."),
-    shown(Place::WORK, &[function(5), alt('p')], panes::cycle_lower, "switch",
-        "Switch the lower area: chart, teeth, trade, study."),
-    listed(Place::WORK, &[function(9)], panes::zoom, "zoom",
-        "Show the focused pane alone, or all panes."),
-    listed(Place::WORK, &[function(4), with(CTRL, Down)], |app| navigation::turn(app, 1), "results down",
+    row(Place::WORK, "Ctrl-Z", "undo", edit::undo, "Undo the last edit.").shown(),
+    row(Place::WORK, "F5 Alt-P", "switch", panes::cycle_lower,
+        "Switch the lower area: chart, teeth, trade, study.").shown(),
+    row(Place::WORK, "F9", "zoom", panes::zoom, "Show the focused pane alone, or all panes."),
+    row(Place::WORK, "F4 Ctrl-Down", "results down", |app| navigation::turn(app, 1),
         "Scroll the results down."),
-    listed(Place::WORK, &[function(3), with(CTRL, Up)], |app| navigation::turn(app, -1), "results up", "Scroll the results up."),
-    listed(Place::WORK, &[function(2), alt('s')], |app| files::ask_where(app, Next::Stay), "save as", "Save under another name."),
-    listed(Place::WORK, &[], files::ask_reload, "reload",
+    row(Place::WORK, "F3 Ctrl-Up", "results up", |app| navigation::turn(app, -1),
+        "Scroll the results up."),
+    row(Place::WORK, "F2 Alt-S", "save as", files::ask_where,
+        "Save under another name."),
+    row(Place::WORK, "", "reload", files::ask_reload,
         "Read the file of the case again; asks if there are unsaved edits."),
-    listed(Place::WORK, &[alt('x')], export::ask, "export",
+    row(Place::WORK, "Alt-X", "export", export::ask,
         "Write the report (.html, .md, .csv, .json) or the shown chart or teeth (.svg) to a file."),
-    listed(Place::WORK, &[ctrl('n')], files::fresh_tab, "new",
+    row(Place::WORK, "Ctrl-N", "new", files::fresh_tab,
         "Start an empty case: required fields are marked, the others show their defaults."),
-    listed(Place::WORK, &[alt('n')], edit::ask_example, "from example",
+    row(Place::WORK, "Alt-N", "from example", files::ask_example,
         "Start a case from one of the examples."),
-    listed(Place::WORK, &[alt('t')], files::built_in, "Table 1",
+    row(Place::WORK, "Alt-T", "Table 1", files::built_in,
         "Show the built-in example, Table 1 of the paper."),
-    listed(Place::WORK.or(Place::BROWSE), &[alt('r')], dialogs::open_recent, "recent cases", "Open a recent case."),
-    listed(Place::WORK, &[with(CTRL, PageDown)], |app| files::step_tab(app, 1), "next case",
+    row(Place::WORK.or(Place::BROWSE), "Alt-R", "recent cases", navigation::open_recent,
+        "Open a recent case."),
+    row(Place::WORK, "Ctrl-PageDown", "next case", |app| files::step_tab(app, 1),
         "Switch to the next tab."),
-    listed(Place::WORK, &[with(CTRL, PageUp)], |app| files::step_tab(app, -1), "previous case",
+    row(Place::WORK, "Ctrl-PageUp", "previous case", |app| files::step_tab(app, -1),
         "Switch to the previous tab."),
-    listed(Place::WORK, &[alt('w')], files::close, "close case",
+    row(Place::WORK, "Alt-W", "close case", files::close,
         "Close the case and its tab; asks if there are unsaved edits."),
-    helped(Place::WORK, &[alt('1')], |app| files::go_to_tab(app, 0),
-        "Switch to the first tab; Alt-2 to Alt-9 switch to the others."),
-    unlisted(&[alt('2')], |app| files::go_to_tab(app, 1)),
-    unlisted(&[alt('3')], |app| files::go_to_tab(app, 2)),
-    unlisted(&[alt('4')], |app| files::go_to_tab(app, 3)),
-    unlisted(&[alt('5')], |app| files::go_to_tab(app, 4)),
-    unlisted(&[alt('6')], |app| files::go_to_tab(app, 5)),
-    unlisted(&[alt('7')], |app| files::go_to_tab(app, 6)),
-    unlisted(&[alt('8')], |app| files::go_to_tab(app, 7)),
-    unlisted(&[alt('9')], |app| files::go_to_tab(app, 8)),
-    listed(Place::WORK, &[], |app| list(app, Picker::commands, "variant "), "variant",
+    pair(Place::WORK, "Alt-1..9", "", |app, number| files::go_to_tab(app, number.unsigned_abs() - 1),
+        "Switch to the tab with this number."),
+    row(Place::WORK, "", "variant", |app| type_command(app, "variant "),
         "Save the edits since the last save as a variant: type variant NAME. Without edits, load \
             that variant into the form."),
-    listed(Place::WORK, &[alt('e')], navigation::fault, "next error",
+    row(Place::WORK, "Alt-E", "next error", navigation::fault,
         "Go to the next field with an error or a missing required value."),
-    listed(Place::WORK, &[ctrl('y'), ctrl('r')], edit::redo, "redo", "Redo the last undone edit."),
-    listed(Place::WORK, &[alt('b')], variants::toggle_baseline, "baseline",
+    row(Place::WORK, "Ctrl-Y Ctrl-R", "redo", edit::redo, "Redo the last undone edit."),
+    row(Place::WORK, "Alt-B", "baseline", studies::toggle_baseline,
         "Pin the results as the baseline to compare with, or unpin them."),
-    listed(Place::OUTSIDE, &[letter('%')], |app| app.shows_cost = !app.shows_cost, "cost",
+    row(Place::OUTSIDE, "%", "cost", |app| app.shows_cost = !app.shows_cost,
         "Show the stages and the microseconds of the last solve beside the results."),
-    listed(Place::WORK, &[function(8), alt('m')], cycle_marker, "marker",
+    row(Place::WORK, "F8 Alt-M", "marker", cycle_marker,
         "Switch the chart marker: Braille, blocks or dots."),
-    listed(Place::WORK, &[], |app| app.want(Effect::Journals), "journals",
+    row(Place::WORK, "", "journals", |app| app.want(Effect::Journals),
         "List the unsaved edits of ended sessions, and delete them on request."),
-    listed(Place::WORK, &[], edit::ask_relief, "relief",
+    row(Place::WORK, "", "spread", |app| type_command(app, "spread "),
+        "Give the focused field a distribution for the tolerance: type spread normal 4 um, or \
+            uniform, triangular, truncated, grade 7; spread none removes it."),
+    row(Place::WORK, "", "sweep", studies::ask_range,
+        "Study a result over one or two fields: type their ranges."),
+    row(Place::WORK, "", "relief", edit::ask_relief,
         "Find the tip relief to specify on both gears, and write it into the case."),
-    listed(Place::WORK, &[], cycle_theme, "theme", "Switch the colours: quiet, contrast, mono."),
-    listed(Place::WORK, &[], toggle_ascii, "ascii", "Switch between ASCII and Unicode."),
-    listed(Place::WORK, &[], cycle_units, "units",
+    row(Place::WORK, "", "theme", cycle_theme, "Switch the colours: quiet, contrast, mono."),
+    row(Place::WORK, "", "ascii", toggle_ascii, "Switch between ASCII and Unicode."),
+    row(Place::WORK, "", "units", cycle_units,
         "Switch results, hints, charts and teeth between metric and inch units."),
-    listed(Place::WORK, &[], toggle_mouse, "mouse",
+    row(Place::WORK, "", "mouse", toggle_mouse,
         "Switch the mouse on or off: a click selects, a second click is Enter. With the mouse on, \
             hold Shift to select text."),
-    listed(Place::WORK, &[ctrl('l')], |app| app.want(Effect::Redraw), "redraw", "Redraw the screen."),
-    listed(Place::WORK, &[alt('z')], |app| app.want(Effect::Suspend), "suspend", "Suspend to the shell; fg resumes."),
-    shown_in(Place::FORM, Place::FORM.or(Place::FIELD), &[with(SHIFT, Up)], |app| edit::step(app, 1), "step",
-        "Increase the last digit of the value by one."),
-    helped(Place::FORM.or(Place::FIELD), &[with(SHIFT, Down)], |app| edit::step(app, -1),
-        "Decrease the last digit of the value by one."),
-    helped(Place::FORM.or(Place::FIELD), &[with(ALT, Up)], |app| edit::step(app, 10),
-        "Increase the last digit of the value by ten."),
-    helped(Place::FORM.or(Place::FIELD), &[with(ALT, Down)], |app| edit::step(app, -10),
-        "Decrease the last digit of the value by ten."),
-    helped(Place::FORM, &[key(Down), key(Tab), key(Enter)], |app| navigation::step(app, 1), "Go to the next field."),
-    helped(Place::FORM, &[key(Up), key(BackTab)], |app| navigation::step(app, -1),
-        "Go to the previous field."),
-    helped(Place::FORM.or(Place::FIELD).or(Place::RESULTS), &[key(PageDown)], |app| navigation::leap(app, 1),
-        "Go to the next group, or page of results."),
-    helped(Place::FORM.or(Place::FIELD).or(Place::RESULTS), &[key(PageUp)], |app| navigation::leap(app, -1),
-        "Go to the previous group, or page of results."),
-    helped(Place::WORK, &[with(CTRL, Home)], |app| navigation::field(app, 0), "Go to the first field."),
-    helped(Place::WORK, &[with(CTRL, End)], |app| navigation::field(app, usize::MAX), "Go to the last field."),
-    helped(Place::CHOICE, &[key(Right), letter(' ')], |app| edit::cycle(app, 1),
-        "Select the next choice."),
-    helped(Place::CHOICE, &[key(Left)], |app| edit::cycle(app, -1), "Select the previous choice."),
-    helped(Place::CHOICE, &[key(Backspace), key(Delete), ctrl('h')], |app| edit::handle(app, Line::DeleteLine),
+    row(Place::WORK, "Ctrl-L", "redraw", |app| app.want(Effect::Redraw), "Redraw the screen."),
+    row(Place::WORK, "Alt-Z", "suspend", |app| app.want(Effect::Suspend),
+        "Suspend to the shell; fg resumes."),
+    pair(Place::FORM.or(Place::FIELD), "Shift-Up/Shift-Down", "step", edit::step,
+        "Increase or decrease the last digit of the value by one.").shown_in(Place::FORM),
+    pair(Place::FORM.or(Place::FIELD), "Alt-Up/Alt-Down", "", |app, by| edit::step(app, 10 * by),
+        "Increase or decrease the last digit of the value by ten."),
+    pair(Place::FORM, "Down/Up Tab/Shift-Tab Enter", "", navigation::step,
+        "Go to the next or previous field."),
+    pair(Place::FORM.or(Place::FIELD).or(Place::RESULTS), "PageDown/PageUp", "", navigation::leap,
+        "Go to the next or previous group, or page of results."),
+    pair(Place::WORK, "Ctrl-End/Ctrl-Home", "", navigation::end_of_form,
+        "Go to the last or first field."),
+    pair(Place::CHOICE, "Right/Left Space", "", edit::cycle, "Select the next or previous choice."),
+    row(Place::CHOICE, "Backspace Delete Ctrl-H", "", |app| edit::handle(app, Line::DeleteLine),
         "Remove the choice: the default applies."),
-    helped(Place::CHOICE, &[letter('?')], help_page, "Show this page."),
-    helped(Place::OUTSIDE, &[key(Esc)], navigation::leave,
+    row(Place::CHOICE, "?", "", help_page, "Show this page."),
+    row(Place::OUTSIDE, "Esc", "", navigation::leave,
         "Stop the running work, hide the cursor or go back to the form; no edit is lost."),
     // In prompts.
-    shown(Place::BROWSE, &[key(Tab)], dialogs::complete_path, "complete",
-        "Open the selected folder, or complete the selected name."),
-    shown(Place::BROWSE, &[with(ALT, Up)], dialogs::browse_up, "folder up",
-        "Go to the parent folder; so does Backspace in an empty line."),
-    shown(Place::EXPLAIN, &[key(Tab)], |app| dialogs::step_page(app, 1), "next field",
-        "Select the next field that the result depends on."),
-    helped(Place::EXPLAIN, &[key(BackTab)], |app| dialogs::step_page(app, -1), "Go to the previous field."),
-    shown(Place::EXPLAIN, &[key(Enter)], dialogs::accept, "go to field",
-        "Go to the selected field of the form."),
-    helped(Place::EXPLAIN, &[letter('q')], navigation::leave, "Close the page."),
-    helped(Place::ASK, &[key(Tab), key(Right), key(Down)], |app| navigation::step(app, 1),
-        "Select the next button."),
-    helped(Place::ASK, &[key(BackTab), key(Left), key(Up)], |app| navigation::step(app, -1),
-        "Select the previous button."),
-    helped(Place::LIST.or(Place::PAGE), &[key(Down)], |app| navigation::step(app, 1), "Go to the next line."),
-    helped(Place::LIST.or(Place::PAGE), &[key(Up)], |app| navigation::step(app, -1),
-        "Go to the previous line."),
-    helped(Place::PICK, &[ctrl('n'), key(Tab)], |app| navigation::step(app, 1), "Go to the next line."),
-    helped(Place::PICK, &[ctrl('p'), key(BackTab)], |app| navigation::step(app, -1),
-        "Go to the previous line."),
-    helped(Place::PAGE, &[letter('j')], |app| navigation::step(app, 1), "Go to the next line."),
-    helped(Place::PAGE, &[letter('k')], |app| navigation::step(app, -1), "Go to the previous line."),
-    shown(Place::LIST.or(Place::PAGE), &[key(PageDown)], |app| navigation::leap(app, 1), "next page", "Go to the next page."),
-    helped(Place::PAGE, &[letter(' ')], |app| navigation::leap(app, 1), "Go to the next page."),
-    helped(Place::LIST.or(Place::PAGE), &[key(PageUp)], |app| navigation::leap(app, -1),
-        "Go to the previous page."),
-    shown(Place::LIST.or(Place::PATH).or(Place::ASK), &[key(Enter)], dialogs::accept, "accept", "Accept."),
-    helped(Place::READ, &[key(Enter), letter('q'), letter('?'), function(1)], navigation::leave, "Close the page."),
-    shown(Place::PROMPT, &[key(Esc)], navigation::leave, "back", "Close; no edit is lost."),
-    helped(Place::ALL, &[ctrl('c'), ctrl('\\')], navigation::cancel,
+    row(Place::BROWSE, "Tab", "complete", navigation::complete_path,
+        "Open the selected folder, or complete the selected name.").shown(),
+    row(Place::BROWSE, "Alt-Up", "folder up", navigation::browse_up,
+        "Go to the parent folder; so does Backspace in an empty line.").shown(),
+    pair(Place::EXPLAIN, "Tab/Shift-Tab", "next field", navigation::step_page,
+        "Select the next or previous field that the result depends on.").shown(),
+    row(Place::EXPLAIN, "Enter", "go to field", App::accept,
+        "Go to the selected field of the form.").shown(),
+    row(Place::EXPLAIN, "q", "", navigation::leave, "Close the page."),
+    pair(Place::ASK, "Tab/Shift-Tab Right/Left Down/Up", "", navigation::step,
+        "Select the next or previous button."),
+    pair(Place::LIST.or(Place::PAGE), "Down/Up", "", navigation::step, "Go to the next or previous line."),
+    pair(Place::PICK, "Ctrl-N/Ctrl-P Tab/Shift-Tab", "", navigation::step,
+        "Go to the next or previous line."),
+    pair(Place::PAGE, "j/k", "", navigation::step, "Go to the next or previous line."),
+    pair(Place::LIST.or(Place::PAGE), "PageDown/PageUp", "next page", navigation::leap,
+        "Go to the next or previous page.").shown(),
+    pair(Place::PAGE, "Space", "", navigation::leap, "Go to the next page."),
+    row(Place::LIST.or(Place::PATH).or(Place::ASK), "Enter", "accept", App::accept,
+        "Accept.").shown(),
+    row(Place::READ, "Enter q ? F1", "", navigation::leave, "Close the page."),
+    row(Place::PROMPT, "Esc", "back", navigation::leave, "Close; no edit is lost.").shown(),
+    row(Place::ALL, "Ctrl-C Ctrl-\\", "", navigation::cancel,
         "Close a dialog or stop the running work. Otherwise press twice to quit; asks before \
             unsaved edits are discarded."),
     // In an input line.
-    helped(Place::LINE, &[key(Left)], |app| edit::handle(app, Line::GoToPrevChar),
-        "Move one character left."),
-    helped(Place::LINE, &[key(Right)], |app| edit::handle(app, Line::GoToNextChar),
-        "Move one character right."),
-    helped(Place::LINE, &[with(CTRL, Left), with(ALT, Left)], |app| edit::handle(app, Line::GoToPrevWord), "Move one word left."),
-    helped(Place::LINE, &[with(CTRL, Right), with(ALT, Right)], |app| edit::handle(app, Line::GoToNextWord), "Move one word right."),
-    helped(Place::LINE, &[key(Home), ctrl('a')], |app| edit::handle(app, Line::GoToStart),
+    pair(Place::LINE, "Right/Left", "", edit::move_by_letter, "Move one character right or left."),
+    pair(Place::LINE, "Ctrl-Right/Ctrl-Left Alt-Right/Alt-Left", "", edit::move_by_word,
+        "Move one word right or left."),
+    row(Place::LINE, "Home Ctrl-A", "", |app| edit::handle(app, Line::GoToStart),
         "Move to the start of the value."),
-    helped(Place::LINE, &[key(End), ctrl('e')], |app| edit::handle(app, Line::GoToEnd),
+    row(Place::LINE, "End Ctrl-E", "", |app| edit::handle(app, Line::GoToEnd),
         "Move to the end of the value."),
-    helped(Place::LINE, &[key(Backspace), ctrl('h')], |app| edit::handle(app, Line::DeletePrevChar),
+    row(Place::LINE, "Backspace Ctrl-H", "", |app| edit::handle(app, Line::DeletePrevChar),
         "Delete the character before the cursor."),
-    helped(Place::LINE, &[key(Delete), ctrl('d')], |app| edit::handle(app, Line::DeleteNextChar),
+    row(Place::LINE, "Delete Ctrl-D", "", |app| edit::handle(app, Line::DeleteNextChar),
         "Delete the character after the cursor."),
-    helped(Place::LINE, &[ctrl('w'), with(ALT, Backspace)], |app| edit::handle(app, Line::DeletePrevWord),
+    row(Place::LINE, "Ctrl-W Alt-Backspace", "", |app| edit::handle(app, Line::DeletePrevWord),
         "Delete the word before the cursor."),
-    helped(Place::LINE, &[ctrl('k')], |app| edit::handle(app, Line::DeleteTillEnd),
+    row(Place::LINE, "Ctrl-K", "", |app| edit::handle(app, Line::DeleteTillEnd),
         "Delete from the cursor to the end."),
-    helped(Place::LINE.or(Place::CHOICE), &[ctrl('u')], |app| edit::handle(app, Line::DeleteLine),
+    row(Place::LINE.or(Place::CHOICE), "Ctrl-U", "", |app| edit::handle(app, Line::DeleteLine),
         "Empty the field: it shows its default in brackets."),
 ];
 
@@ -528,30 +591,14 @@ pub fn help() -> Vec<String> {
             is_listed[at] = true;
         }
         // Commands of every status line are listed first.
-        here.sort_by_key(|&at| place == Place::WORK && !BINDINGS[at].footer.holds(place));
-        lines.extend(here.into_iter().filter_map(|at| help_line(&BINDINGS[at])));
+        here.sort_by_key(|&at| place == Place::WORK && !BINDINGS[at].status.holds(place));
+        lines.extend(here.into_iter().map(|at| help_line(&BINDINGS[at])));
     }
     lines
 }
 
 fn help_page(app: &mut App) {
     app.prompts.push(Prompt::Read(Page::new("Help", help())));
-}
-
-/// Opens a list with a typed text, in the order of the focused pane and field.
-fn list(app: &mut App, list: fn(&Context) -> Picker, typed: &str) {
-    let inputs = &app.tab.inputs_so_far;
-    let idle = |field: &usize| matches!(relevance(*field, inputs), Acting::No(_));
-    let every = Results { shows_every_method: true, ..app.results() };
-    let context = Context {
-        results: every.listed().iter().map(|quantity| quantity.key).collect(),
-        are_results_first: app.layout.focus() == Pane::Results,
-        idle: (0..FIELDS.len()).filter(idle).collect(),
-        commands: items(app),
-    };
-    let mut picker = list(&context);
-    picker.input = typed.into();
-    app.prompts.push(Prompt::Pick(picker));
 }
 
 fn cycle_marker(app: &mut App) {
@@ -611,70 +658,49 @@ fn is_listed(binding: &Binding) -> bool {
     !binding.name.is_empty() && binding.places.meets(Place::WORK) && binding.name != LEAVE_FIELD
 }
 
-// For the status line, the palette and the help.
-const fn shown(
+// Without a name, only the help shows the row.
+const fn row(
     places: Place,
-    chords: &'static [Chord],
-    run: fn(&mut App),
+    keys: &'static str,
     name: &'static str,
+    run: fn(&mut App),
     sentence: &'static str,
 ) -> Binding {
-    shown_in(places, places, chords, run, name, sentence)
+    Binding { keys, places, name, sentence, status: Place::NONE, run: Run::Once(run) }
 }
 
-// For the palette and the help, and for the status line of some places.
-const fn shown_in(
-    footer: Place,
+// A row whose keys name a direction or a number.
+const fn pair(
     places: Place,
-    chords: &'static [Chord],
-    run: fn(&mut App),
+    keys: &'static str,
     name: &'static str,
+    run: fn(&mut App, isize),
     sentence: &'static str,
 ) -> Binding {
-    Binding { chords, places, name, sentence, footer, run }
+    Binding { keys, places, name, sentence, status: Place::NONE, run: Run::Way(run) }
 }
 
-// For the palette and the help.
-const fn listed(
-    places: Place,
-    chords: &'static [Chord],
-    run: fn(&mut App),
-    name: &'static str,
-    sentence: &'static str,
-) -> Binding {
-    shown_in(Place::NONE, places, chords, run, name, sentence)
-}
-
-// For the help only.
-const fn helped(
-    places: Place,
-    chords: &'static [Chord],
-    run: fn(&mut App),
-    sentence: &'static str,
-) -> Binding {
-    shown_in(Place::NONE, places, chords, run, "", sentence)
-}
-
-// A key that the sentence of another row describes.
-const fn unlisted(chords: &'static [Chord], run: fn(&mut App)) -> Binding {
-    helped(Place::WORK, chords, run, "")
-}
-
-fn help_line(binding: &Binding) -> Option<String> {
-    let keys =
-        if binding.chords.is_empty() { format!(":{}", binding.name) } else { binding.keys() };
-    (!binding.sentence.is_empty()).then(|| format!("  {keys:<24} {}", binding.sentence))
+fn help_line(binding: &Binding) -> String {
+    let keys = if binding.keys.is_empty() { format!(":{}", binding.name) } else { binding.keys() };
+    format!("  {keys:<24} {}", binding.sentence)
 }
 
 #[cfg(test)]
 mod tests {
+    use crossterm::event::KeyCode;
+    use ratatui::layout::Size;
+
     use super::*;
+    use crate::tui::store;
+    use crate::tui::theme::Look;
+    use crate::tui::update::opened;
 
     #[test]
     fn no_key_has_two_meanings_in_a_place() {
         for (index, binding) in BINDINGS.iter().enumerate() {
             for other in &BINDINGS[index + 1..] {
-                let shared = binding.chords.iter().find(|chord| other.chords.contains(chord));
+                let mut parts = binding.keys.split([' ', '/']);
+                let shared = parts.find(|key| other.way(key).is_some());
                 assert!(
                     !binding.places.meets(other.places) || shared.is_none(),
                     "{shared:?}: {}",
@@ -690,10 +716,10 @@ mod tests {
     #[test]
     fn a_letter_has_one_meaning_in_all_panes() {
         for letter in ('!'..='~').filter(|letter| !ALIKE.contains(*letter)) {
-            let chord = keys::letter(letter);
+            let key = letter.to_string();
             let bound = BINDINGS
                 .iter()
-                .filter(|one| one.places.meets(Place::OUTSIDE) && one.chords.contains(&chord));
+                .filter(|one| one.places.meets(Place::OUTSIDE) && one.way(&key).is_some());
             let mut commands: Vec<_> = bound.map(|one| one.sentence).collect();
             commands.dedup();
             assert!(commands.len() <= 1, "{letter}: {commands:?}");
@@ -711,16 +737,11 @@ mod tests {
             Place::STUDY,
             Place::TOLERANCE,
         ] {
-            for (letter, arrow) in [
-                ('h', KeyCode::Left),
-                ('j', KeyCode::Down),
-                ('k', KeyCode::Up),
-                ('l', KeyCode::Right),
-            ] {
-                let sentence = |chord| called(chord, place).map(|binding| binding.sentence);
-                let moved = sentence(keys::letter(letter));
+            for (letter, arrow) in [("h", "Left"), ("j", "Down"), ("k", "Up"), ("l", "Right")] {
+                let meant = |key| called(key, place).map(|(binding, way)| (binding.sentence, way));
+                let moved = meant(letter);
                 assert!(moved.is_some(), "{letter} in {place:?}");
-                assert_eq!(moved, sentence(keys::key(arrow)), "{letter} in {place:?}");
+                assert_eq!(moved, meant(arrow), "{letter} in {place:?}");
             }
         }
     }
@@ -733,7 +754,7 @@ mod tests {
     }
 
     fn plain(letter: char) -> KeyEvent {
-        KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE)
+        KeyCode::Char(letter).into()
     }
 
     #[test]
@@ -756,5 +777,139 @@ mod tests {
                 assert!(!matches!(of_key(plain(letter), place), Some(Action::Insert(_))));
             }
         }
+    }
+
+    type List = fn(&Context) -> Picker;
+
+    fn commands() -> Vec<Item> {
+        items(&opened(store::built_in(), None, Look::FULL, Size::new(80, 24)))
+    }
+
+    const PALETTE: List = |context| context.palette(commands());
+
+    fn found(list: List, context: &Context, typed: &str) -> Vec<String> {
+        let picker = Picker { input: typed.into(), ..list(context) };
+        picker.fitting().into_iter().map(|item| item.name.clone()).collect()
+    }
+
+    fn first(list: List, typed: &str) -> Option<String> {
+        found(list, &Context::default(), typed).into_iter().next()
+    }
+
+    #[test]
+    fn a_few_letters_find_the_command() {
+        for (typed, name) in [
+            ("und", "undo"),
+            ("save a", "save as"),
+            ("base", "baseline"),
+            ("themme", "theme"),
+            ("colours", "theme"),
+        ] {
+            assert_eq!(first(PALETTE, typed).as_deref(), Some(name), "{typed}");
+        }
+        for (typed, name) in [
+            ("next tab", "next case"),
+            ("switch", "switch"),
+            ("compare", "baseline"),
+            ("static", "method static"),
+            ("dynamic", "method dynamic"),
+            ("method", "method"),
+        ] {
+            let results = QUANTITIES.iter().map(|quantity| quantity.key).collect();
+            let context = Context { results, are_results_first: true, ..Context::default() };
+            let found = found(PALETTE, &context, typed);
+            assert!(found.iter().take(3).any(|one| one == name), "{typed}: {found:?}");
+        }
+        assert_eq!(first(PALETTE, "xyzzy"), None);
+    }
+
+    #[test]
+    fn a_field_is_found_by_key_label_and_symbol() {
+        for (typed, key) in [
+            ("speed", "operation.speed"),
+            ("driven face", "driven.face_width"),
+            ("rho2", "driven.density"),
+            ("backl", "deviations.backlash"),
+            ("ca1", "driver.tip_relief"),
+        ] {
+            assert_eq!(first(Context::search, typed).as_deref(), Some(key), "{typed}");
+        }
+    }
+
+    #[test]
+    fn fields_with_effect_come_first_unless_a_symbol_is_typed() {
+        let idle: Vec<_> = (0..FIELDS.len())
+            .filter(|&at| FIELDS[at].key.starts_with("driver.tip_relief"))
+            .collect();
+        for (typed, key) in [
+            ("relief", "driven.tip_relief"),
+            ("tip relief", "driven.tip_relief"),
+            ("driver tip relief", "driver.tip_relief"),
+            ("ca1", "driver.tip_relief"),
+        ] {
+            let context = Context { idle: idle.clone(), ..Context::default() };
+            assert_eq!(found(Context::search, &context, typed)[0], key, "{typed}");
+        }
+    }
+
+    #[test]
+    fn a_field_comes_before_a_result_with_a_longer_name() {
+        for are_results_first in [false, true] {
+            let context = Context {
+                results: QUANTITIES.iter().map(|quantity| quantity.key).collect(),
+                are_results_first,
+                ..Context::default()
+            };
+            for (typed, name) in [
+                ("tip rel", "driven.tip_relief"),
+                ("impact force", "impact_force"),
+                (
+                    "combined deflection",
+                    ["model.deflection", "combined_deflection"][usize::from(are_results_first)],
+                ),
+            ] {
+                for list in [PALETTE, Context::search] {
+                    assert_eq!(found(list, &context, typed)[0], name, "{typed}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_typed_key_is_the_first_match() {
+        let fields = FIELDS.iter().map(|field| field.key);
+        let results: Vec<_> = QUANTITIES.iter().map(|quantity| quantity.key).collect();
+        for are_results_first in [false, true] {
+            let context = Context {
+                results: results.clone(),
+                are_results_first,
+                idle: (0..FIELDS.len()).collect(),
+                ..Context::default()
+            };
+            for key in fields.clone().chain(results.iter().copied()) {
+                assert_eq!(found(Context::search, &context, key)[0], key);
+            }
+        }
+    }
+
+    #[test]
+    fn a_list_of_fields_names_the_gear() {
+        let items = Context::default().search().fitting();
+        for gear in ["driver", "driven"] {
+            let own = items.iter().filter(|item| item.name.starts_with(gear));
+            assert!(own.clone().count() > 10);
+            for item in own {
+                let (_, label) = item.about.split_once(' ').unwrap();
+                assert!(label.starts_with(&format!("{gear} ")), "{}", item.about);
+            }
+        }
+    }
+
+    #[test]
+    fn an_empty_filter_shows_the_whole_list() {
+        let all = PALETTE(&Context::default()).fitting();
+        let charts = GRAPHS.len() + WorkerChart::ALL.len();
+        assert_eq!(all.len(), commands().len() + charts);
+        assert_eq!(Context::default().search().fitting().len(), FIELDS.len());
     }
 }

@@ -5,16 +5,17 @@ use std::borrow::Cow;
 
 use tui_input::InputRequest;
 
-use super::{browse_up, is_in_empty_line, line_changed};
+use super::navigation::{browse_up, line_changed};
 use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::{Case, FIELDS, Field, Limit, changes};
-use crate::model::Quantity;
+use crate::model::{QUANTITIES, Quantity};
 use crate::model::inputs::Method;
 use crate::report;
 use crate::tui::app::App;
+use crate::tui::app::actions::Choice;
+use crate::tui::app::dialogs::picker::{Item, Picker};
+use crate::tui::app::dialogs::{Prompt, ReliefDialog};
 use crate::tui::ascii::{self, symbol};
-use crate::tui::dialogs::picker::Picker;
-use crate::tui::dialogs::{Prompt, ReliefDialog};
 use crate::tui::form_aids::materials::{self, Material};
 use crate::tui::form_aids::step_limit;
 use crate::tui::layout::Pane;
@@ -64,7 +65,7 @@ pub(super) fn paste(app: &mut App, text: &str) {
 
 /// Handles a key that moves the cursor or deletes text.
 pub(super) fn handle(app: &mut App, request: InputRequest) {
-    if request == InputRequest::DeletePrevChar && is_in_empty_line(app) {
+    if request == InputRequest::DeletePrevChar && app.browser().is_some_and(|browser| browser.input.value().is_empty()) {
         return browse_up(app);
     }
     if let Some(prompt) = app.prompts.last_mut() {
@@ -75,6 +76,16 @@ pub(super) fn handle(app: &mut App, request: InputRequest) {
     } else if app.tab.form.input.handle(request).is_some_and(|changed| changed.value) {
         write(app);
     }
+}
+
+/// Moves the cursor of a line by a character.
+pub(super) fn move_by_letter(app: &mut App, by: isize) {
+    handle(app, if by > 0 { InputRequest::GoToNextChar } else { InputRequest::GoToPrevChar });
+}
+
+/// Moves the cursor of a line by a word.
+pub(super) fn move_by_word(app: &mut App, by: isize) {
+    handle(app, if by > 0 { InputRequest::GoToNextWord } else { InputRequest::GoToPrevWord });
 }
 
 /// Starts an edit of the focused field: typing replaces its value until the cursor moves.
@@ -100,7 +111,7 @@ pub(super) fn choose(app: &mut App, field: usize, names: &[&str], by: isize) {
 }
 
 /// Steps the value of the focused row by units of its last digit.
-pub(super) fn step(app: &mut App, by: i32) {
+pub(super) fn step(app: &mut App, by: isize) {
     let Some(text) = rows::stepped(&app.tab.case, app.tab.form.focus, by) else {
         let label = rows::full_label(&app.tab.case, app.tab.form.focus);
         return app.say(format!("{label} has no step here"));
@@ -186,21 +197,27 @@ fn say_method(app: &mut App, field: usize) {
 
 /// Opens the list of materials for the gear of the focused field, otherwise for both gears.
 pub(super) fn ask_material(app: &mut App) {
-    let gears: &[&str] = match rows::row(&app.tab.case, app.tab.form.focus) {
-        Row::Field(field) if FIELDS[field].table() == "driver" => &["driver"],
-        Row::Field(field) if FIELDS[field].table() == "driven" => &["driven"],
-        _ => &["driver", "driven"],
+    let (gears, title): (&[&str], _) = match rows::row(&app.tab.case, app.tab.form.focus) {
+        Row::Field(field) if FIELDS[field].table() == "driver" => {
+            (&["driver"], "Material of the driver")
+        }
+        Row::Field(field) if FIELDS[field].table() == "driven" => {
+            (&["driven"], "Material of the driven gear")
+        }
+        _ => (&["driver", "driven"], "Material of both gears"),
     };
-    app.prompts.push(Prompt::Pick(Picker::materials(gears)));
-}
-
-/// Opens the list of examples.
-pub(super) fn ask_example(app: &mut App) {
-    app.prompts.push(Prompt::Pick(Picker::examples()));
+    let item = |material: &'static Material| {
+        let Material { name, group, young, poisson, density, source, .. } = material;
+        let about = format!("{young}, {poisson}, {density}, {group}; {source}");
+        let choice = Choice::of(move |app| make_of_material(app, gears, material));
+        Item::named(choice, name.clone(), about)
+    };
+    let picker = Picker::new(title, materials::all().iter().map(item), &[]);
+    app.prompts.push(Prompt::Pick(picker));
 }
 
 /// Sets the material of the gears as one edit, which undo reverts.
-pub(super) fn make_of_material(app: &mut App, gears: &[&str], material: &Material) {
+fn make_of_material(app: &mut App, gears: &[&str], material: &Material) {
     let mut case = app.tab.case.clone();
     let made = gears.iter().try_for_each(|gear| materials::apply(&mut case, gear, material));
     if let Err(problem) = made {
@@ -219,11 +236,16 @@ pub(super) fn ask_limit(app: &mut App) {
     if let Some(quantity) = app.results().marked().filter(|_| app.layout.focus() == Pane::Results) {
         return hold_limit(app, quantity);
     }
-    app.prompts.push(Prompt::Pick(Picker::limits()));
+    let item = |quantity: &'static Quantity| {
+        let about = format!("{} {}", quantity.symbol, quantity.label.trim_start());
+        Item::result(Choice::of(move |app| hold_limit(app, quantity)), quantity, about)
+    };
+    let picker = Picker::new("Set a limit on a result", QUANTITIES.iter().map(item), &[]);
+    app.prompts.push(Prompt::Pick(picker));
 }
 
 /// Goes to the limit of a quantity; a new limit starts with the present value of the quantity.
-pub(super) fn hold_limit(app: &mut App, quantity: &'static Quantity) {
+fn hold_limit(app: &mut App, quantity: &'static Quantity) {
     if rows::of_limit(&app.tab.case, quantity.key).is_none() {
         let mut case = app.tab.case.clone();
         case.write_limit(quantity.key, &beginning_of_limit(app, quantity));
@@ -235,18 +257,33 @@ pub(super) fn hold_limit(app: &mut App, quantity: &'static Quantity) {
     app.focus_on(row.unwrap_or(app.tab.form.focus));
 }
 
+/// Gives the focused field a distribution such as `normal 4 um`; `none` removes it.
+pub(super) fn set_spread(app: &mut App, text: &str) {
+    let Row::Field(field) = rows::row(&app.tab.case, app.tab.form.focus) else {
+        return app.complain("a limit has no distribution: go to a field of the form");
+    };
+    let mut case = app.tab.case.clone();
+    let key = format!("spread.{}", FIELDS[field].key);
+    if let Err(problem) = case.apply(&key, Some(text).filter(|text| *text != "none")) {
+        return app.complain(problem.for_form().to_string());
+    }
+    let outcome = undone_by(app, &case);
+    replace(app, case);
+    app.say(format!("spread of {}: {text}{outcome}", FIELDS[field].full_label()));
+}
+
 /// Opens the dialog and starts the search with the default demand.
 pub(super) fn ask_relief(app: &mut App) {
     let Some(inputs) = app.tab.inputs().cloned() else {
         return app.complain("no search: fix the fields marked with ! first");
     };
-    let mut dialog = ReliefDialog::new(inputs);
-    dialog.search().into_iter().for_each(|job| app.start_job(job));
+    let mut dialog = ReliefDialog::new(inputs, take_relief);
+    app.start_all(dialog.search());
     app.prompts.push(Prompt::Relief(Box::new(dialog)));
 }
 
 /// Writes the relief into the form as one edit.
-pub(super) fn take_relief(app: &mut App, values: &[(&'static str, String)]) {
+fn take_relief(app: &mut App, values: &[(&'static str, String)]) {
     app.prompts.pop();
     let mut case = app.tab.case.clone();
     for (key, text) in values {

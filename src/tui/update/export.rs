@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::key_of;
+use super::{key_of, studies};
+use crate::case::Document;
 use crate::case::file::{self, SaveError};
 use crate::model::Refusal;
 use crate::report::export as exports;
@@ -10,22 +11,31 @@ use crate::report::page::{Page, Settings};
 use crate::report::pictures::{NoPicture, Picture, find};
 use crate::report::solve::{Subject, Unsolved};
 use crate::report::{self, Report, Selection};
+use crate::study::shard::Format;
 use crate::tui::app::App;
-use crate::tui::app::actions::{Effect, Running, Work};
+use crate::tui::app::actions::{Choice, Content, Effect, Running, Slot, Work};
+use crate::tui::app::dialogs::Prompt;
+use crate::tui::app::dialogs::question::{PathDialog, Question};
 use crate::tui::ascii;
-use crate::tui::dialogs::Prompt;
-use crate::tui::dialogs::path::PathDialog;
-use crate::tui::dialogs::question::Question;
-use crate::tui::jobs::{Exporting, Job, Slot};
 use crate::tui::keys::Place;
 use crate::tui::layout::Pane;
 use crate::tui::line::Line;
 use crate::tui::panes::chart;
 use crate::tui::rows::{self, Row};
+use crate::tui::session::save::Next;
 use crate::tui::store::at_home;
 
 /// Terminals refuse or cut a longer text.
 const MOST_BYTES: usize = 48 * 1024;
+
+/// The title and the instruction of the dialog.
+const EXPORT: &str = "Export";
+const HOW: &str = "A name or a path; ~ is the home folder. The file extension selects the content: \
+    .html, .md, .csv and .json write the report, .svg writes the visible chart or the teeth; in \
+    the study, .csv, .json and .svg write its points.";
+
+/// Title of the question before the workbench ends during an export.
+pub(super) const EXPORT_RUNS: &str = "An export runs";
 
 /// Asks for the file: a picture if a chart or the teeth have the focus, otherwise the report.
 pub(super) fn ask(app: &mut App) {
@@ -34,11 +44,19 @@ pub(super) fn ask(app: &mut App) {
     }
     let ending = match app.layout.focus() {
         Pane::Chart | Pane::Teeth => "svg",
+        Pane::Study => "csv",
         _ => "html",
     };
     let beside = app.tab.path.as_deref().unwrap_or(Path::new("case.toml"));
     let input = Line::named(beside.with_extension(ending).display().to_string());
-    app.prompts.push(Prompt::Path(PathDialog { input, save: None }));
+    let done = |app: &mut App, name: &str, _| begin(app, name.trim().into(), false);
+    app.prompts.push(Prompt::Path(PathDialog {
+        title: EXPORT,
+        how: HOW,
+        input,
+        next: Next::Stay,
+        done,
+    }));
 }
 
 /// Starts the export.
@@ -46,40 +64,63 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) {
     if path.as_os_str().is_empty() {
         return app.complain("a file needs a name");
     }
-    // The dialog keeps its extension behind a typed name: `force.svg.html` is `force.svg`.
-    let has_extension =
-        |stem: &&Path| exports::is_picture(stem) || exports::format_of(stem).is_some();
-    let typed = path.file_stem().map(Path::new).filter(has_extension);
-    let path = typed.map_or_else(|| path.clone(), |typed| path.with_file_name(typed));
-    let Some(inputs) = app.tab.inputs().cloned() else {
-        refuse_faulty(app);
+    if refuse_faulty(app) {
         return;
-    };
+    }
     if let Some(running) = &app.exporting {
         let running = ascii::printable(&running.display().to_string()).into_owned();
         return app.complain(format!("the export to {running} still runs: wait for its end"));
     }
-    let is_picture = exports::is_picture(&path);
+    let (subject, content) = match content(app, &path) {
+        Ok(content) => content,
+        Err(reason) => return app.complain(format!("not exported: {reason}")),
+    };
+    app.exporting = Some(path.clone());
+    app.say("exporting");
+    let path = at_home(&path);
+    let path = std::path::absolute(&path).unwrap_or(path);
+    let write = move |running: &Running<'_>| {
+        Some((running.path.to_owned(), write(content, replaces, running)))
+    };
+    let (own, failed) = (path.clone(), subject.clone());
+    let internal = || Err(ExportFault::Failed("internal error".to_owned()));
+    let work =
+        Work::new(Slot::Export, write, move |app, (path, found)| done(app, &path, &subject, found));
+    let work = work.or(move |app| done(app, &own, &failed, internal()));
+    app.start(work.at(path));
+}
+
+/// The subject of an export, and its content.
+fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
+    let is_picture = exports::is_picture(path);
+    let is_data = matches!(exports::format_of(path), Some(Format::Csv | Format::Json));
+    if app.layout.focus() == Pane::Study && (is_picture || is_data) {
+        return studies::content(app, path);
+    }
     let picture = picture(app).filter(|_| is_picture);
     if is_picture && picture.is_none() {
         let [chart, teeth] = ["chart", "teeth"].map(|name| key_of(app, name));
-        return app.complain(format!(
-            "not exported: no chart is visible. {chart} and {teeth} show the chart and the teeth; \
-                {} write the report",
+        return Err(format!(
+            "no chart is visible. {chart} and {teeth} show the chart and the teeth; {} write the \
+                report",
             exports::ENDINGS
         ));
     }
-    let exporting = Exporting {
-        path,
-        replaces,
-        name: app.tab.name(),
-        document: app.tab.as_edited(),
-        inputs,
-        picture,
+    let inputs = app.tab.inputs().cloned().ok_or("a field has an error")?;
+    let (name, document) = (app.tab.name(), app.tab.as_edited());
+    let subject = picture.map_or_else(String::new, |picture| format!(" {picture}"));
+    let content = move |running: &Running<'_>| {
+        let source = Unsolved { name: &name, case: &document.case, inputs: &inputs };
+        let go_on = |_, _| running.is_wanted();
+        match picture {
+            Some(picture) => picture.of_case(source, &go_on).map_err(|reason| match reason {
+                NoPicture::Refused(refusal) => refused(&refusal),
+                NoPicture::Absent(reason) => reason,
+            }),
+            None => report_text(source, &document, running.path, &go_on),
+        }
     };
-    app.exporting = Some(exporting.path.clone());
-    app.say("exporting");
-    app.start_job(Job::Export(Box::new(exporting)));
+    Ok((subject, Box::new(content)))
 }
 
 /// Why an export failed.
@@ -90,43 +131,27 @@ enum ExportFault {
     Failed(String),
 }
 
-/// The work of an export: solves the case and writes the file.
-pub(super) fn work(exporting: Exporting) -> Work {
-    let path = at_home(&exporting.path);
-    let path = std::path::absolute(&path).unwrap_or(path);
-    let (own, picture) = (path.clone(), exporting.picture);
-    let write = move |running: &Running<'_>| Some(write(&exporting, &path, running));
-    let internal = || Err(ExportFault::Failed("internal error".to_owned()));
-    let failed = own.clone();
-    Work::new(Slot::Export, write, move |app, result| done(app, &own, picture, result))
-        .or(move |app| done(app, &failed, picture, internal()))
-}
-
-fn write(exporting: &Exporting, path: &Path, running: &Running<'_>) -> Result<(), ExportFault> {
-    if !exporting.replaces && path.symlink_metadata().is_ok() {
+fn write(content: Content, replaces: bool, running: &Running<'_>) -> Result<(), ExportFault> {
+    if !replaces && running.path.symlink_metadata().is_ok() {
         return Err(ExportFault::Exists);
     }
-    let text = text(exporting, path, &|_, _| running.is_wanted()).map_err(ExportFault::Failed)?;
-    file::write(path, text.as_bytes(), exporting.replaces).map_err(|error| match error {
+    let text = content(running).map_err(ExportFault::Failed)?;
+    file::write(running.path, text.as_bytes(), replaces).map_err(|error| match error {
         SaveError::AlreadyThere(_) => ExportFault::Exists,
         error => ExportFault::Failed(error.to_string()),
     })
 }
 
-fn text(
-    exporting: &Exporting,
+fn refused(refusal: &Refusal) -> String {
+    format!("{refusal}: {}", refusal.fix())
+}
+
+fn report_text(
+    source: Unsolved<'_>,
+    document: &Document,
     path: &Path,
     go_on: &dyn Fn(usize, usize) -> bool,
 ) -> Result<String, String> {
-    let refused = |refusal: &Refusal| format!("{refusal}: {}", refusal.fix());
-    let Exporting { name, document, inputs, picture, .. } = exporting;
-    let source = Unsolved { name, case: &document.case, inputs };
-    if let Some(picture) = picture {
-        return picture.of_case(source, go_on).map_err(|reason| match reason {
-            NoPicture::Refused(refusal) => refused(&refusal),
-            NoPicture::Absent(reason) => reason,
-        });
-    }
     let format = exports::format_of(path).ok_or_else(|| {
         let endings = exports::ENDINGS;
         format!("unknown file extension: use {endings} for the report, or .svg for the picture")
@@ -137,29 +162,29 @@ fn text(
 }
 
 /// Reports the result of an export.
-fn done(app: &mut App, path: &Path, picture: Option<Picture>, result: Result<(), ExportFault>) {
+fn done(app: &mut App, path: &Path, subject: &str, result: Result<(), ExportFault>) {
     app.exporting = None;
-    if app.prompts.last().is_some_and(Prompt::is_about_running_export) {
-        app.prompts.pop();
-    }
+    app.close_titled(EXPORT_RUNS);
     match result {
         Ok(()) => {
-            if app.prompts.last().is_some_and(Prompt::is_export) {
-                app.prompts.pop();
-            }
-            let subject = picture.map_or_else(String::new, |picture| format!(" {picture}"));
+            app.close_titled(EXPORT);
             app.say(format!("exported{subject} to {}", path.display()));
         }
         Err(ExportFault::Exists) => {
             app.message = None;
-            app.prompts.push(Prompt::Ask(Question::export_exists(path)));
+            let own = path.to_owned();
+            let over = Choice::of(move |app| begin(app, own.clone(), true));
+            let text =
+                format!("{} exists. Overwrite replaces it with the export.", path.display());
+            let buttons = [("Overwrite", over), ("Cancel", Choice::of(|_| ()))];
+            app.prompts.push(Prompt::Ask(Question::new("The file exists", text, buttons)));
         }
         Err(ExportFault::Failed(reason)) => app.complain(format!("not exported: {reason}")),
     }
 }
 
-/// Copies the focused value: in the form its text, in chart and teeth the reading at the cursor,
-/// otherwise the selected result.
+/// Copies the focused value: in the form its text, in chart and teeth the reading at the cursor, in
+/// the study the command that repeats it, otherwise the selected result.
 pub(super) fn copy_value(app: &mut App) {
     if app.layout.focus() == Pane::Form {
         let text = match rows::row(&app.tab.case, app.tab.form.focus) {
@@ -175,6 +200,12 @@ pub(super) fn copy_value(app: &mut App) {
         };
         let reading = chart::readout(&app.charts(), cursor);
         return copy(app, reading, "the reading at the cursor");
+    }
+    if app.layout.focus() == Pane::Study {
+        return match studies::command(app) {
+            Ok(command) => copy(app, command, "the command of the study"),
+            Err(reason) => app.complain(reason),
+        };
     }
     let Some(quantity) = app.results().marked() else {
         return app.complain("there are no results to copy");

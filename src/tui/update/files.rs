@@ -3,96 +3,176 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{edit, export, key_of, variants};
+use super::{edit, export, key_of, studies};
 use crate::case::file::Saved;
-use crate::case::{Case, Document, Example, rexs};
+use crate::case::{Case, Document, EXAMPLES, Example, rexs};
 use crate::model::Stages;
 use crate::tui::app::App;
-use crate::tui::app::actions::{Effect, Work};
-use crate::tui::dialogs::Prompt;
-use crate::tui::dialogs::page::Page;
-use crate::tui::dialogs::path::PathDialog;
-use crate::tui::dialogs::question::{Choice, Question};
-use crate::tui::jobs::Slot;
+use crate::tui::app::actions::{Choice, Effect, Slot, Work};
+use crate::tui::app::dialogs::Prompt;
+use crate::tui::app::dialogs::page::Page;
+use crate::tui::app::dialogs::picker::{Item, Picker};
+use crate::tui::app::dialogs::question::{PathDialog, Question};
 use crate::tui::layout::Pane;
 use crate::tui::line::{CASE_ENDING, Line};
 use crate::tui::session::save::{
-    Access, Claim, NEWER, Next, Offer, Over, SaveFault, Saving, Written,
+    self, Access, Claim, Found, NEWER, Next, Offer, Over, SaveFault, Saving, Written,
 };
+use crate::tui::store::folder::Target;
 use crate::tui::tab::{Origin, Tab};
 use crate::tui::{ascii, rows, store};
 
+const UNSAVED: &str = "Unsaved edits";
+const SAVE_AS: &str = "Save as";
+const HOW: &str =
+    "A name or a path; ~ is the home folder, .toml is added if missing. Asks before overwriting.";
+
 /// Quits, or asks if there are unsaved edits.
 pub(super) fn quit(app: &mut App) {
-    let count = app.tabs().filter(|tab| tab.is_unsaved()).count();
+    let unsaved: Vec<_> = app.tabs().filter(|tab| tab.is_unsaved()).map(Tab::name).collect();
     let first = app.tabs().position(Tab::is_unsaved);
-    match (count, first) {
-        (1, Some(only)) => {
+    match (&unsaved[..], first) {
+        ([_], Some(only)) => {
             go_to_tab(app, only);
-            let question = Question::unsaved(&app.tab.name(), &Next::Quit);
-            ask(app, question);
+            ask_unsaved(app, Next::Quit);
         }
         (_, None) => leave(app),
         _ => {
-            let names: Vec<_> = app.tabs().filter(|tab| tab.is_unsaved()).map(Tab::name).collect();
-            ask(app, Question::all_unsaved(&names));
+            let (count, names) = (unsaved.len(), unsaved.join(", "));
+            let text = format!("{count} cases have unsaved edits: {names}.");
+            let buttons =
+                [("Save all", going(Next::SaveRest)), ("Discard all", going(Next::Quit)), cancel()];
+            ask(app, Question::new(UNSAVED, text, buttons));
         }
     }
 }
 
 /// Closes the current case, or asks if it has unsaved edits.
 pub(super) fn close(app: &mut App) {
-    if app.tab.is_unsaved() {
-        let question = Question::unsaved(&app.tab.name(), &Next::Close);
-        ask(app, question);
-        return;
-    }
-    go(app, Next::Close);
+    ask_or_go(app, Next::Close);
+}
+
+// Goes on, or asks before the edits of the current case are discarded.
+fn ask_or_go(app: &mut App, next: Next) {
+    if app.tab.is_unsaved() { ask_unsaved(app, next) } else { go(app, next) }
+}
+
+fn ask_unsaved(app: &mut App, next: Next) {
+    let reload = match next {
+        Next::Load(_) => " Discard reads the file again without the edits.",
+        _ => "",
+    };
+    let text = format!("{} has unsaved edits.{reload}", app.tab.name());
+    let after = next.clone();
+    let saving = Choice::of(move |app| save(app, after.clone()));
+    ask(app, Question::new(UNSAVED, text, [("Save", saving), ("Discard", going(next)), cancel()]));
+}
+
+fn going(next: Next) -> Choice {
+    Choice::of(move |app| go(app, next.clone()))
+}
+
+fn cancel() -> (&'static str, Choice) {
+    ("Cancel", Choice::of(|_| ()))
+}
+
+/// Asks after a save that would overwrite a file or that has no lock.
+fn ask_refused(app: &mut App, path: PathBuf, fault: SaveFault, next: &Next) {
+    let name = path.display().to_string();
+    let after = next.clone();
+    let save_as = Choice::of(move |app| {
+        if !matches!(app.prompts.last(), Some(Prompt::Path(dialog)) if dialog.title == SAVE_AS) {
+            ask_where_then(app, after.clone());
+        }
+    });
+    let save_as = ("Save as", save_as);
+    let overwrite = |stamp| {
+        let (path, next) = (path.clone(), next.clone());
+        let over = Over::Seen(stamp);
+        let choice = Choice::of(move |app| write(app, path.clone(), over, next.clone()));
+        ("Overwrite", choice)
+    };
+    let question = match fault {
+        SaveFault::Exists(Found { stamp, lines }) => {
+            let text = format!("{name} exists. Overwrite replaces it with the form.");
+            let buttons = [overwrite(stamp), save_as, cancel()];
+            Question { details: lines, ..Question::new("The file exists", text, buttons) }
+        }
+        SaveFault::Changed(Found { stamp, lines }) => {
+            let text = format!(
+                "{name} was changed after it was opened here. Reload discards the edits in the \
+                 form."
+            );
+            let reload = ("Reload", going(Next::Load(path.clone())));
+            let buttons = [reload, save_as, overwrite(stamp), cancel()];
+            Question { details: lines, ..Question::new("The file has changed on disk", text, buttons) }
+        }
+        SaveFault::Held(holder) => {
+            let text = format!("{name} is not saved: another session has it open: {holder}.");
+            let buttons = [save_as, cancel()];
+            Question { selected: 0, ..Question::new("Open elsewhere", text, buttons) }
+        }
+        SaveFault::Failed(reason) => return app.complain(format!("not saved: {reason}")),
+    };
+    ask(app, question);
+}
+
+// Offers edits that an earlier session could not save.
+fn ask_recovery(app: &mut App, name: &str, offer: Offer) {
+    let changed = if offer.is_file_changed { " The file has changed since." } else { "" };
+    let text = format!(
+        "Unsaved edits of {name}, {} old.{changed} Value in the file -> edited value:",
+        offer.age
+    );
+    let details = offer.changes.iter().map(save::line).collect();
+    let buttons = [
+        ("Discard", forgetting(vec![offer.journal.clone()])),
+        ("Recover", Choice::of(move |app| recover(app, &offer))),
+        ("Later", Choice::of(|_| ())),
+    ];
+    let question = Question::new("Unsaved edits found", text, buttons);
+    ask(app, Question { details, selected: 1, ..question });
+}
+
+fn forgetting(journals: Vec<PathBuf>) -> Choice {
+    Choice::of(move |app| app.want(Effect::Forget(journals.clone())))
+}
+
+/// Saves the case.
+pub(super) fn save_here(app: &mut App) {
+    save(app, Next::Stay);
 }
 
 /// Saves to the file of the case, or asks for a path.
-pub(super) fn save(app: &mut App, next: Next) {
+fn save(app: &mut App, next: Next) {
     if refuse_faulty(app) {
         return;
     }
     match app.tab.path.clone() {
         Some(path) => write(app, path, Over::Own, next),
-        None => ask_where(app, next),
+        None => ask_where_then(app, next),
     }
 }
 
 /// Asks for a path to save to.
-pub(super) fn ask_where(app: &mut App, next: Next) {
+pub(super) fn ask_where(app: &mut App) {
+    ask_where_then(app, Next::Stay);
+}
+
+fn ask_where_then(app: &mut App, next: Next) {
     if refuse_faulty(app) {
         return;
     }
-    let path = app
-        .tab
-        .path
-        .as_ref()
-        .map_or_else(|| "case.toml".to_owned(), |path| path.display().to_string());
+    let path = app.tab.path.as_ref();
+    let path = path.map_or_else(|| "case.toml".to_owned(), |path| path.display().to_string());
     let input = Line::named(path);
-    app.prompts.push(Prompt::Path(PathDialog { input, save: Some(next) }));
-}
-
-/// Carries out the answer to a question.
-pub(super) fn choose(app: &mut App, choice: Choice) {
-    app.prompts.pop();
-    match choice {
-        Choice::Cancel => (),
-        Choice::Save(next) => save(app, next),
-        Choice::Proceed(next) => go(app, next),
-        Choice::Overwrite(path, seen, next) => write(app, path, Over::Seen(seen), next),
-        Choice::Leave => app.want(Effect::Quit),
-        Choice::ExportOver(path) => export::begin(app, path, true),
-        Choice::Recover(offer) => recover(app, &offer),
-        Choice::Forget(journals) => app.want(Effect::Forget(journals)),
-        Choice::SaveAs(next) => {
-            if !app.prompts.last().is_some_and(Prompt::is_save_as) {
-                ask_where(app, next);
-            }
-        }
-    }
+    app.prompts.push(Prompt::Path(PathDialog {
+        title: SAVE_AS,
+        how: HOW,
+        input,
+        next,
+        done: save_under,
+    }));
 }
 
 /// Opens a file that was read; reports its faults, if any.
@@ -129,9 +209,7 @@ pub(super) fn saved(
     match result {
         Ok(written) => {
             let Written { document, saved } = *written;
-            if app.prompts.last().is_some_and(Prompt::is_save_as) {
-                app.prompts.pop();
-            }
+            app.close_titled(SAVE_AS);
             app.tab.saved = document.case.clone();
             // Later edits are not saved and remain.
             let is_as_asked = asked.is_none_or(|asked| asked == app.tab.case);
@@ -153,14 +231,11 @@ pub(super) fn saved(
             };
             app.say(format!("saved {}{how}{missing}", path.display()));
             app.tab.path = Some(path.clone());
-            variants::rename_baseline(app);
+            studies::rename_baseline(app);
             app.want(Effect::Remember(path));
             go(app, next);
         }
-        Err(fault) => match Question::refused(&path, fault, &next) {
-            Ok(question) => ask(app, question),
-            Err(reason) => app.complain(format!("not saved: {reason}")),
-        },
+        Err(fault) => ask_refused(app, path, fault, &next),
     }
 }
 
@@ -187,7 +262,7 @@ pub(super) fn open(app: &mut App, path: PathBuf) {
 }
 
 /// Saves under the typed name.
-pub(super) fn save_under(app: &mut App, name: &str, next: Next) {
+fn save_under(app: &mut App, name: &str, next: Next) {
     if name.trim().is_empty() {
         return app.complain("type a name for the file");
     }
@@ -245,6 +320,17 @@ pub(super) fn fresh_tab(app: &mut App) {
     ));
 }
 
+/// Opens the list of examples.
+pub(super) fn ask_example(app: &mut App) {
+    let item = |example: &'static Example| {
+        let title = example.document().case.title().to_owned();
+        let choice = Choice::of(move |app| begin_example(app, example));
+        Item::named(choice, example.name.to_owned(), title).previewing(Target::Example(example))
+    };
+    let picker = Picker::new("New case from an example", EXAMPLES.iter().map(item), &[]);
+    app.prompts.push(Prompt::Pick(picker));
+}
+
 /// Starts a case from an example in a new tab.
 pub(super) fn begin_example(app: &mut App, example: &'static Example) {
     add_tab(app, Origin::Example(example.name), example.document());
@@ -272,21 +358,24 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
     }
     let name = app.tab.name();
     // The latest is on top.
-    app.prompts
-        .extend(offers.into_iter().rev().map(|offer| Prompt::Ask(Question::recover(&name, offer))));
+    for offer in offers.into_iter().rev() {
+        ask_recovery(app, &name, offer);
+    }
 }
 
 /// Shows the journals of ended sessions.
 pub(super) fn list_journals(app: &mut App, journals: Vec<(PathBuf, String)>) {
     if journals.is_empty() {
-        app.say("no ended session left unsaved edits");
-    } else {
-        ask(app, Question::journals(journals));
+        return app.say("no ended session left unsaved edits");
     }
+    let (places, details) = journals.into_iter().unzip();
+    let text = "Sessions ended with these unsaved edits. A case offers its edits when it is opened.";
+    let buttons = [("Delete all", forgetting(places)), ("Close", Choice::of(|_| ()))];
+    ask(app, Question { details, ..Question::new(UNSAVED, text.to_owned(), buttons) });
 }
 
 /// Restores the kept edits into the form as one edit, which undo reverts.
-pub(super) fn recover(app: &mut App, offer: &Offer) {
+fn recover(app: &mut App, offer: &Offer) {
     let mut case = app.tab.case.clone();
     let refused: Vec<_> = offer
         .changes
@@ -309,12 +398,7 @@ pub(super) fn ask_reload(app: &mut App) {
     let Some(path) = app.tab.path.clone() else {
         return app.say("this case has no file to read again");
     };
-    if app.tab.is_unsaved() {
-        let question = Question::unsaved(&app.tab.name(), &Next::Load(path));
-        ask(app, question);
-    } else {
-        app.want(Effect::Load(path));
-    }
+    ask_or_go(app, Next::Load(path));
 }
 
 /// Handles a possible change of the file of an open case: a case without edits is replaced.
@@ -357,10 +441,13 @@ pub(super) fn file_changed(app: &mut App, path: &Path, found: Result<Box<Documen
 
 /// Ends the workbench, or asks if an export is running.
 fn leave(app: &mut App) {
-    match app.exporting.as_deref().map(Question::export_runs) {
-        Some(question) => ask(app, question),
-        None => app.want(Effect::Quit),
-    }
+    let Some(path) = &app.exporting else {
+        return app.want(Effect::Quit);
+    };
+    let text = format!("The export to {} still runs.", path.display());
+    let quit = ("Quit without the export", Choice::of(|app| app.want(Effect::Quit)));
+    let question = Question::new(export::EXPORT_RUNS, text, [("Wait", Choice::of(|_| ())), quit]);
+    ask(app, Question { selected: 0, ..question });
 }
 
 /// Carries out the step after a save.

@@ -1,37 +1,117 @@
 //! Navigation by lines, groups and pages and with the mouse, in the focused pane or in the topmost
-//! dialog, and the end of the topmost dialog or work by Esc and Ctrl-C.
+//! dialog, the file browser, and the end of the topmost dialog or work by Esc and Ctrl-C.
 
 use ratatui::layout::Position;
 
-use super::{dialogs, edit, files, panes, study, trade};
+use super::{edit, files, panes, studies};
 use crate::case::Case;
 use crate::model::Stage;
 use crate::tui::app::App;
-use crate::tui::app::actions::Effect;
+use crate::tui::app::actions::{Effect, Running, Slot, Work};
+use crate::tui::app::dialogs::Prompt;
+use crate::tui::app::dialogs::browser::Browser;
 use crate::tui::layout::Pane;
 use crate::tui::panes::chart::{ChartCommand, angle_at};
 use crate::tui::panes::form;
 use crate::tui::panes::teeth::TeethCommand;
 use crate::tui::tab::Tab;
-use crate::tui::{header, rows};
+use crate::tui::{header, rows, store};
 
 /// Message of Ctrl-C if there is nothing to cancel and nothing unsaved.
 const LEAVING: &str = "no running work and no unsaved edits: press Ctrl-C again to \
     quit";
 
+/// Handles a letter that is no command of the table: it presses a button, or is text.
+pub(super) fn letter(app: &mut App, letter: char) {
+    if let Some(Prompt::Ask(question)) = app.prompts.last() {
+        if let Some(change) = question.by_letter(letter) {
+            change.apply(app);
+        }
+    } else {
+        edit::insert(app, letter);
+    }
+}
+
+/// Previews a new selection.
+pub(super) fn preview(app: &mut App) {
+    let units = app.settings.units;
+    let prompt = app.prompts.last_mut();
+    let work = prompt.and_then(|prompt| prompt.dialog_mut().preview(units));
+    app.start_all(work);
+}
+
+/// Handles a change of the line of a dialog.
+pub(super) fn line_changed(app: &mut App) {
+    let prompt = app.prompts.last_mut();
+    let works = prompt.map_or_else(Vec::new, |prompt| prompt.dialog_mut().typed());
+    app.start_all(works);
+}
+
+/// Selects another field of the explanation and makes it visible.
+pub(super) fn step_page(app: &mut App, by: isize) {
+    app.with_dialog(|dialog, around| dialog.select_field(by, around));
+}
+
+/// Closes the topmost dialog. Returns false if there is none.
+fn close(app: &mut App) -> bool {
+    let prompt = app.prompts.pop();
+    if matches!(prompt, Some(Prompt::Relief(_))) {
+        app.cancel(Slot::Relief);
+    }
+    prompt.is_some()
+}
+
+/// Opens the browser in the folder of the present case.
+pub(super) fn open_browser(app: &mut App) {
+    browse(app, false);
+}
+
+/// Goes to the recent cases, in an open browser or in a new one.
+pub(super) fn open_recent(app: &mut App) {
+    match app.browser() {
+        Some(browser) => browser.select_recents(),
+        None => browse(app, true),
+    }
+}
+
+fn browse(app: &mut App, prefers_recents: bool) {
+    let opens = (files::open as fn(&mut App, _), files::begin_example as fn(&mut App, _));
+    let browser = Browser::beside(app.tab.path.as_deref(), prefers_recents, opens);
+    let recents = |app: &mut App, recents| {
+        if let Some(browser) = app.browser() {
+            browser.remember(recents);
+        }
+    };
+    let find = |_: &Running<'_>| Some(store::looked_at(store::recents()));
+    app.start_all([browser.list(), Work::new(Slot::Recents, find, recents)]);
+    app.prompts.push(Prompt::Browse(Box::new(browser)));
+}
+
+/// Goes to the parent folder.
+pub(super) fn browse_up(app: &mut App) {
+    let work = app.browser().map(Browser::leave);
+    app.start_all(work);
+}
+
+/// Enters the selected folder, or writes the selected name into the line.
+pub(super) fn complete_path(app: &mut App) {
+    let works = app.browser().map_or_else(Vec::new, Browser::complete);
+    app.start_all(works);
+}
+
 /// Handles a click on a field, a result, the chart, the name of a case or of a hidden pane, a line
 /// of a list, or a button. A second click on the selection is Enter.
 pub(super) fn click(app: &mut App, at: Position) {
-    match dialogs::with(app, |dialog, around| dialog.click(at, around.screen)) {
+    match app.with_dialog(|dialog, around| dialog.click(at, around.screen)) {
         None => in_panes(app, at),
-        Some(true) => dialogs::accept(app),
+        Some(true) => app.accept(),
         Some(false) => (),
     }
 }
 
 /// Handles a step of the wheel by lines downwards.
 pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
-    if dialogs::with(app, |dialog, around| dialog.wheel(by, around)).is_some() {
+    if app.with_dialog(|dialog, around| dialog.wheel(by, around)).is_some() {
         return;
     }
     let nearer = if by < 0 { 1 } else { -1 };
@@ -40,15 +120,15 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
         Some(Pane::Results) => app.tab.results.top = app.results().scrolled(by),
         Some(Pane::Chart) => panes::run_chart(app, ChartCommand::Zoom(nearer)),
         Some(Pane::Teeth) => panes::run_teeth(app, TeethCommand::Zoom(nearer)),
-        Some(Pane::Study) if app.study.is_tolerance => study::scroll(app, by),
-        Some(Pane::Study) => study::zoom(app, nearer),
+        Some(Pane::Study) if app.study.is_tolerance => studies::scroll(app, by),
+        Some(Pane::Study) => studies::zoom(app, nearer),
         Some(Pane::Trade) | None => (),
     }
 }
 
 /// Esc: closes a dialog, leaves the field, or stops the work; no edit is lost.
 pub(super) fn leave(app: &mut App) {
-    if dialogs::close(app) {
+    if close(app) {
         return;
     }
     // Hints such as `Esc n` rely on one Esc to leave the field, also while work runs.
@@ -73,7 +153,7 @@ pub(super) fn leave(app: &mut App) {
 /// other programs copy with this key.
 pub(super) fn cancel(app: &mut App) {
     let is_again = app.last_message.as_ref().is_some_and(|message| message.text == LEAVING);
-    if !is_again && (dialogs::close(app) || stop(app, true) || panes::stop_playing(app)) {
+    if !is_again && (close(app) || stop(app, true) || panes::stop_playing(app)) {
         return;
     }
     if is_again || app.tabs().any(Tab::is_unsaved) {
@@ -87,6 +167,11 @@ pub(super) fn cancel(app: &mut App) {
 pub(super) fn field(app: &mut App, field: usize) {
     app.layout.focus_on(Pane::Form);
     app.focus_on(field);
+}
+
+/// Goes to the first field, or to the last one if `way` is positive.
+pub(super) fn end_of_form(app: &mut App, way: isize) {
+    field(app, if way > 0 { usize::MAX } else { 0 });
 }
 
 /// Goes to the next invalid field, wrapping around.
@@ -103,19 +188,19 @@ pub(super) fn fault(app: &mut App) {
 
 /// Goes to the next or previous line.
 pub(super) fn step(app: &mut App, by: isize) {
-    if dialogs::with(app, |dialog, around| dialog.step(by, around)).is_some() {
+    if app.with_dialog(|dialog, around| dialog.step(by, around)).is_some() {
         return;
     }
     match app.layout.focus() {
         Pane::Results => mark(app, by),
-        Pane::Trade => trade::step(app, by),
+        Pane::Trade => studies::step_setting(app, by),
         _ => app.focus_on(app.tab.form.focus.saturating_add_signed(by)),
     }
 }
 
 /// Goes to the next or previous group or page.
 pub(super) fn leap(app: &mut App, by: isize) {
-    if dialogs::with(app, |dialog, around| dialog.turn(by, around)).is_some() {
+    if app.with_dialog(|dialog, around| dialog.turn(by, around)).is_some() {
         return;
     }
     match app.layout.focus() {
@@ -128,7 +213,7 @@ pub(super) fn leap(app: &mut App, by: isize) {
 pub(super) fn go_to_end(app: &mut App, way: isize) {
     match app.layout.focus() {
         Pane::Results => mark(app, way.saturating_mul(isize::MAX)),
-        _ => field(app, if way > 0 { usize::MAX } else { 0 }),
+        _ => end_of_form(app, way),
     }
 }
 
@@ -176,7 +261,7 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) {
                 let was_selected = app.results().marked().is_some_and(|known| known.key == key);
                 app.tab.results.selected = Some(key);
                 if was_selected && had_focus {
-                    dialogs::explain(app);
+                    panes::explain(app);
                 }
             }
         }
@@ -219,8 +304,8 @@ fn pane_at(app: &App, at: Position) -> Option<Pane> {
 
 /// Stops long work, with the study on request. Its results so far stay. Returns whether any ran.
 fn stop(app: &mut App, has_study: bool) -> bool {
-    let has_measured = trade::stop(app);
-    let has_studied = has_study && study::stop(app);
+    let has_measured = studies::stop_benchmark(app);
+    let has_studied = has_study && studies::stop(app);
     let has_solved = stop_solve(app) || stop_seeking(app);
     has_measured || has_studied || has_solved
 }

@@ -7,17 +7,21 @@ use super::edit;
 use crate::model::compliance::model_of;
 use crate::model::inputs::Method;
 use crate::model::solve::speeds;
-use crate::model::{Inputs, Refusal, Stage, Stages, solve_while};
+use crate::case::units::System;
+use crate::model::{self, Inputs, Refusal, Stage, Stages, solve_while};
+use crate::report::{self, explain as explanation};
 use crate::report::charts::{chart_of_spectra, spectra, speed_chart, tooth_chart};
 use crate::study::stiffness::{FLANK_POINTS, compare_flanks};
 use crate::tui::app::App;
-use crate::tui::app::actions::{Effect, Running, Work};
+use crate::tui::app::actions::{Effect, Running, Slot, Work};
+use crate::tui::app::dialogs::Prompt;
+use crate::tui::app::dialogs::cursor_to::{CursorTo, Reach, cursor_range};
+use crate::tui::app::dialogs::page::{Explanation, Page};
 use crate::tui::ascii;
-use crate::tui::dialogs::Prompt;
-use crate::tui::dialogs::cursor_to::{CursorTo, Reach, cursor_range};
-use crate::tui::jobs::{ChartRequest, ChartValues, Slot, WorkerChart};
+use crate::tui::jobs::{ChartRequest, ChartValues, WorkerChart};
 use crate::tui::layout::Pane;
 use crate::tui::panes::chart::{self, ChartCommand, first_contact};
+use crate::tui::panes::results as results_pane;
 use crate::tui::panes::teeth::TeethCommand;
 
 /// Time between two messages of a growing curve.
@@ -79,6 +83,70 @@ pub(super) fn show_result(app: &mut App, key: &str) {
     show(app, Pane::Results);
 }
 
+/// Opens the explanation of the selected result.
+pub(super) fn explain(app: &mut App) {
+    let Some(quantity) = app.results().marked() else {
+        return app.complain("there are no results to explain");
+    };
+    let Some(inputs) = app.tab.inputs().cloned() else {
+        return app.complain(
+            "these are the last valid results: fix the fields marked with ! to explain a result",
+        );
+    };
+    let solution = app.tab.answer.as_ref().and_then(|answer| answer.of(answer.active));
+    let value = solution.and_then(|solution| report::value(quantity, solution));
+    let value = value.and_then(|value| {
+        let [own, metric] = [app.settings.units, System::Metric]
+            .map(|system| report::shown_in(quantity, value, system));
+        (own.unit != metric.unit).then_some(own)
+    });
+    app.prompts.push(Prompt::Explain(Explanation::new(
+        quantity,
+        app.tab.name(),
+        value,
+        |app, field| {
+            app.prompts.clear();
+            go_to(app, field);
+        },
+    )));
+    let case = app.tab.case.clone();
+    // As in `tipstrike explain`.
+    let page = move |_: &Running<'_>| {
+        let inputs = inputs.needing([quantity.stage]);
+        Some(match model::solve(&inputs, Stages::of(quantity.stage)) {
+            Ok(solution) => Ok(Box::new(explanation::explain(quantity, &case, &inputs, &solution))),
+            Err(refusal) => Err(format!("Not solved: {refusal}. Correction: {}.", refusal.fix())),
+        })
+    };
+    app.start(Work::new(Slot::Explanation, page, |app, page| {
+        if let Some(Prompt::Explain(explanation)) = app.prompts.last_mut() {
+            explanation.page = Some(page);
+        }
+    }));
+}
+
+/// Opens a page with the outcome, the limits and every note in full.
+pub(super) fn notes(app: &mut App) {
+    let lines = results_pane::in_full(&app.results());
+    if lines.is_empty() {
+        app.complain("there are no results to show");
+    } else {
+        let page = Page::new("Outcome, limits, notes", lines);
+        app.prompts.push(Prompt::Read(Page { is_of_results: true, ..page }));
+    }
+}
+
+/// Shows new results on that page while it is open.
+pub(super) fn refresh_page(app: &mut App) {
+    let is_of_results =
+        |prompt: &Prompt| matches!(prompt, Prompt::Read(page) if page.is_of_results);
+    let Some(at) = app.prompts.iter().position(is_of_results) else { return };
+    let lines = results_pane::in_full(&app.results());
+    if let Prompt::Read(page) = &mut app.prompts[at] {
+        page.lines = lines;
+    }
+}
+
 /// Reports a letter without a command in the focused pane, and suggests a command.
 pub(super) fn stray(app: &mut App, letter: char) {
     let name = if letter == ' ' { "Space".to_owned() } else { letter.to_string() };
@@ -127,7 +195,7 @@ pub(super) fn follow_cursor(app: &mut App, cursor_before: Option<f64>) {
 }
 
 /// Moves the cursor by columns towards E.
-pub(super) fn step_cursor(app: &mut App, columns: i16) {
+pub(super) fn step_cursor(app: &mut App, columns: isize) {
     match range_of_cursor(app) {
         Some(reach) => app.cursor = Some(reach.moved(app.cursor, columns)),
         None => app.complain("no valid results for a cursor"),
@@ -148,14 +216,14 @@ pub(super) fn cursor_to_start(app: &mut App) {
 /// Asks for an angle, a time or a point.
 pub(super) fn ask_cursor(app: &mut App) {
     if range_of_cursor(app).is_some() {
-        app.prompts.push(Prompt::CursorTo(CursorTo::default()));
+        app.prompts.push(Prompt::CursorTo(CursorTo::new(move_cursor)));
     } else {
         app.complain("no valid results for a cursor");
     }
 }
 
 /// Moves the cursor to the typed angle. Shows the chart if neither charts nor teeth are visible.
-pub(super) fn move_cursor(app: &mut App, typed: Result<f64, String>) {
+fn move_cursor(app: &mut App, typed: Result<f64, String>) {
     match typed {
         Err(reason) => app.complain(reason),
         Ok(angle) => {

@@ -6,6 +6,7 @@ use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
 
 use super::{NO_CONTACT, REFUSED, StudyPane, cursor, range};
+use crate::case::FIELDS;
 use crate::case::units;
 use crate::model::Outcome;
 use crate::report::chart::{Axis, Chart, Kind, Labels, Series, Span};
@@ -31,24 +32,14 @@ pub(super) fn draw(
     let theme = pane.look.theme;
     let all = || shown.layers.iter().flat_map(|found| found.values.iter().flatten().copied());
     let factor = units::factor(common_unit(known, all(), pane.units)).unwrap_or(1.0);
-    let is_joined = axis.points.iter().all(|point| point.number.is_some());
     let curve = |(layer, found): (&Layer, &LayerFound)| {
-        let points = found.values.iter().enumerate();
-        let points = points.map(|(at, value)| (x(axis, at), value.map(|value| value / factor)));
-        let pieces = pieces(points, if is_joined { f64::INFINITY } else { 0.0 });
-        let is_shown = !pieces.is_empty() || matches!(layer.source, LayerSource::Active(_));
-        let series = Series { name: layer.source.name().to_owned(), pieces, kind: Kind::Curve };
+        let series = series(layer.source.name().to_owned(), axis, &found.values, factor);
+        let is_shown = !series.pieces.is_empty() || matches!(layer.source, LayerSource::Active(_));
         is_shown.then(|| (series, look(pane, layer.source)))
     };
     // The active method is first, on top.
     let (series, looks) = grid.layers.iter().zip(&shown.layers).filter_map(curve).unzip();
-    let names = axis.points.iter().enumerate().map(|(at, point)| (x(axis, at), point.text.clone()));
-    let labels = if is_joined { Labels::new() } else { names.collect() };
-    let chart = Chart {
-        across: Axis { labels, ..Axis::new("", axis.unit.clone()) },
-        series,
-        ..Chart::default()
-    };
+    let chart = Chart { across: across(axis, ""), series, ..Chart::default() };
     let mut words = vec![("● now".to_owned(), theme.focus), ("▴ cursor".to_owned(), theme.focus)];
     let has = |sought| shown.layers.iter().any(|found| found.outcomes.contains(&sought));
     let signs = [
@@ -58,12 +49,12 @@ pub(super) fn draw(
     let found = signs.iter().filter(|(outcome, ..)| has(*outcome));
     words.extend(found.map(|(_, sign, name)| (format!("{sign} {name}"), theme.note)));
     let last = x(axis, axis.points.len().saturating_sub(1));
-    let across = Span::new(x(axis, 0), last);
-    let half = if across.is_empty() { 0.5 } else { 0.0 };
-    let across = Span::new(across.from - half, across.to + half);
+    let span = Span::new(x(axis, 0), last);
+    let half = if span.is_empty() { 0.5 } else { 0.0 };
+    let span = Span::new(span.from - half, span.to + half);
     let up = Span::of(all().map(|value| value / factor)).axis();
     let drawn = TerminalChart { chart: &chart, looks, words, is_compared: false, theme };
-    let plot = drawn.draw(area, (across, up), 0, buffer);
+    let plot = drawn.draw(area, (span, up), 0, buffer);
     if plot.cells.is_empty() {
         return;
     }
@@ -87,6 +78,58 @@ pub(super) fn draw(
         }
     }
     plot.draw_cursor(x(axis, cursor(pane, shown).0), theme, buffer);
+}
+
+/// Greatest number of curves of a picture of a map.
+const MOST_CURVES: usize = 8;
+
+/// The picture of the shown curves; of a map, curves over the first field for values of the second.
+#[must_use]
+pub(crate) fn picture(pane: &StudyPane<'_>) -> Option<Chart> {
+    let shown = pane.study.shown.as_ref()?;
+    let StudyParameters::Grid(grid) = &shown.request.parameters else { return None };
+    let (known, axis) = (shown.quantity()?, grid.axes.last()?);
+    let layers = grid.layers.iter().zip(&shown.layers);
+    let named: Vec<(String, &[Option<f64>])> = match grid.axes.as_slice() {
+        [up, _] => {
+            let rows = shown.layers.first()?.values.chunks(axis.points.len()).enumerate();
+            let step = up.points.len().div_ceil(MOST_CURVES);
+            rows.step_by(step).map(|(at, row)| (up.with_unit(at), row)).collect()
+        }
+        _ => layers.map(|(of, found)| (of.source.name().to_owned(), &found.values[..])).collect(),
+    };
+    let values = named.iter().flat_map(|(_, values)| values.iter().flatten().copied());
+    let unit = common_unit(known, values, pane.units);
+    let factor = units::factor(unit).unwrap_or(1.0);
+    let curves = named.into_iter().map(|(name, values)| series(name, axis, values, factor));
+    let series: Vec<Series> = curves.filter(|series| !series.pieces.is_empty()).collect();
+    let (field, label) = (FIELDS[axis.field].full_label(), known.label.trim());
+    (!series.is_empty()).then(|| Chart {
+        title: format!("{label} over {field}"),
+        across: across(axis, &field),
+        up: Axis::new(format!("{label} {}", known.symbol), units::system::named(unit)),
+        series,
+        ..Chart::default()
+    })
+}
+
+fn series(name: String, axis: &StudyAxis, values: &[Option<f64>], factor: f64) -> Series {
+    let points = values.iter().enumerate();
+    let points = points.map(|(at, value)| (x(axis, at), value.map(|value| value / factor)));
+    let pieces = pieces(points, if is_joined(axis) { f64::INFINITY } else { 0.0 });
+    Series { name, pieces, kind: Kind::Curve }
+}
+
+/// The horizontal axis of a chart; choices have their names.
+fn across(axis: &StudyAxis, name: &str) -> Axis {
+    let names = axis.points.iter().enumerate().map(|(at, point)| (x(axis, at), point.text.clone()));
+    let labels = if is_joined(axis) { Labels::new() } else { names.collect() };
+    Axis { labels, ..Axis::new(name, axis.unit.clone()) }
+}
+
+/// Whether the points are numbers, which a line joins.
+fn is_joined(axis: &StudyAxis) -> bool {
+    axis.points.iter().all(|point| point.number.is_some())
 }
 
 /// The position of a point on the axis: its number, or the index of a choice.

@@ -1,7 +1,7 @@
 //! The range of a study: around the present value of a field, in the unit of the field's text.
 
 use crate::case::dependencies::value_of;
-use crate::case::fields::{FIELDS, Field, Kind};
+use crate::case::fields::{FIELDS, Field, Kind, index_of};
 use crate::case::units::{self, System};
 use crate::case::{Case, Problem, field_range};
 use crate::model::{Inputs, Quantity};
@@ -228,6 +228,78 @@ fn count_range(
     }
 }
 
+/// Greatest number of points of typed ranges.
+const MOST_POINTS: usize = 20_000;
+/// Number of points of each of two typed ranges.
+const POINTS_OF_MAP: usize = 31;
+
+/// The axes of a typed text such as `50..200 N m, 31 points`, or of two such ranges separated by a
+/// semicolon: that of the curve, then the second one. `KEY =` names another field than `fields`.
+///
+/// # Errors
+/// Returns the reason if the text is not valid.
+pub(crate) fn typed_axes(fields: [Option<usize>; 2], text: &str) -> Result<Vec<Axis>, String> {
+    let parts: Vec<&str> = text.split(';').map(str::trim).filter(|part| !part.is_empty()).collect();
+    if parts.is_empty() || parts.len() > 2 {
+        return Err("type a range such as 50..200 N m, or two with a semicolon between".to_owned());
+    }
+    let usual = (parts.len() == 2).then_some(POINTS_OF_MAP);
+    let axis = |(part, field): (&&str, Option<usize>)| {
+        let key = || field.map(|field| FIELDS[field].key);
+        let (key, mut values) = match part.split_once('=') {
+            Some((key, values)) => (key.trim(), values),
+            None => (key().ok_or("name the field: KEY = FROM..TO")?, *part),
+        };
+        let mut sampling = Sampling::default();
+        while let Some((rest, last)) = values.rsplit_once(',') {
+            let words: Vec<&str> = last.split_whitespace().collect();
+            match words[..] {
+                ["log"] => sampling.is_log = true,
+                [count, "points"] => {
+                    let count = count.parse();
+                    sampling.points = Some(count.map_err(|_| "type a number before points")?);
+                }
+                _ => break,
+            }
+            values = rest;
+        }
+        let text = format!("{key}={values}");
+        let is_count = index_of(key).is_some_and(|at| matches!(FIELDS[at].kind, Kind::Count(..)));
+        if Axis::is_range(&text) && !is_count {
+            sampling.points = sampling.points.or(usual);
+        }
+        Axis::parse(&text, sampling).map_err(|problem| problem.for_form().to_string())
+    };
+    let axes = parts.iter().zip(fields).map(axis).collect::<Result<Vec<_>, String>>()?;
+    let count: usize = axes.iter().map(|axis| axis.points.len()).product();
+    if count > MOST_POINTS {
+        return Err(format!("{count} points are more than {MOST_POINTS}: type fewer points"));
+    }
+    Ok(axes)
+}
+
+/// The argument of `--vary` that gives an axis, and its number of points if it is a range.
+#[must_use]
+pub(crate) fn vary(axis: &Axis) -> (String, Option<usize>) {
+    let (count, key) = (axis.points.len(), axis.key());
+    let first = axis.points.first().map_or("", |point| point.text.as_str());
+    let range = format!("{key}={first}..{}", axis.with_unit(count - 1));
+    let sampling = Sampling { points: Some(count), is_log: false };
+    if count > 1 && Axis::parse(&range, sampling).as_ref() == Ok(axis) {
+        return (range, Some(count));
+    }
+    let texts: Vec<&str> = axis.points.iter().map(|point| point.text.as_str()).collect();
+    (format!("{key}={} {}", texts.join(","), axis.unit).trim_end().to_owned(), None)
+}
+
+/// An axis as the user would type it.
+#[must_use]
+pub(crate) fn typed(axis: &Axis) -> String {
+    let (text, count) = vary(axis);
+    let text = text.replacen('=', " = ", 1);
+    count.map_or(text.clone(), |count| format!("{text}, {count} points"))
+}
+
 /// The point of an axis nearest to the present value of its field.
 #[must_use]
 pub(crate) fn nearest(axis: &Axis, case: &Case) -> Option<usize> {
@@ -253,7 +325,6 @@ pub(crate) fn present(axis: &Axis, case: &Case) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::fields::index_of;
 
     fn range_of(case: &Case, zoom: i32) -> RangeOf<'_> {
         let units = System::Metric;
@@ -281,6 +352,29 @@ mod tests {
         ] {
             assert_eq!(ends(key, zoom), (from.to_owned(), to.to_owned()), "{key} {zoom}");
         }
+    }
+
+    #[test]
+    fn a_typed_range_has_its_points_and_is_written_as_typed() {
+        let torque = index_of("operation.torque");
+        let relief = "driven.tip_relief = 0..50 um";
+        for (text, expected) in [
+            ("50..200 N m", "operation.torque = 50..200 N m, 101 points"),
+            ("50..200 N m, 31 points", "operation.torque = 50..200 N m, 31 points"),
+            ("50, 80, 200 N m", "operation.torque = 50,80,200 N m"),
+            ("driver.teeth = 18..22", "driver.teeth = 18..22, 5 points"),
+            ("1..100 N m, 3 points, log", "operation.torque = 1,10,100 N m"),
+        ] {
+            let axes = typed_axes([torque, None], text).expect("a range");
+            assert_eq!(typed(&axes[0]), expected);
+            assert_eq!(typed_axes([None, None], expected).expect("a range"), axes);
+        }
+        let map = typed_axes([torque, None], &format!("50..200 N m; {relief}")).expect("a map");
+        assert_eq!(map.iter().map(|axis| axis.points.len()).collect::<Vec<_>>(), [31, 31]);
+        for wrong in ["", "200..50 N m", "50..200", "50..200 N m, x points", "a=1..2", "1;2;3"] {
+            assert!(typed_axes([torque, None], wrong).is_err(), "{wrong}");
+        }
+        assert!(typed_axes([torque, None], "50..200 N m, 30000 points").is_err());
     }
 
     #[test]

@@ -6,11 +6,13 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line as Words, Span};
 
-use super::{Dialog, Outcome, Surroundings, boxes};
+use super::{Dialog, Surroundings, boxes};
 use crate::case::fields::index_of;
 use crate::model::Quantity;
 use crate::report::Shown;
 use crate::report::explain::{Kind, Line, Page as ExplanationPage, lines};
+use crate::tui::app::App;
+use crate::tui::app::actions::Change;
 use crate::tui::ascii::written_out;
 use crate::tui::keys::Place;
 use crate::tui::theme::{Look, Theme};
@@ -50,10 +52,6 @@ impl Dialog for Page {
         self.top = boxes::scrolled(self.top, by, count, around.screen);
     }
 
-    fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
-        Outcome::none()
-    }
-
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         let (lines, theme) = (self.wrapped(area), around.look.theme);
         boxes::page_box(&self.title, &lines, self.top, theme, (area, buffer));
@@ -76,6 +74,7 @@ pub struct Explanation {
     pub top: usize,
     /// The index of the selected field.
     selected: Option<usize>,
+    go_to: fn(&mut App, usize),
 }
 
 impl Explanation {
@@ -85,8 +84,9 @@ impl Explanation {
         quantity: &'static Quantity,
         case: String,
         value: Option<Shown>,
+        go_to: fn(&mut App, usize),
     ) -> Explanation {
-        Explanation { quantity, case, value, page: None, top: 0, selected: None }
+        Explanation { quantity, case, value, page: None, top: 0, selected: None, go_to }
     }
 
     /// The keys of the fields that the result depends on, in the order of the page.
@@ -162,12 +162,13 @@ impl Dialog for Explanation {
     }
 
     // Without a selected field, selects the first one.
-    fn accept(&mut self, around: &Surroundings<'_>) -> Outcome {
+    fn accept(&mut self, around: &Surroundings<'_>) -> Option<Change> {
         if let Some(field) = self.field().and_then(index_of) {
-            return Outcome::GoTo(field);
+            let go_to = self.go_to;
+            return Some(Change::of(move |app| go_to(app, field)));
         }
         self.select_field(1, around);
-        Outcome::none()
+        None
     }
 
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {

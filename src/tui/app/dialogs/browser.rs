@@ -10,13 +10,16 @@ use ratatui::text::Line as Words;
 use ratatui::widgets::{Clear, Widget};
 
 use super::boxes::{self, PreviewPane};
-use super::picker::Pick;
-use super::{Dialog, Outcome, Surroundings};
+use super::{Dialog, Surroundings};
+use crate::case::Example;
 use crate::case::units::System;
-use crate::tui::jobs::Job;
+use crate::tui::app::App;
+use crate::tui::app::actions::{Change, Slot, Work};
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
-use crate::tui::store::folder::{Entry, Listing, Preview, SearchResult, Target, beneath, place_of};
+use crate::tui::store::folder::{
+    Entry, Listing, Preview, SearchResult, Target, beneath, find, list, place_of,
+};
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
@@ -38,9 +41,13 @@ enum Source {
 
 use Source::{Below, Examples, Folder, Recents};
 
+/// The functions that open a file or an example.
+pub(crate) type Opens = (fn(&mut App, PathBuf), fn(&mut App, &'static Example));
+
 /// A folder and the recent cases.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Browser {
+    open: Opens,
     /// The typed text: a part of a name, or a path.
     pub(crate) input: Line,
     /// The start folder or the entered folder, relative to the working directory if possible.
@@ -70,21 +77,64 @@ pub struct Browser {
 impl Browser {
     /// A browser in the folder of the present case; selects the recent cases if they are preferred.
     #[must_use]
-    pub(crate) fn beside(path: Option<&Path>, prefers_recents: bool) -> Browser {
-        let base = path.and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
-        let came_from = path.and_then(Path::file_name).map(ToOwned::to_owned);
-        let entries = [Vec::new(), Vec::new(), Entry::examples(), Vec::new()];
-        Browser { base, entries, prefers_recents, came_from, ..Browser::default() }
+    pub(crate) fn beside(path: Option<&Path>, prefers_recents: bool, open: Opens) -> Browser {
+        Browser {
+            open,
+            input: Line::default(),
+            base: path.and_then(Path::parent).map(Path::to_owned).unwrap_or_default(),
+            typed_folder: String::new(),
+            listing: None,
+            sought: None,
+            below: None,
+            entries: [Vec::new(), Vec::new(), Entry::examples(), Vec::new()],
+            matches: Vec::new(),
+            selected: 0,
+            prefers_recents,
+            came_from: path.and_then(Path::file_name).map(ToOwned::to_owned),
+            preview: PreviewPane::default(),
+            is_accepting: false,
+        }
     }
 
-    /// The job that lists the folder.
+    /// The work that lists the folder.
     #[must_use]
-    pub(crate) fn list(&self) -> Job {
-        Job::Folder(self.asked(), place_of(&self.base, &self.typed_folder))
+    pub(crate) fn list(&self) -> Work {
+        let asked = self.asked();
+        let show = |app: &mut App, listing| {
+            if app.browser().is_some_and(|browser| browser.take(listing)) {
+                app.accept();
+            }
+        };
+        Work::new(Slot::Folder, |running| Some(list(asked, running.path.to_owned())), show)
+            .at(self.place())
+    }
+
+    // At most one search for each folder.
+    fn search(&mut self) -> Option<Work> {
+        let asked = self.asked();
+        if !self.searches_below() || self.sought.as_ref() == Some(&asked) {
+            return None;
+        }
+        self.sought = Some(asked.clone());
+        let search = Work::new(
+            Slot::Search,
+            move |running| find(asked, running.path, &|_| running.is_wanted()),
+            |app, found| {
+                if let Some(browser) = app.browser() {
+                    browser.take_below(found);
+                }
+            },
+        );
+        Some(search.at(self.place()))
+    }
+
+    /// The path of the typed folder.
+    fn place(&self) -> PathBuf {
+        place_of(&self.base, &self.typed_folder)
     }
 
     /// Enters the selected folder, or writes the selected name into the line.
-    pub(crate) fn complete(&mut self) -> Vec<Job> {
+    pub(crate) fn complete(&mut self) -> Vec<Work> {
         match self.target().cloned() {
             Some(Target::Folder(folder)) => {
                 self.enter(folder);
@@ -97,19 +147,14 @@ impl Browser {
         self.typed()
     }
 
-    /// Whether the listing has arrived for which Enter waits; once.
-    pub(crate) fn accepts_now(&mut self) -> bool {
-        self.listing.is_some() && std::mem::take(&mut self.is_accepting)
-    }
-
     /// Selects the first recent case, or goes back to the folder.
     pub(crate) fn select_recents(&mut self) {
         self.prefers_recents = self.source() != Some(Recents);
         self.select_first();
     }
 
-    /// Enters the parent folder, as a full path if known, and returns the job that lists it.
-    pub(crate) fn leave(&mut self) -> Job {
+    /// Enters the parent folder, as a full path if known, and returns the work that lists it.
+    pub(crate) fn leave(&mut self) -> Work {
         self.enter(self.above());
         self.list()
     }
@@ -150,10 +195,10 @@ impl Browser {
         !wanted.is_empty() && !wanted.starts_with(['.', '~'])
     }
 
-    /// Shows a listing if it belongs to the present folder.
-    pub(crate) fn take(&mut self, listing: Listing) {
+    /// Shows a listing if it belongs to the present folder. Returns whether Enter waits for it.
+    fn take(&mut self, listing: Listing) -> bool {
         if listing.asked != self.asked() {
-            return;
+            return false;
         }
         let found: Vec<Entry> = listing.entries.iter().flatten().cloned().collect();
         self.listing = Some(listing);
@@ -169,10 +214,11 @@ impl Browser {
         };
         let at = self.in_folder().position(is_it).filter(|_| !self.prefers_recents);
         self.selected = at.unwrap_or(self.selected);
+        std::mem::take(&mut self.is_accepting)
     }
 
     /// Shows the cases in the folders below; a selection before them does not change.
-    pub(crate) fn take_below(&mut self, below: SearchResult) {
+    fn take_below(&mut self, below: SearchResult) {
         let selected = self.selected;
         let is_above = self.source() == Some(Folder);
         self.entries[Below as usize].clone_from(&below.cases);
@@ -324,22 +370,18 @@ impl Dialog for Browser {
         Some(&mut self.input)
     }
 
-    fn typed(&mut self) -> Vec<Job> {
+    fn typed(&mut self) -> Vec<Work> {
         self.is_accepting = false;
-        let mut jobs = Vec::new();
+        let mut works = Vec::new();
         let folder = self.split().0.to_owned();
         if folder != self.typed_folder {
             (self.typed_folder, self.listing) = (folder, None);
             self.entries[Folder as usize].clear();
-            jobs.push(self.list());
+            works.push(self.list());
         }
         self.refit();
-        // At most one search for each folder.
-        if self.searches_below() && self.sought.as_ref() != Some(&self.asked()) {
-            self.sought = Some(self.asked());
-            jobs.push(Job::Search(self.asked(), place_of(&self.base, &self.typed_folder)));
-        }
-        jobs
+        works.extend(self.search());
+        works
     }
 
     fn step(&mut self, by: isize, _: &Surroundings<'_>) {
@@ -362,22 +404,32 @@ impl Dialog for Browser {
     }
 
     // Without a match, opens the typed path.
-    fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
+    fn accept(&mut self, _: &Surroundings<'_>) -> Option<Change> {
         let is_typed = !self.input.value().is_empty() && !self.prefers_recents;
         if self.listing.is_none() && is_typed {
             self.is_accepting = true;
-            return Outcome::none();
+            return None;
         }
-        match self.target() {
-            Some(Target::Folder(_)) => Outcome::Jobs(self.complete()),
-            Some(Target::File(path)) => Outcome::Open(path.clone()),
-            Some(Target::Example(example)) => Outcome::Pick(Pick::Begin(example)),
-            None if self.input.value().is_empty() => Outcome::none(),
-            None => Outcome::Open(beneath(&self.base, self.input.value())),
-        }
+        let (open, begin) = self.open;
+        let path = match self.target() {
+            Some(Target::Folder(_)) => {
+                let works = self.complete();
+                return Some(Change::of(|app| app.start_all(works)));
+            }
+            Some(&Target::Example(example)) => {
+                return Some(Change::of(move |app| {
+                    app.prompts.pop();
+                    begin(app, example);
+                }));
+            }
+            Some(Target::File(path)) => path.clone(),
+            None if self.input.value().is_empty() => return None,
+            None => beneath(&self.base, self.input.value()),
+        };
+        Some(Change::of(move |app| open(app, path)))
     }
 
-    fn preview(&mut self, units: System) -> Option<Job> {
+    fn preview(&mut self, units: System) -> Option<Work> {
         let target = self.target().cloned();
         self.preview.request(target, units)
     }

@@ -1,34 +1,30 @@
 //! The dialogs over the panes. Each file contains the state, keys, update and drawing of one
-//! dialog.
+//! dialog; what a dialog changes in the workbench, the caller gives to it.
 
-mod boxes;
+pub(crate) mod boxes;
 pub(crate) mod browser;
 pub(crate) mod cursor_to;
 pub(crate) mod page;
-pub(crate) mod path;
 pub(crate) mod picker;
 pub(crate) mod question;
 mod relief;
 
-use std::path::PathBuf;
-
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
-use super::jobs::Job;
-use super::keys::Place;
-use super::line::Line;
-use super::session::save::Next;
-use super::store::folder::{Preview, Target};
-use super::theme::Look;
+use super::App;
+use super::actions::{Change, Choice, Work};
 use crate::case::units::System;
+use crate::tui::keys::Place;
+use crate::tui::line::Line;
+use crate::tui::store::folder::{Preview, Target};
+use crate::tui::theme::Look;
 
 use browser::Browser;
 use cursor_to::{CursorScope, CursorTo};
 use page::{Explanation, Page};
-use path::PathDialog;
-use picker::{Pick, Picker};
-use question::{Choice, Question};
+use picker::Picker;
+use question::{PathDialog, Question};
 pub(crate) use relief::ReliefDialog;
 
 /// The interface of a dialog. By default it ignores a key.
@@ -44,8 +40,10 @@ pub(crate) trait Dialog {
         buffer: &mut Buffer,
     ) -> Option<Position>;
 
-    /// Handles Enter.
-    fn accept(&mut self, around: &Surroundings<'_>) -> Outcome;
+    /// The change of the state by Enter.
+    fn accept(&mut self, _around: &Surroundings<'_>) -> Option<Change> {
+        None
+    }
 
     /// The edited line of text.
     fn input(&mut self) -> Option<&mut Line> {
@@ -53,13 +51,8 @@ pub(crate) trait Dialog {
     }
 
     /// Handles a change of the edited line.
-    fn typed(&mut self) -> Vec<Job> {
+    fn typed(&mut self) -> Vec<Work> {
         Vec::new()
-    }
-
-    /// The outcome of a letter that is a command of the dialog; `None` if the letter is text.
-    fn letter(&mut self, _letter: char) -> Option<Outcome> {
-        None
     }
 
     /// Moves by `by` lines.
@@ -83,8 +76,8 @@ pub(crate) trait Dialog {
     /// Selects another field behind an explained result.
     fn select_field(&mut self, _by: isize, _around: &Surroundings<'_>) {}
 
-    /// The job that previews the selection, once for each selection.
-    fn preview(&mut self, _units: System) -> Option<Job> {
+    /// The work that previews the selection, once for each selection.
+    fn preview(&mut self, _units: System) -> Option<Work> {
         None
     }
 
@@ -100,37 +93,6 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) look: Look,
     /// The visible charts and the pane in which the cursor moves.
     pub(crate) cursor: CursorScope<'a>,
-}
-
-/// The decision of the user in a dialog.
-#[derive(Debug, Clone)]
-pub(crate) enum Outcome {
-    /// No decision yet; jobs of the dialog itself.
-    Jobs(Vec<Job>),
-    /// Open a file.
-    Open(PathBuf),
-    /// An answer to a question.
-    Choose(Choice),
-    /// Save under this name, then continue with the next step.
-    SaveAs(String, Next),
-    /// Write these values of fields into the case.
-    Relief(Vec<(&'static str, String)>),
-    /// Export to the file with this name.
-    Export(String),
-    /// Move the cursor to this angle, in rad before E; or the reason of the refusal.
-    CursorTo(Result<f64, String>),
-    /// The selected line of a list.
-    Pick(Pick),
-    /// Go to a field.
-    GoTo(usize),
-}
-
-impl Outcome {
-    /// No effect.
-    #[must_use]
-    pub(crate) fn none() -> Outcome {
-        Outcome::Jobs(Vec::new())
-    }
 }
 
 /// An open dialog.
@@ -182,27 +144,54 @@ impl Prompt {
             Prompt::Pick(dialog) => dialog,
         }
     }
+}
 
-    /// The file browser, if it is one.
+// Closes the dialog, then carries out the choice.
+fn closing(choice: &Choice) -> Change {
+    let change = choice.change();
+    Change::of(|app| {
+        app.prompts.pop();
+        change.apply(app);
+    })
+}
+
+impl App {
+    /// Passes control to the topmost dialog; `None` if there is no dialog.
+    pub(crate) fn with_dialog<T>(
+        &mut self,
+        act: impl FnOnce(&mut dyn Dialog, &Surroundings<'_>) -> T,
+    ) -> Option<T> {
+        let mut prompt = self.prompts.pop()?;
+        let result = act(prompt.dialog_mut(), &self.surroundings());
+        self.prompts.push(prompt);
+        Some(result)
+    }
+
+    /// Enter in the topmost dialog.
+    pub(crate) fn accept(&mut self) {
+        if let Some(change) = self.with_dialog(|dialog, around| dialog.accept(around)).flatten() {
+            change.apply(self);
+        }
+    }
+
+    /// The topmost dialog if it is the file browser.
     pub(crate) fn browser(&mut self) -> Option<&mut Browser> {
-        match self {
-            Prompt::Browse(browser) => Some(browser),
+        match self.prompts.last_mut() {
+            Some(Prompt::Browse(browser)) => Some(browser),
             _ => None,
         }
     }
 
-    /// Whether it is the dialog for the path to save to.
-    pub(crate) fn is_save_as(&self) -> bool {
-        matches!(self, Prompt::Path(dialog) if dialog.save.is_some())
-    }
-
-    /// Whether it is the question about a running export.
-    pub(crate) fn is_about_running_export(&self) -> bool {
-        matches!(self, Prompt::Ask(question) if question.is_about_running_export())
-    }
-
-    /// Whether it is the dialog for the path to export to.
-    pub(crate) fn is_export(&self) -> bool {
-        matches!(self, Prompt::Path(dialog) if dialog.save.is_none())
+    /// Closes the topmost dialog if it is a path or a question with this title.
+    pub(crate) fn close_titled(&mut self, title: &str) -> bool {
+        let is_it = match self.prompts.last() {
+            Some(Prompt::Path(dialog)) => dialog.title == title,
+            Some(Prompt::Ask(question)) => question.title == title,
+            _ => false,
+        };
+        if is_it {
+            self.prompts.pop();
+        }
+        is_it
     }
 }

@@ -6,11 +6,12 @@ use ratatui::text::{Line as Words, Span};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::{Dialog, Outcome, Surroundings, boxes};
-use crate::model::Inputs;
+use super::{Dialog, Prompt, Surroundings, boxes};
+use crate::model::{Inputs, Refusal};
 use crate::report::relief::{ReliefReport, settings};
-use crate::study::relief::{Demand, Specification};
-use crate::tui::jobs::{Job, ReliefRequest};
+use crate::study::relief::{Demand, NoRelief, Specification, specify};
+use crate::tui::app::App;
+use crate::tui::app::actions::{Change, Running, Slot, Work};
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
 use crate::tui::text;
@@ -35,11 +36,16 @@ pub struct ReliefDialog {
     problem: Option<String>,
     /// The first visible line about the selected relief.
     top: usize,
+    /// Writes values of fields into the case.
+    take_over: fn(&mut App, &[(&'static str, String)]),
 }
 
 impl ReliefDialog {
     /// The dialog on a pair, before its first search.
-    pub(crate) fn new(inputs: Inputs) -> ReliefDialog {
+    pub(crate) fn new(
+        inputs: Inputs,
+        take_over: fn(&mut App, &[(&'static str, String)]),
+    ) -> ReliefDialog {
         ReliefDialog {
             input: Line::whole(Demand::default().text()),
             inputs,
@@ -48,26 +54,38 @@ impl ReliefDialog {
             selected: 0,
             problem: None,
             top: 0,
+            take_over,
         }
     }
 
-    /// Searches for the typed demand.
-    pub(crate) fn search(&mut self) -> Vec<Job> {
-        match Demand::parse(self.input.value()) {
-            Ok(demand) => {
-                (self.searched, self.answer, self.problem) = (Some(demand.clone()), None, None);
-                let inputs = self.inputs.clone();
-                vec![Job::Relief(Box::new(ReliefRequest { demand, inputs }))]
-            }
+    /// Searches for the typed demand, as `tipstrike relief`.
+    pub(crate) fn search(&mut self) -> Option<Work> {
+        let demand = match Demand::parse(self.input.value()) {
+            Ok(demand) => demand,
             Err(problem) => {
                 self.problem = Some(problem);
-                Vec::new()
+                return None;
             }
-        }
+        };
+        (self.searched, self.answer, self.problem) = (Some(demand.clone()), None, None);
+        let inputs = self.inputs.clone();
+        let search = move |running: &Running<'_>| {
+            let found = match specify(&inputs, &demand, &|_| running.is_wanted()) {
+                Ok(found) => Ok(Box::new(found)),
+                Err(NoRelief::Refused(Refusal::Stopped)) => return None,
+                Err(none) => Err(none.to_string()),
+            };
+            Some((demand, found))
+        };
+        Some(Work::new(Slot::Relief, search, |app, (demand, found)| {
+            if let Some(Prompt::Relief(dialog)) = app.prompts.last_mut() {
+                dialog.take(&demand, found);
+            }
+        }))
     }
 
     /// Shows the result of the search for a demand.
-    pub(crate) fn take(&mut self, demand: &Demand, found: Result<Box<Specification>, String>) {
+    fn take(&mut self, demand: &Demand, found: Result<Box<Specification>, String>) {
         if Some(demand) == self.searched.as_ref() {
             (self.selected, self.top) = (found.as_ref().map_or(0, |found| found.best), 0);
             self.answer = Some(found);
@@ -125,7 +143,7 @@ impl Dialog for ReliefDialog {
         Some(&mut self.input)
     }
 
-    fn typed(&mut self) -> Vec<Job> {
+    fn typed(&mut self) -> Vec<Work> {
         self.problem = None;
         Vec::new()
     }
@@ -143,12 +161,14 @@ impl Dialog for ReliefDialog {
         self.top = boxes::scrolled(self.top, by * page.max(1), count, around.screen);
     }
 
-    fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
-        match self.found() {
-            _ if !self.is_searched() => Outcome::Jobs(self.search()),
-            Some(found) => Outcome::Relief(settings(&found.choices[self.selected].reliefs)),
-            None => Outcome::none(),
+    fn accept(&mut self, _: &Surroundings<'_>) -> Option<Change> {
+        if !self.is_searched() {
+            let search = self.search()?;
+            return Some(Change::of(|app| drop(app.start(search))));
         }
+        let values = settings(&self.found()?.choices[self.selected].reliefs);
+        let take_over = self.take_over;
+        Some(Change::of(move |app| take_over(app, &values)))
     }
 
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {

@@ -8,10 +8,11 @@ use ratatui::widgets::{Block, Borders, Clear, Padding, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use crate::case::units::System;
+use crate::tui::app::App;
+use crate::tui::app::actions::{Running, Slot, Work};
 use crate::tui::ascii::printable;
-use crate::tui::jobs::Job;
 use crate::tui::line::Line as Input;
-use crate::tui::store::folder::{Preview, Target};
+use crate::tui::store::folder::{self, Preview, Target};
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
@@ -191,13 +192,23 @@ pub(super) struct PreviewPane {
 }
 
 impl PreviewPane {
-    /// The job of the preview, once for each selection.
-    pub(super) fn request(&mut self, target: Option<Target>, units: System) -> Option<Job> {
+    /// The work of the preview, once for each selection.
+    pub(super) fn request(&mut self, target: Option<Target>, units: System) -> Option<Work> {
         if target == self.target {
             return None;
         }
         (self.target, self.preview) = (target.clone(), None);
-        Some(Job::Preview(target?, units))
+        let (own, path) = (target?, self.target.as_ref()?.path());
+        let find = {
+            let own = own.clone();
+            move |running: &Running<'_>| folder::preview(&own, units, &|_| running.is_wanted())
+        };
+        let show = move |app: &mut App, preview| {
+            if let Some(prompt) = app.prompts.last_mut() {
+                prompt.dialog_mut().show(&own, preview);
+            }
+        };
+        Some(Work::new(Slot::Preview, find, show).at(path))
     }
 
     /// Shows a preview if it belongs to the last request.

@@ -6,10 +6,12 @@ use ratatui::style::Style;
 use ratatui::text::Span;
 use unicode_width::UnicodeWidthStr;
 
-use super::{Dialog, Outcome, Surroundings, boxes};
+use super::{Dialog, Surroundings, boxes};
 use crate::case::units::{self, Dimension};
 use crate::numeric::decimal::{shortest, significant};
 use crate::report::graphs::GRAPHS;
+use crate::tui::app::App;
+use crate::tui::app::actions::Change;
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
 use crate::tui::panes::chart::curves::{CurveSource, curves};
@@ -29,10 +31,18 @@ const PICTURES: f64 = 48.0;
 const APPROACH: f64 = 1.6;
 
 /// The dialog with its typed text.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct CursorTo {
     /// The typed text.
-    pub(crate) input: Line,
+    input: Line,
+    done: fn(&mut App, Result<f64, String>),
+}
+
+impl CursorTo {
+    /// A dialog that passes the angle, or the reason of its refusal, to `done`.
+    pub(crate) fn new(done: fn(&mut App, Result<f64, String>)) -> CursorTo {
+        CursorTo { input: Line::default(), done }
+    }
 }
 
 impl Dialog for CursorTo {
@@ -44,13 +54,13 @@ impl Dialog for CursorTo {
         Some(&mut self.input)
     }
 
-    fn accept(&mut self, around: &Surroundings<'_>) -> Outcome {
-        let angle = parse_cursor(&around.cursor, self.input.value());
+    fn accept(&mut self, around: &Surroundings<'_>) -> Option<Change> {
+        let (done, angle) = (self.done, parse_cursor(&around.cursor, self.input.value()));
         if angle.is_err() {
             // Typing replaces the invalid text.
             self.input.select_all();
         }
-        Outcome::CursorTo(angle)
+        Some(Change::of(move |app| done(app, angle)))
     }
 
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
@@ -100,11 +110,11 @@ pub(in crate::tui) struct Reach {
 impl Reach {
     /// The angle after a move by `columns` towards E; D if there is no cursor yet.
     #[must_use]
-    pub(in crate::tui) fn moved(self, cursor: Option<f64>, columns: i16) -> f64 {
+    pub(in crate::tui) fn moved(self, cursor: Option<f64>, columns: isize) -> f64 {
         let Some(cursor) = cursor else {
             return self.held(self.start);
         };
-        self.held(cursor - f64::from(columns) * self.column)
+        self.held(cursor - columns as f64 * self.column)
     }
 
     /// The angle of the next frame; `None` at the end.

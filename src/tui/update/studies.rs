@@ -1,0 +1,836 @@
+//! Studies and comparisons of the case: its requests, their computation, and the use of what they
+//! find; the benchmark of every setting; the variants and the baseline.
+
+use std::io;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use super::{edit, key_of, panes};
+use crate::case::fields::{self, FIELDS};
+use crate::case::{Case, Evaluator, Problem, Variant};
+use crate::model::inputs::Method;
+use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
+use crate::report::export::{format_of, is_picture};
+use crate::report::results::Named;
+use crate::report::svg;
+use crate::report::sweep::RowWriter;
+use crate::report::tolerance::ToleranceReport;
+use crate::report::trade::conclusion;
+use crate::study::batch::{self, Batch, Control, Points, Refusals, Stopped, solve_all};
+use crate::study::sample::Design;
+use crate::study::shard::{Format, Kind, PointsRequest, Request, Study};
+use crate::study::sweep::Grid;
+use crate::study::tolerance::{Samples, Size, Tolerance, USUAL_RANKED};
+use crate::study::trade::{Trade, trade};
+use crate::tui::app::App;
+use crate::tui::app::actions::{Choice, Content, Running, Slot, Work};
+use crate::tui::app::dialogs::Prompt;
+use crate::tui::app::dialogs::picker::{Item, Picker};
+use crate::tui::app::dialogs::question::PathDialog;
+use crate::tui::jobs::Traded;
+use crate::tui::layout::{Pane, is_too_small};
+use crate::tui::line::Line;
+use crate::tui::panes::study::range::{self, MOST_ZOOM, RangeOf, Steps};
+use crate::tui::panes::study::{self, CURVE_POINTS, map_points};
+use crate::tui::panes::trade::{nearest, stepped};
+use crate::tui::rows::{self, Row};
+use crate::tui::session::save::Next;
+use crate::tui::solver::{Baseline, Variants};
+use crate::tui::study::{
+    End, GridParameters, Layer, LayerFound, LayerSource, SAMPLES, StudyParameters, StudyRequest,
+    StudyResults, ToleranceParameters,
+};
+
+/// The title and the instruction of the dialog for a range.
+const RANGE: &str = "Range of the study";
+const HOW: &str = "A range such as 50..200 N m, or a list such as 20, 30, 40 mm; then, if wanted, \
+    `, 31 points` and `, log`. KEY = before it chooses the field. A second range after a semicolon \
+    makes a map.";
+
+/// Time between two messages of a grid.
+const STEP: Duration = Duration::from_millis(40);
+/// Time between two messages of a tolerance study, whose summary takes longer.
+const PAGE_STEP: Duration = Duration::from_millis(250);
+
+/// The methods of the overlaid curves.
+const METHODS: [Method; 4] = [Method::Exact, Method::Paper, Method::Static, Method::Dynamic];
+
+/// Requests the visible study if it differs from the last one; stops a hidden one.
+pub(super) fn request(app: &mut App) {
+    if !app.layout.plan().shows(Pane::Study) {
+        app.cancel(Slot::Study);
+        return;
+    }
+    let parameters = match parameters(app, quantity(app)) {
+        Ok(parameters) => parameters,
+        Err(obstacle) => {
+            app.cancel(Slot::Study);
+            app.tab.study.obstacle = Some(obstacle);
+            return;
+        }
+    };
+    app.tab.study.obstacle = None;
+    // A hidden study, or one that another tab replaced, was stopped before its end.
+    if let Some(request) = &app.tab.study.request
+        && request.parameters == parameters
+        && (app.tab.study.is_over() || app.runs(Slot::Study, request.serial))
+    {
+        return;
+    }
+    let (tab, requested) = (app.tab.id, parameters.clone());
+    let failed = End::Failed("internal error: the study failed".to_owned());
+    let work = Work::in_steps(Slot::Study, move |running| compute(tab, &requested, running));
+    let serial = app.start(work.or(move |app| ended(app, tab, failed)));
+    app.tab.study.start(StudyRequest { serial, parameters });
+}
+
+fn quantity(app: &App) -> Option<&'static Quantity> {
+    let chosen = app.study.quantity.and_then(Quantity::find);
+    chosen.or_else(|| app.results().marked()).or_else(|| Quantity::find("impact_force"))
+}
+
+/// The study of the focused field and the selected result.
+///
+/// # Errors
+/// Returns the reason if there is no study.
+fn parameters(app: &App, quantity: Option<&'static Quantity>) -> Result<StudyParameters, String> {
+    let tab = &app.tab;
+    let inputs = tab.inputs().ok_or("No study: a field has an error. Alt-E goes to that field.")?;
+    let quantity = quantity.ok_or("No result is selected.")?;
+    if app.study.is_tolerance {
+        return tolerance_parameters(app, inputs, quantity);
+    }
+    let field = field(app).ok_or("A limit has no range: go to a field of the form.")?;
+    let (across, up) = map_points(app.layout.plan().area(Pane::Study));
+    let second = app.study.second.filter(|second| *second != field);
+    let place = RangeOf { case: &tab.case, units: app.settings.units, zoom: app.study.zoom };
+    let axis_of = |field, steps| match app.study.ranges.iter().find(|axis| axis.field == field) {
+        Some(typed) => Ok(typed.clone()),
+        None => place.axis(field, steps),
+    };
+    let axes = match second {
+        Some(second) => {
+            vec![axis_of(second, Steps::Round(up))?, axis_of(field, Steps::Round(across))?]
+        }
+        None => vec![axis_of(field, Steps::Equal(CURVE_POINTS))?],
+    };
+    let axes = Grid::of(axes)
+        .map_err(|problem| {
+            let problem = problem.for_form();
+            format!("{}: s in this pane leaves the map.", problem.cause)
+        })?
+        .axes;
+    let mut layers = layers(app, inputs, quantity);
+    if axes.len() > 1 {
+        layers.truncate(1);
+    }
+    Ok(StudyParameters::Grid(GridParameters { axes, layers }))
+}
+
+fn tolerance_parameters(
+    app: &App,
+    inputs: &Inputs,
+    quantity: &Quantity,
+) -> Result<StudyParameters, String> {
+    if app.tab.case.spread.is_empty() {
+        return Err("The case has no [spread]: go to a field and type :spread normal 4 um, for \
+            example. d in this pane shows the field over its range."
+            .to_owned());
+    }
+    Ok(StudyParameters::Tolerance(Box::new(ToleranceParameters {
+        case: app.tab.case.clone(),
+        inputs: inputs.clone(),
+        quantity: quantity.key,
+    })))
+}
+
+/// The chosen field, otherwise the focused field of the form.
+fn field(app: &App) -> Option<usize> {
+    app.study.field.or(match rows::row(&app.tab.case, app.tab.form.focus) {
+        Row::Field(field) => Some(field),
+        Row::Limit(_) => None,
+    })
+}
+
+/// The curves: the active method, the other methods, the baseline.
+fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer> {
+    let active = inputs.method;
+    let answer = app.tab.answer.as_ref();
+    let solved_by = answer.map_or(active, |answer| answer.active);
+    let first = Layer {
+        source: LayerSource::Active(active),
+        inputs: inputs.clone(),
+        quantity: quantity.key,
+    };
+    let other = |method: Method| {
+        let own = counterpart(quantity, solved_by, method)?;
+        let inputs = Inputs { method, ..inputs.clone() };
+        Some(Layer { source: LayerSource::Other(method), inputs, quantity: own.key })
+    };
+    let others = METHODS.into_iter().filter(|method| *method != active && *method != solved_by);
+    let pinned = app.baseline.as_ref().and_then(|baseline| {
+        let answer = &baseline.answer;
+        Some(Layer {
+            source: LayerSource::Baseline,
+            inputs: answer.inputs.clone(),
+            quantity: counterpart(quantity, solved_by, answer.active)?.key,
+        })
+    });
+    let others = others.filter_map(other);
+    std::iter::once(first).chain(others).chain(pinned).collect()
+}
+
+/// The counterpart of a quantity in another method.
+fn counterpart(
+    quantity: &'static Quantity,
+    of: Method,
+    other: Method,
+) -> Option<&'static Quantity> {
+    let is_own = |free: &&'static Quantity| {
+        free.is_of_free_impact() && free.by(of).is_some_and(|own| own.key == quantity.key)
+    };
+    match QUANTITIES.iter().find(is_own) {
+        Some(free) => free.by(other),
+        None => other.stages().has(quantity.stage).then_some(quantity),
+    }
+}
+
+/// Esc: stops the running study. Returns whether it ran.
+pub(super) fn stop(app: &mut App) -> bool {
+    let has_run = app.cancel(Slot::Study);
+    if has_run {
+        ended(app, app.tab.id, End::Stopped);
+        app.say("the study is stopped; its results stay");
+    }
+    has_run
+}
+
+pub(super) fn scroll(app: &mut App, by: isize) {
+    app.study.top = study::scrolled(&app.study(), by);
+}
+
+pub(super) fn page(app: &mut App, by: isize) {
+    app.study.top = study::paged(&app.study(), by);
+}
+
+pub(super) fn move_cursor(app: &mut App, across: isize, up: isize) {
+    let cursor = study::moved(&app.study(), across, up);
+    app.tab.study.cursor = cursor.or(app.tab.study.cursor);
+}
+
+/// Halves or doubles the range; a usual range replaces a typed one.
+pub(super) fn zoom(app: &mut App, by: i32) {
+    if app.study.is_tolerance {
+        return app.say("the tolerance has no range to zoom");
+    }
+    app.study.ranges.clear();
+    app.study.zoom = (app.study.zoom + by).clamp(-MOST_ZOOM, MOST_ZOOM);
+}
+
+pub(super) fn reset_range(app: &mut App) {
+    zoom(app, -app.study.zoom);
+}
+
+/// Asks for the range of the study.
+pub(super) fn ask_range(app: &mut App) {
+    show_grid(app);
+    let axes = parameters(app, quantity(app)).map(|parameters| parameters.axes().to_vec());
+    let typed: Vec<String> = axes.unwrap_or_default().iter().rev().map(range::typed).collect();
+    app.prompts.push(Prompt::Path(PathDialog {
+        title: RANGE,
+        how: HOW,
+        input: Line::whole(typed.join("; ")),
+        next: Next::Stay,
+        done: |app, text, _| set_range(app, text),
+    }));
+}
+
+/// Studies the typed ranges.
+pub(super) fn set_range(app: &mut App, text: &str) {
+    let fields = [field(app), app.study.second];
+    match range::typed_axes(fields, text) {
+        Ok(axes) => {
+            app.close_titled(RANGE);
+            show_grid(app);
+            app.study.field = axes.first().map(|axis| axis.field).filter(|own| Some(*own) != fields[0]).or(app.study.field);
+            app.study.second = axes.get(1).map(|axis| axis.field);
+            app.study.ranges = axes;
+        }
+        Err(reason) => app.complain(reason),
+    }
+}
+
+// Shows the pane with a curve, a map or a table.
+fn show_grid(app: &mut App) {
+    app.study.is_tolerance = false;
+    if app.layout.focus() != Pane::Study {
+        panes::show(app, Pane::Study);
+    }
+}
+
+/// Chooses the field of the study, or follows the focused field again.
+pub(super) fn first(app: &mut App) {
+    if app.study.field.take().is_none() {
+        list_fields(app, "Field of the study", |app, field| {
+            (app.study.field, app.study.is_tolerance) = (Some(field), false);
+            app.study.second = app.study.second.filter(|second| *second != field);
+        });
+    }
+}
+
+/// Chooses a second field, or leaves the map.
+pub(super) fn second(app: &mut App) {
+    if app.study.second.take().is_none() {
+        list_fields(app, "Second field of the map", |app, field| {
+            if self::field(app) == Some(field) {
+                return app.complain("the second field is the first one: choose another");
+            }
+            (app.study.second, app.study.is_tolerance) = (Some(field), false);
+        });
+    }
+}
+
+fn list_fields(app: &mut App, title: &'static str, choose: fn(&mut App, usize)) {
+    let fields = FIELDS.iter().enumerate();
+    let numbers = fields.filter(|(_, field)| !matches!(field.kind, fields::Kind::Text));
+    let item = |(at, field)| Item::field(Choice::of(move |app| choose(app, at)), field);
+    app.prompts.push(Prompt::Pick(Picker::new(title, numbers.map(item), &[])));
+}
+
+/// Chooses the result of the study, or follows the selected result again.
+pub(super) fn result(app: &mut App) {
+    if app.study.quantity.take().is_some() {
+        return;
+    }
+    let item = |quantity: &'static Quantity| {
+        let about = format!("{} {}", quantity.symbol, quantity.label.trim_start());
+        let choice = Choice::of(move |app| app.study.quantity = Some(quantity.key));
+        Item::result(choice, quantity, about)
+    };
+    let picker = Picker::new("Result of the study", QUANTITIES.iter().map(item), &[]);
+    app.prompts.push(Prompt::Pick(picker));
+}
+
+/// Shows the points as a table, or the curve or map again.
+pub(super) fn table(app: &mut App) {
+    app.study.is_table = !app.study.is_table;
+}
+
+/// Shows the tolerance, or the curve again.
+pub(super) fn tolerance(app: &mut App) {
+    let is_shown = app.layout.focus() == Pane::Study && app.study.is_tolerance;
+    show_grid(app);
+    (app.study.is_tolerance, app.study.top) = (!is_shown, 0);
+}
+
+/// Writes the values at the cursor into the form, as one edit.
+pub(super) fn take(app: &mut App) {
+    let values = study::at_cursor(&app.study());
+    if values.is_empty() || app.study.is_tolerance {
+        return app.say("no value under the cursor");
+    }
+    if app.tab.study.cursor.is_none() {
+        return app.say("the cursor is at the present value: move it to another one");
+    }
+    let mut case = app.tab.case.clone();
+    for (field, text) in &values {
+        if let Err(problem) = case.set(FIELDS[*field].key, text) {
+            return app.complain(problem.for_form().to_string());
+        }
+    }
+    let worded: Vec<String> = values
+        .iter()
+        .map(|(field, text)| format!("{} = {text}", FIELDS[*field].full_label()))
+        .collect();
+    app.tab.study.cursor = None;
+    let outcome = edit::undone_by(app, &case);
+    edit::replace(app, case);
+    app.say(format!("{}{outcome}", worded.join(", ")));
+}
+
+/// What `tipstrike sweep` or `tipstrike tolerance` writes for the shown study, or its picture.
+pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
+    if is_picture(path) {
+        let chart = study::curve::picture(&app.study()).ok_or("there is no curve to draw")?;
+        return Ok((" the picture of the study".to_owned(), Box::new(move |_| Ok(svg::draw(&chart)))));
+    }
+    let (request, command) = repeated(app, format_of(path).unwrap_or(Format::Csv))?;
+    let content = move |running: &Running<'_>| {
+        let refused = |problem: Problem| format!("{}: {}", problem.cause, problem.fix);
+        let mut study = Study::restore(&request).map_err(refused)?;
+        let needed: Vec<_> = study.quantities.iter().map(|quantity| quantity.stage).collect();
+        study.inputs = study.inputs.needing(needed);
+        text_of(&study, running).map_err(|error| error.to_string())
+    };
+    Ok((format!(" the study, as `{command}`,"), Box::new(content)))
+}
+
+/// The command that repeats the shown study.
+pub(super) fn command(app: &App) -> Result<String, String> {
+    Ok(repeated(app, Format::Csv)?.1)
+}
+
+/// The request of the shown study, and its command.
+fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
+    let study = app.tab.study.request.as_ref().filter(|_| app.tab.study.obstacle.is_none());
+    let (quantity, points, options) = match &study.ok_or("there is no study")?.parameters {
+        StudyParameters::Grid(grid) => {
+            let quantity = grid.layers.first().map_or("", |layer| layer.quantity);
+            let (vary, points): (Vec<_>, Vec<_>) = grid.axes.iter().map(range::vary).unzip();
+            let points: Vec<usize> = points.into_iter().flatten().collect();
+            let varied = vary.iter().map(|text| format!(" --vary '{text}'"));
+            let counted = points.iter().map(|count| format!(" --points {count}"));
+            let options = varied.chain(counted).collect::<String>();
+            (quantity, PointsRequest::Sweep { vary, points, log: false }, options)
+        }
+        StudyParameters::Tolerance(of) => {
+            let points = PointsRequest::Tolerance { samples: SAMPLES, seed: 1, ranked: USUAL_RANKED };
+            (of.quantity, points, format!(" --samples {SAMPLES}"))
+        }
+    };
+    let word = if app.study.is_tolerance { "tolerance" } else { "sweep" };
+    let ending = if format == Format::Json { "json" } else { "csv" };
+    let (name, case) = (app.tab.short_name(), app.tab.as_edited().render());
+    let command =
+        format!("tipstrike {word}{options} --only {quantity} --format {ending} '{name}'");
+    let quantities = vec![quantity.to_owned()];
+    Ok((Request { name: app.tab.name(), case, quantities, format, points }, command))
+}
+
+/// The output of the command of a study.
+fn text_of(of: &Study, running: &Running<'_>) -> io::Result<String> {
+    let (mut out, mut written) = (Vec::new(), Ok(()));
+    let (writer, count) = (RowWriter(of), of.points().count());
+    if let (Kind::Tolerance(tolerance), Format::Json) = (&of.kind, of.request.format) {
+        let mut samples = Samples::of(tolerance);
+        let solved = solve(&of.batch(), count, running, &mut |first, rows| {
+            samples.add(first, rows);
+            true
+        });
+        solved.map_err(|_| io::ErrorKind::Interrupted)?;
+        let (case, method) = (&of.case, of.inputs.method);
+        let report = ToleranceReport { case, method, study: tolerance, samples: &samples };
+        let named = Named { name: &of.request.name, title: case.title() };
+        named.write(&report, Format::Json, &mut out)?;
+    } else {
+        writer.begin(&mut out)?;
+        let solved = solve(&of.batch(), count, running, &mut |first, rows| {
+            written = writer.write(first, rows, &mut out);
+            written.is_ok()
+        });
+        written?;
+        solved.map_err(|_| io::ErrorKind::Interrupted)?;
+    }
+    String::from_utf8(out).map_err(io::Error::other)
+}
+
+enum Unfinished {
+    Stopped,
+    Refused(Problem),
+}
+
+impl From<Stopped> for Unfinished {
+    fn from(_: Stopped) -> Unfinished {
+        Unfinished::Stopped
+    }
+}
+
+/// Changes the results of the study of a tab.
+fn change(app: &mut App, tab: usize, change: impl FnOnce(&mut StudyResults)) {
+    if let Some(results) = app.tab_with(tab).and_then(|tab| tab.study.results()) {
+        change(results);
+    }
+}
+
+fn ended(app: &mut App, tab: usize, end: End) {
+    if let End::Failed(reason) = &end {
+        app.complain(reason.clone());
+    }
+    change(app, tab, |results| results.end = Some(end));
+}
+
+/// Computes a study for a tab and sends its results as they arrive.
+fn compute(tab: usize, parameters: &StudyParameters, running: &Running<'_>) {
+    let done = match parameters {
+        StudyParameters::Grid(grid) => solve_grid(tab, grid, running),
+        StudyParameters::Tolerance(tolerance) => sample(tab, tolerance, running),
+    };
+    let end = match done {
+        Ok(()) => End::Whole,
+        Err(Unfinished::Stopped) => return,
+        Err(Unfinished::Refused(problem)) => {
+            End::Failed(format!("{}: {}", problem.cause, problem.fix))
+        }
+    };
+    running.send(move |app| ended(app, tab, end));
+}
+
+/// Solves the points of a study while it is wanted.
+fn solve(
+    batch: &Batch,
+    count: usize,
+    running: &Running<'_>,
+    take: &mut dyn FnMut(usize, &[batch::Row]) -> bool,
+) -> Result<(), Stopped> {
+    // One core stays free for the main loop and the solver.
+    let cores = batch::jobs(None);
+    let jobs = Some(cores.saturating_sub(1).max(1));
+    solve_all(batch, 0..count, &Control { jobs, go_on: &|_, _| running.is_wanted() }, take)
+}
+
+fn solve_grid(
+    tab: usize,
+    parameters: &GridParameters,
+    running: &Running<'_>,
+) -> Result<(), Unfinished> {
+    let grid = Grid::of(parameters.axes.clone()).map_err(Unfinished::Refused)?;
+    for (at, layer) in parameters.layers.iter().enumerate() {
+        solve_layer(&grid, layer, running, &mut |found| {
+            running.send(move |app| change(app, tab, |results| results.add(at, found)));
+        })?;
+    }
+    Ok(())
+}
+
+fn solve_layer(
+    grid: &Grid,
+    layer: &Layer,
+    running: &Running<'_>,
+    send: &mut dyn FnMut(LayerFound),
+) -> Result<(), Stopped> {
+    let quantities: Vec<&'static Quantity> = layer.quantity().into_iter().collect();
+    let inputs = &layer.inputs.clone().needing(quantities.iter().map(|of| of.stage));
+    let batch = Batch { inputs, points: grid, quantities: &quantities };
+    let (mut waiting, mut refusals) = (LayerFound::default(), Refusals::default());
+    let mut sent = Instant::now();
+    let solved = solve(&batch, grid.count(), running, &mut |first, rows| {
+        refusals.count(first, rows);
+        waiting.outcomes.extend(rows.iter().map(|row| row.outcome));
+        waiting.values.extend(rows.iter().map(|row| row.values.first().copied().flatten()));
+        if sent.elapsed() > STEP {
+            sent = Instant::now();
+            waiting.refusals = refusals.clone();
+            send(std::mem::take(&mut waiting));
+        }
+        true
+    });
+    waiting.refusals = refusals;
+    send(waiting);
+    solved
+}
+
+fn sample(
+    tab: usize,
+    parameters: &ToleranceParameters,
+    running: &Running<'_>,
+) -> Result<(), Unfinished> {
+    let size = Size { samples: SAMPLES, seed: 1, ranked: None };
+    let only: Vec<&'static Quantity> = Quantity::find(parameters.quantity).into_iter().collect();
+    let study = Tolerance::of(&parameters.case, &parameters.inputs, &only, size)
+        .map_err(Unfinished::Refused)?;
+    let inputs = &parameters.inputs.clone().needing(only.iter().map(|of| of.stage));
+    let batch = Batch { inputs, points: &study.design, quantities: &study.quantities };
+    let (mut samples, mut sent) = (Samples::of(&study), Instant::now());
+    let count = study.design.count();
+    let solved = solve(&batch, count, running, &mut |first, rows| {
+        samples.add(first, rows);
+        let is_due = sent.elapsed() > PAGE_STEP && samples.outcomes.len() > 1;
+        if is_due {
+            sent = Instant::now();
+            send_page(tab, sampled(parameters, &study, &samples), running);
+        }
+        true
+    });
+    if samples.outcomes.len() > 1 {
+        send_page(tab, sampled(parameters, &study, &samples), running);
+    }
+    Ok(solved?)
+}
+
+fn send_page(tab: usize, (lines, part): (Vec<String>, f64), running: &Running<'_>) {
+    let page = move |results: &mut StudyResults| (results.page, results.part) = (lines, part);
+    running.send(move |app| change(app, tab, page));
+}
+
+/// The page of the samples so far, and the solved part; the ranking needs all samples.
+fn sampled(
+    parameters: &ToleranceParameters,
+    study: &Tolerance,
+    samples: &Samples,
+) -> (Vec<String>, f64) {
+    let (solved, count) = (samples.outcomes.len(), study.design.count());
+    let so_far = Tolerance {
+        design: Design {
+            samples: solved.min(study.design.samples),
+            ranked: if solved < count { 0 } else { study.design.ranked },
+            ..study.design.clone()
+        },
+        ..study.clone()
+    };
+    let report = ToleranceReport {
+        case: &parameters.case,
+        method: parameters.inputs.method,
+        study: &so_far,
+        samples,
+    };
+    let mut lines = report.lines_for_screen();
+    let refused = samples.refusals.0.iter().map(|refused| refused.sentence(&so_far.design));
+    lines.extend(refused);
+    (lines, solved as f64 / count as f64)
+}
+
+/// Starts the benchmark of every method on the case of the form.
+pub(super) fn measure(app: &mut App) {
+    let Some(inputs) = app.tab.inputs().cloned() else {
+        return app.complain("no benchmark: fix the fields marked with ! first");
+    };
+    let (tab, own) = (app.tab.id, inputs.clone());
+    let patience = app.patience;
+    let work = Work::in_steps(Slot::Benchmark, move |running| {
+        let mut report = |sofar: &Trade| {
+            let sofar = sofar.clone();
+            running.send(move |app| take_measured(app, tab, sofar));
+        };
+        match trade(&own, patience, &|| running.is_wanted(), &mut report) {
+            Ok(trade) => running.send(move |app| {
+                take_measured(app, tab, trade);
+                if let Some(words) = conclude(app, tab) {
+                    app.say(words);
+                }
+            }),
+            Err(Refusal::Stopped) => (),
+            Err(refusal) => running.send(move |app| benchmark_failed(app, tab, &refusal.to_string())),
+        }
+    });
+    let work = app.start(work.or(move |app| benchmark_failed(app, tab, "internal error")));
+    app.tab.traded = Some(Traded { work, inputs, trade: None, marked: None });
+}
+
+/// Stops the benchmark; its results so far stay. Returns whether it ran.
+pub(super) fn stop_benchmark(app: &mut App) -> bool {
+    let has_run = app.cancel(Slot::Benchmark);
+    if has_run && conclude(app, app.tab.id).is_some() {
+        app.say("the benchmark is stopped; its results stay");
+    }
+    has_run
+}
+
+/// Stops a hidden benchmark. A terminal that is briefly too small does not stop it.
+pub(super) fn stop_unseen(app: &mut App) {
+    let is_own = app.is_measuring() && app.layout.plan().shows(Pane::Trade);
+    if !is_own && !is_too_small(app.layout.size()) {
+        app.cancel(Slot::Benchmark);
+    }
+}
+
+/// Switches between chart and table. The selection moves to a setting that the view shows.
+pub(super) fn switch_view(app: &mut App) {
+    app.trade_view = app.trade_view.other();
+    if let Some(traded) = app.tab.traded.as_mut() {
+        traded.marked = nearest(traded, app.trade_view).or(traded.marked);
+    }
+}
+
+/// Moves the selection by `by` settings, in the order of the view.
+pub(super) fn step_setting(app: &mut App, by: isize) {
+    let view = app.trade_view;
+    if let Some(traded) = app.tab.traded.as_mut() {
+        traded.marked = stepped(traded, view, by).or(traded.marked);
+    }
+}
+
+/// Writes the selected setting into the case.
+pub(super) fn take_setting(app: &mut App) {
+    let Some(setting) = app.tab.traded.as_ref().and_then(|traded| traded.marked) else {
+        return app.say(if app.tab.traded.is_some() {
+            "no setting is selected: the arrow keys select one"
+        } else {
+            "no benchmark yet: m runs it"
+        });
+    };
+    let mut case = app.tab.case.clone();
+    setting.apply(&mut case);
+    let outcome = edit::undone_by(app, &case);
+    edit::replace(app, case);
+    app.say(format!("method {setting}{outcome}"));
+}
+
+fn traded_of(app: &mut App, tab: usize) -> Option<&mut Traded> {
+    app.tab_with(tab)?.traded.as_mut()
+}
+
+fn take_measured(app: &mut App, tab: usize, trade: Trade) {
+    if let Some(traded) = traded_of(app, tab) {
+        traded.trade = Some(trade);
+    }
+}
+
+/// Selects the recommended setting, unless the user has selected one. Returns the conclusion, empty
+/// without results, if the tab is the current one.
+fn conclude(app: &mut App, tab: usize) -> Option<String> {
+    let is_shown = app.tab.id == tab;
+    let traded = traded_of(app, tab)?;
+    let words = traded.trade.as_ref().map(|trade| {
+        let recommended = trade.recommended().map(|measured| measured.setting);
+        traded.marked = traded.marked.or(recommended);
+        conclusion(trade)
+    });
+    is_shown.then(|| words.unwrap_or_default())
+}
+
+fn benchmark_failed(app: &mut App, tab: usize, reason: &str) {
+    if conclude(app, tab).is_some() {
+        app.complain(format!("no benchmark: {reason}"));
+    }
+}
+
+/// Saves the edits since the last save as a variant and shows the case without them. Without edits,
+/// loads the variant with this name into the form.
+pub(super) fn keep_variant(app: &mut App, name: &str) {
+    if let Err(problem) = Variant::check_name(name) {
+        app.complain(format!("{}: {}", problem.cause, problem.fix));
+        return;
+    }
+    let variant = Variant::between(name, &app.tab.saved, &app.tab.case);
+    if variant.overrides.is_empty() {
+        return recall(app, name);
+    }
+    if !app.tab.problems.is_empty() {
+        app.complain("a field has an error: correct it before the edits become a variant");
+        return;
+    }
+    let count = variant.overrides.len();
+    let edits = if count == 1 { "edit" } else { "edits" };
+    let mut case = app.tab.saved.clone();
+    case.variants.clone_from(&app.tab.case.variants);
+    case.keep_variant(variant);
+    edit::replace(app, case);
+    app.say(format!(
+        "variant {name} now has {count} {edits}; the form shows the case without them; Ctrl-Z undoes"
+    ));
+}
+
+/// Shows the variants beside the case, the next variants, or the methods again.
+pub(super) fn next_variants(app: &mut App) {
+    let count = app.tab.case.variants.len();
+    if count == 0 {
+        let key = key_of(app, "variant");
+        app.say(format!("the case has no variants: {key} NAME saves the edits as one"));
+        return;
+    }
+    let page = app.results().variants_page();
+    app.first_variant = match app.first_variant {
+        None => Some(0),
+        Some(first) if first + page < count => Some(first + page),
+        Some(_) => None,
+    };
+}
+
+/// Solves the visible variants, unless they are solved already.
+pub(super) fn request_variants(app: &mut App) {
+    let is_shown = app.layout.plan().shows(Pane::Results);
+    app.first_variant = app.first_variant.filter(|first| *first < app.tab.case.variants.len());
+    let tab = &app.tab;
+    let (serial, id) = (tab.serial, tab.id);
+    let is_known = tab.variants.as_ref().is_some_and(|found| found.serial == serial);
+    // A request of another tab replaces this request.
+    let runs = app.comparing == Some(serial) && app.is_busy(Slot::Variants);
+    let is_wanted = is_shown && app.first_variant.is_some() && tab.problems.is_empty();
+    if !is_wanted || is_known || runs {
+        return;
+    }
+    let column = |variant: &Variant| (variant.name.clone(), variant_inputs(&tab.case, variant));
+    let columns: Vec<_> = tab.case.variants.iter().map(column).collect();
+    app.comparing = Some(serial);
+    let stages = Pane::Results.needs();
+    let solve = move |running: &Running<'_>| {
+        let solved = |inputs: &Inputs| {
+            let go_on = |_| running.is_wanted();
+            match Evaluator::default().solve(inputs, inputs.method, stages, &go_on) {
+                Err(Refusal::Stopped) => None,
+                found => Some(found.map_err(|refusal| format!("{refusal}: {}", refusal.fix()))),
+            }
+        };
+        let columns = columns.into_iter().map(|(name, inputs)| {
+            let found = match inputs {
+                Ok(inputs) => solved(&inputs)?,
+                Err(problem) => Err(problem),
+            };
+            Some((name, found))
+        });
+        Some(Variants { serial, columns: columns.collect::<Option<_>>()? })
+    };
+    app.start(Work::new(Slot::Variants, solve, move |app, found| {
+        if let Some(tab) = app.tab_with(id) {
+            tab.variants = Some(found);
+        }
+    }));
+}
+
+/// Pins the results of the current case, or unpins the pinned ones.
+pub(super) fn toggle_baseline(app: &mut App) {
+    if let Some(baseline) = app.baseline.take() {
+        app.say(format!("baseline {} unpinned", baseline.name));
+    } else if app.tab.is_stale() || app.tab.answer.is_none() {
+        app.complain("there are no valid results to pin: fix the form first");
+    } else {
+        app.is_pinning = true;
+        pin_baseline(app);
+    }
+}
+
+/// Pins the requested results as soon as they are complete.
+pub(super) fn pin_baseline(app: &mut App) {
+    let Some(answer) = app
+        .tab
+        .answer
+        .as_ref()
+        .filter(|answer| app.is_pinning && answer.stages.covers(crate::model::Stages::EVERY))
+    else {
+        return;
+    };
+    let (name, is_file) = (app.tab.short_name(), app.tab.path.is_some());
+    let baseline = Baseline {
+        tab: app.tab.id,
+        name,
+        is_file,
+        case: app.tab.case.clone(),
+        answer: answer.clone(),
+    };
+    let words = format!("baseline: {} as it is now, for this session", baseline.name);
+    app.is_pinning = false;
+    app.baseline = Some(baseline);
+    app.say(words);
+}
+
+/// A case that had no file when it was pinned gets the name of the file to which these values were
+/// saved.
+pub(super) fn rename_baseline(app: &mut App) {
+    let (tab, name) = (app.tab.id, app.tab.short_name());
+    let saved = &app.tab.saved;
+    let is_it = |baseline: &&mut Baseline| {
+        baseline.tab == tab && !baseline.is_file && baseline.case == *saved
+    };
+    if let Some(baseline) = app.baseline.as_mut().filter(is_it) {
+        (baseline.name, baseline.is_file) = (name, true);
+    }
+}
+
+fn recall(app: &mut App, name: &str) {
+    let Ok(variant) = app.tab.case.variant(name).cloned() else {
+        let key = key_of(app, "variant");
+        app.say(format!("no edits since the last save: change a field, then type {key} NAME"));
+        return;
+    };
+    let case = app.tab.case.with(&variant);
+    let outcome = edit::undone_by(app, &case);
+    edit::replace(app, case);
+    app.say(format!("the form shows variant {name}{outcome}"));
+}
+
+fn variant_inputs(case: &Case, variant: &Variant) -> Result<Inputs, String> {
+    case.with(variant).inputs().map_err(|problems| {
+        let first = problems.into_iter().next();
+        first.map_or_else(String::new, |problem| problem.to_string())
+    })
+}
