@@ -1,6 +1,7 @@
 //! Keys in, screen out: focus, palette, tabs, baseline, cursor, copying, mouse, settings.
 use crate::harness;
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use crossterm::event::KeyCode;
@@ -84,7 +85,7 @@ fn a_case_with_missing_values_opens_is_saved_and_opens_again() {
     desk.assert_shows("not saved: fix the fields marked with ! first");
 }
 
-fn listed(desk: &Desk) -> Vec<Item> {
+fn listed(desk: &Desk) -> Vec<Arc<Item>> {
     match desk.app.prompts.last() {
         Some(Prompt::Pick(picker)) => picker.fitting(),
         other => panic!("{other:?}"),
@@ -93,7 +94,7 @@ fn listed(desk: &Desk) -> Vec<Item> {
 
 #[test]
 fn the_palette_lists_commands_of_the_focused_pane_and_field_first() {
-    let first = |desk: &Desk| listed(desk).swap_remove(0).name;
+    let first = |desk: &Desk| listed(desk).swap_remove(0).name.clone();
     for (field, keys, command) in [
         ("pair.module", &["Ctrl-P"][..], "step"),
         ("driven.tip_relief", &["Esc", ":"], "edit"),

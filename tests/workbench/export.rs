@@ -118,7 +118,7 @@ fn one_export_runs_at_a_time_and_quitting_asks_about_it() {
 #[test]
 fn a_picture_is_refused_by_name_if_no_chart_is_visible() {
     let mut desk = Desk::on(SMALL, "pair.toml", TABLE_1);
-    desk.keys(&["Esc", "6", "Alt-X", "Ctrl-U", &desk_path(&desk, "a.svg"), "Enter"]);
+    desk.keys(&["Esc", "5", "Alt-X", "Ctrl-U", &desk_path(&desk, "a.svg"), "Enter"]);
     desk.assert_shows("not exported: no chart is visible");
     assert_eq!(names(&desk), ["pair.toml"]);
     desk.keys(&["Esc", "3", "Alt-X", "Ctrl-U", &desk_path(&desk, "a.svg"), "Enter"]);
