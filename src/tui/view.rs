@@ -211,7 +211,8 @@ fn about_field(app: &App, index: usize) -> String {
     let spread = app.tab.case.spread.iter().find(|spread| spread.field == field.key);
     let spread = spread.map(|spread| format!("Spread: {}.", spread.in_words()));
     let about = about(field, app.look.ascii, units);
-    let parts = [converted.map(|value| value + "."), idle, spread, material(app, field), Some(about)];
+    let parts =
+        [converted.map(|value| value + "."), idle, spread, material(app, field), Some(about)];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 

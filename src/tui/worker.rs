@@ -480,8 +480,6 @@ mod tests {
         }
     }
 
-
-
     fn request(serial: u64) -> Request {
         let case = Case::table_1();
         Request {

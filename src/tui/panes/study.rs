@@ -148,7 +148,8 @@ pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(u
     let shown = pane.study.shown.as_ref()?;
     let places = places(pane, shown);
     if pane.state.is_table {
-        let [width, height] = [0, 1].map(|at| places.get(at).map_or(1, |(axis, _)| axis.points.len()));
+        let [width, height] =
+            [0, 1].map(|at| places.get(at).map_or(1, |(axis, _)| axis.points.len()));
         let (x, y) = cursor(pane, shown);
         let next = (y * width + x).saturating_add_signed(across - up).min(width * height - 1);
         return Some((next % width, next / width));

@@ -225,7 +225,9 @@ const FOREMOST: &str = "driven.tip_relief";
 const TYPED: &[Typed] = &[
     Typed {
         name: "variant",
-        about: |name| format!("Keep the edits as variant {name}, or show that variant in the form."),
+        about: |name| {
+            format!("Keep the edits as variant {name}, or show that variant in the form.")
+        },
         run: studies::keep_variant,
     },
     Typed {

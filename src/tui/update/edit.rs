@@ -8,8 +8,8 @@ use tui_input::InputRequest;
 use super::navigation::{browse_up, line_changed};
 use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::{Case, FIELDS, Field, Limit, changes};
-use crate::model::{QUANTITIES, Quantity};
 use crate::model::inputs::Method;
+use crate::model::{QUANTITIES, Quantity};
 use crate::report;
 use crate::tui::app::App;
 use crate::tui::app::actions::Choice;
@@ -65,7 +65,9 @@ pub(super) fn paste(app: &mut App, text: &str) {
 
 /// Handles a key that moves the cursor or deletes text.
 pub(super) fn handle(app: &mut App, request: InputRequest) {
-    if request == InputRequest::DeletePrevChar && app.browser().is_some_and(|browser| browser.input.value().is_empty()) {
+    if request == InputRequest::DeletePrevChar
+        && app.browser().is_some_and(|browser| browser.input.value().is_empty())
+    {
         return browse_up(app);
     }
     if let Some(prompt) = app.prompts.last_mut() {

@@ -174,8 +174,7 @@ fn done(app: &mut App, path: &Path, subject: &str, result: Result<(), ExportFaul
             app.message = None;
             let own = path.to_owned();
             let over = Choice::of(move |app| begin(app, own.clone(), true));
-            let text =
-                format!("{} exists. Overwrite replaces it with the export.", path.display());
+            let text = format!("{} exists. Overwrite replaces it with the export.", path.display());
             let buttons = [("Overwrite", over), ("Cancel", Choice::of(|_| ()))];
             app.prompts.push(Prompt::Ask(Question::new("The file exists", text, buttons)));
         }

@@ -105,7 +105,10 @@ fn ask_refused(app: &mut App, path: PathBuf, fault: SaveFault, next: &Next) {
             );
             let reload = ("Reload", going(Next::Load(path.clone())));
             let buttons = [reload, save_as, overwrite(stamp), cancel()];
-            Question { details: lines, ..Question::new("The file has changed on disk", text, buttons) }
+            Question {
+                details: lines,
+                ..Question::new("The file has changed on disk", text, buttons)
+            }
         }
         SaveFault::Held(holder) => {
             let text = format!("{name} is not saved: another session has it open: {holder}.");
@@ -369,7 +372,8 @@ pub(super) fn list_journals(app: &mut App, journals: Vec<(PathBuf, String)>) {
         return app.say("no ended session left unsaved edits");
     }
     let (places, details) = journals.into_iter().unzip();
-    let text = "Sessions ended with these unsaved edits. A case offers its edits when it is opened.";
+    let text =
+        "Sessions ended with these unsaved edits. A case offers its edits when it is opened.";
     let buttons = [("Delete all", forgetting(places)), ("Close", Choice::of(|_| ()))];
     ask(app, Question { details, ..Question::new(UNSAVED, text.to_owned(), buttons) });
 }

@@ -4,13 +4,13 @@
 use std::time::{Duration, Instant};
 
 use super::edit;
+use crate::case::units::System;
 use crate::model::compliance::model_of;
 use crate::model::inputs::Method;
 use crate::model::solve::speeds;
-use crate::case::units::System;
 use crate::model::{self, Inputs, Refusal, Stage, Stages, solve_while};
-use crate::report::{self, explain as explanation};
 use crate::report::charts::{chart_of_spectra, spectra, speed_chart, tooth_chart};
+use crate::report::{self, explain as explanation};
 use crate::study::stiffness::{FLANK_POINTS, compare_flanks};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Effect, Running, Slot, Work};

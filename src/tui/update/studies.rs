@@ -252,7 +252,11 @@ pub(super) fn set_range(app: &mut App, text: &str) {
         Ok(axes) => {
             app.close_titled(RANGE);
             show_grid(app);
-            app.study.field = axes.first().map(|axis| axis.field).filter(|own| Some(*own) != fields[0]).or(app.study.field);
+            app.study.field = axes
+                .first()
+                .map(|axis| axis.field)
+                .filter(|own| Some(*own) != fields[0])
+                .or(app.study.field);
             app.study.second = axes.get(1).map(|axis| axis.field);
             app.study.ranges = axes;
         }
@@ -352,7 +356,10 @@ pub(super) fn take(app: &mut App) {
 pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
     if is_picture(path) {
         let chart = study::curve::picture(&app.study()).ok_or("there is no curve to draw")?;
-        return Ok((" the picture of the study".to_owned(), Box::new(move |_| Ok(svg::draw(&chart)))));
+        return Ok((
+            " the picture of the study".to_owned(),
+            Box::new(move |_| Ok(svg::draw(&chart))),
+        ));
     }
     let (request, command) = repeated(app, format_of(path).unwrap_or(Format::Csv))?;
     let content = move |running: &Running<'_>| {
@@ -384,15 +391,15 @@ fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
             (quantity, PointsRequest::Sweep { vary, points, log: false }, options)
         }
         StudyParameters::Tolerance(of) => {
-            let points = PointsRequest::Tolerance { samples: SAMPLES, seed: 1, ranked: USUAL_RANKED };
+            let points =
+                PointsRequest::Tolerance { samples: SAMPLES, seed: 1, ranked: USUAL_RANKED };
             (of.quantity, points, format!(" --samples {SAMPLES}"))
         }
     };
     let word = if app.study.is_tolerance { "tolerance" } else { "sweep" };
     let ending = if format == Format::Json { "json" } else { "csv" };
     let (name, case) = (app.tab.short_name(), app.tab.as_edited().render());
-    let command =
-        format!("tipstrike {word}{options} --only {quantity} --format {ending} '{name}'");
+    let command = format!("tipstrike {word}{options} --only {quantity} --format {ending} '{name}'");
     let quantities = vec![quantity.to_owned()];
     Ok((Request { name: app.tab.name(), case, quantities, format, points }, command))
 }
@@ -599,7 +606,9 @@ pub(super) fn measure(app: &mut App) {
                 }
             }),
             Err(Refusal::Stopped) => (),
-            Err(refusal) => running.send(move |app| benchmark_failed(app, tab, &refusal.to_string())),
+            Err(refusal) => {
+                running.send(move |app| benchmark_failed(app, tab, &refusal.to_string()))
+            }
         }
     });
     let work = app.start(work.or(move |app| benchmark_failed(app, tab, "internal error")));
