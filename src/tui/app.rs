@@ -478,7 +478,9 @@ impl App {
     }
 
     pub(super) fn start_all(&mut self, works: impl IntoIterator<Item = Work>) {
-        works.into_iter().for_each(|work| drop(self.start(work)));
+        for work in works {
+            self.start(work);
+        }
     }
 
     /// Stops the work of a slot and ignores its further results. Returns whether it ran.

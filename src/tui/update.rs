@@ -112,13 +112,6 @@ fn solver_failed(app: &mut App, serial: u64) {
     }
 }
 
-/// Runs the command with a name.
-fn run(app: &mut App, name: &str) {
-    if let Some(command) = commands::named(name).next() {
-        command.run(app, 1);
-    }
-}
-
 /// The key of the command with a name, in the present place.
 fn key_of(app: &App, name: &str) -> String {
     commands::key_in(app.place(), name)

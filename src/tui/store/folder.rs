@@ -43,7 +43,7 @@ pub struct Entry {
 
 /// What a line of the file browser opens.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Target {
+pub(crate) enum Target {
     /// A case file.
     File(PathBuf),
     /// A folder.

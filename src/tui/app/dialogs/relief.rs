@@ -164,7 +164,7 @@ impl Dialog for ReliefDialog {
     fn accept(&mut self, _: &Surroundings<'_>) -> Option<Change> {
         if !self.is_searched() {
             let search = self.search()?;
-            return Some(Change::of(|app| drop(app.start(search))));
+            return Some(Change::of(|app| app.start_all([search])));
         }
         let values = settings(&self.found()?.choices[self.selected].reliefs);
         let take_over = self.take_over;
