@@ -238,16 +238,9 @@ fn about_limit(app: &App, limit: &Limit) -> String {
 }
 
 fn at_cursor(app: &App) -> String {
-    const NONE: &str = "Cursor hidden. h and l show the cursor; Space plays the motion.";
-    const MARKS: &str = "D first contact, E and B ends of the path of contact, L last contact, d another method's \
-            D.";
-    const LINES: &str = "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base \
-            circles, tip's path.";
-    match app.cursor {
-        Some(cursor) => chart::readout(&app.charts(), cursor),
-        None if app.layout.focus() == Pane::Chart => format!("{NONE} {MARKS}"),
-        None => format!("{NONE} {LINES}"),
-    }
+    const NONE: &str = "Cursor hidden. h and l show the cursor; Space plays the motion. D first \
+        contact; E and B ends of the path of contact (A and E of ISO 21771); L last contact.";
+    app.cursor.map_or_else(|| NONE.to_owned(), |cursor| chart::readout(&app.charts(), cursor))
 }
 
 // The name of running work and its completed part: of a benchmark or of a slow solve.
