@@ -314,11 +314,8 @@ impl<'a> Painter<'a> {
         let (area, theme) = (self.area, self.picture.look.theme);
         let beside = |(name, point): (&str, Point2<f64>), style: Style| {
             let at = self.cell(point)?;
-            // A name at the right edge is before its point.
-            let width = name.width() as u16;
-            let has_room = at.x + 1 + width <= area.right();
-            let x = if has_room { at.x + 1 } else { at.x.saturating_sub(width).max(area.x) };
-            Some((Position { x, ..at }, name.to_owned(), style))
+            let has_room = at.x + name.width() as u16 < area.right();
+            has_room.then(|| (Position { x: at.x + 1, ..at }, name.to_owned(), style))
         };
         let names = scene.distinct_points(&self.window, APART * self.column());
         let names = names.into_iter().filter_map(|name| beside(name, theme.focus));
@@ -509,12 +506,12 @@ mod tests {
             let points = scene.distinct_points(&painter.window, APART * painter.column());
             let words = painter.words(&scene, Some(20.0));
             let room = |(at, word, _): &Word| Rect::new(at.x, at.y, word.width() as u16, 1);
+            let is_name = |word: &Word| points.iter().any(|point| point.0 == word.1);
             for (at, word) in words.iter().enumerate() {
                 assert!(painter.area.contains(word.0), "{word:?}");
-                let names = at.saturating_sub(points.len())..at;
-                let is_name = points.iter().any(|point| point.0 == word.1);
+                let mut others = words[..at].iter().filter(|other| is_name(other));
                 let covers = |other: &Word| room(other).intersects(room(word));
-                assert!(!is_name || !words[names].iter().any(covers), "{word:?}");
+                assert!(!is_name(word) || !others.any(covers), "{word:?}");
             }
         });
     }
