@@ -314,11 +314,15 @@ impl<'a> Painter<'a> {
         let (area, theme) = (self.area, self.picture.look.theme);
         let beside = |(name, point): (&str, Point2<f64>), style: Style| {
             let at = self.cell(point)?;
-            let has_room = at.x + name.width() as u16 < area.right();
-            has_room.then(|| (Position { x: at.x + 1, ..at }, name.to_owned(), style))
+            let last = area.right().saturating_sub(name.width() as u16).max(area.x);
+            Some((Position { x: (at.x + 1).min(last), ..at }, name.to_owned(), style))
         };
         let names = scene.distinct_points(&self.window, APART * self.column());
-        let names = names.into_iter().filter_map(|name| beside(name, theme.focus));
+        let has_room = |name: &&(&str, Point2<f64>)| {
+            let room = self.column() * (name.0.width() + 1) as f64;
+            name.1.x + room < self.window.centre.x + self.window.half.x
+        };
+        let names = names.iter().filter(has_room).filter_map(|name| beside(*name, theme.focus));
         let exits = scene.exits.iter().filter_map(|exit| beside(*exit, theme.faint));
         let (length, name) = scale_bar(BAR * 2.0 * self.window.half.x, self.picture.units);
         let columns = (length / self.column()).round() as usize;
