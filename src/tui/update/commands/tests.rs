@@ -13,7 +13,7 @@ fn no_key_has_two_meanings_in_a_place() {
     for (index, binding) in BINDINGS.iter().enumerate() {
         for other in &BINDINGS[index + 1..] {
             let mut parts = binding.keys.split([' ', '/']);
-            let shared = parts.find(|key| other.way(key).is_some());
+            let shared = parts.find(|key| !key.is_empty() && other.way(key).is_some());
             assert!(
                 !binding.places.meets(other.places) || shared.is_none(),
                 "{shared:?}: {}",
