@@ -429,7 +429,8 @@ impl<'a> Bench<'a> {
         grid: &Grid,
     ) -> Result<Bench<'a>, Refusal> {
         let [driver, driven] = grid.most_amounts;
-        let most = AMOUNT_STEP * f64::from(driver + driven) + 2.0 * demand.tolerance;
+        let own = inputs.driver.tip_relief + inputs.driven.tip_relief;
+        let most = own.max(AMOUNT_STEP * f64::from(driver + driven)) + 2.0 * demand.tolerance;
         let bare = |gear: &Gear| Gear { tip_relief: 0.0, ..gear.clone() };
         let (driver, driven) = (bare(&inputs.driver), bare(&inputs.driven));
         let inputs = Inputs { driver, driven, ..inputs.clone() };
