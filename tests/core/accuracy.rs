@@ -11,6 +11,8 @@ mod naive;
 mod rows;
 mod table;
 
+use std::sync::LazyLock;
+
 use envelope::{Corner, Random};
 use oracle::number::{Big, big, decimal, rounded};
 use rows::Row;
@@ -181,21 +183,22 @@ fn regenerate() {
     }
 }
 
-/// `cargo test --test core accuracy::table -- --nocapture` prints the table of the README.
+/// The table of the frozen rows, computed once.
+static MADE: LazyLock<table::Table> = LazyLock::new(|| table::Table::made(&rows::frozen()));
+
+/// `cargo test --test core accuracy::table -- --nocapture` prints the table of docs/accuracy.md.
 #[test]
 fn table_of_errors_is_the_stored_one() {
-    let made = table::Table::made(&rows::frozen());
-    println!("{}", made.markdown());
+    println!("{}", MADE.markdown());
     if !regenerating() {
-        table::Table::stored().agrees_with(&made);
+        table::Table::stored().agrees_with(&MADE);
     }
 }
 
 #[test]
 fn printed_forms_lose_digits_and_tipstrike_does_not() {
-    let made = table::Table::made(&rows::frozen());
     for quantity in ["S", "u", "ΔV_n", "F_S"] {
-        let (naive, ours) = made.median_at(quantity, -12);
+        let (naive, ours) = MADE.median_at(quantity, -12);
         assert!(naive > 1e6 * ours, "{quantity}: naive {naive:e}, ours {ours:e}");
     }
 }

@@ -2,9 +2,7 @@
 use crate::harness;
 
 use std::sync::Arc;
-use std::time::Instant;
 
-use crossterm::event::KeyCode;
 use harness::{Desk, LARGE, SMALL, TABLE_1, name};
 use insta::assert_snapshot;
 use ratatui::buffer::Buffer;
@@ -15,7 +13,7 @@ use tipstrike::model::compliance::ElasticGear;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Stage, Stages};
 use tipstrike::tui::testing::actions::Effect;
-use tipstrike::tui::testing::actions::{self, Action, of_key};
+use tipstrike::tui::testing::actions::{Action, of_key};
 use tipstrike::tui::testing::app::App;
 use tipstrike::tui::testing::dialogs::Item;
 use tipstrike::tui::testing::dialogs::Prompt;
@@ -639,66 +637,6 @@ fn torque_replaces_power_and_restores_it() {
     assert!(desk.shows("power 15 kW restored") && desk.app.tab.problems.is_empty());
     desk.keys(&["70 N m", "Ctrl-Z"]);
     assert!(!desk.app.tab.is_unsaved(), "both changes are one step");
-}
-
-/// Prints the wall time, which depends on the machine and fails no test; the best of several runs
-/// excludes other load.
-#[test]
-fn a_keystroke_to_its_frame() {
-    const RUNS: usize = 5;
-    for method in ["exact", "static", "dynamic"] {
-        let runs: Vec<Vec<f64>> = (0..RUNS).map(|_| keystrokes(method)).collect();
-        let mut times: Vec<f64> = (0..runs[0].len())
-            .map(|key| runs.iter().map(|run| run[key]).fold(f64::INFINITY, f64::min))
-            .collect();
-        times.sort_by(f64::total_cmp);
-        let (median, late) = (times[times.len() / 2], times[times.len() * 99 / 100]);
-        println!(
-            "keystroke to frame at 200x60, method {method}: median {median:.2} ms, 99th percentile \
-                {late:.2} ms"
-        );
-        assert!(median > 0.0);
-    }
-}
-
-/// The time from each of many keys to its frame, and to each answer, in ms: deletes and types a
-/// letter, then moves the cursor through every chart at two zooms.
-fn keystrokes(method: &str) -> Vec<f64> {
-    const KEYS: usize = 60;
-    let size = Size { width: 200, height: 60 };
-    let mut desk =
-        Desk::on(size, "case.toml", &TABLE_1.replace("\"exact\"", &format!("\"{method}\"")));
-    desk.fill("operation.speed", "2000 rpm");
-    let mut times = Vec::new();
-    for key in 0..KEYS {
-        let code = if key % 2 == 0 { KeyCode::Backspace } else { KeyCode::Char('m') };
-        times.extend(frame_of(&mut desk, code));
-    }
-    desk.keys(&["Esc", "3"]);
-    for key in "jlllLv++lll0t".chars().cycle().take(KEYS) {
-        times.extend(frame_of(&mut desk, KeyCode::Char(key)));
-    }
-    times
-}
-
-/// The times from the key to its frame, and from its answer to the next frame.
-fn frame_of(desk: &mut Desk, code: KeyCode) -> Vec<f64> {
-    let action = actions::of_key(code.into(), desk.app.place()).expect("a key of the place");
-    let area = Rect::from(desk.app.layout.size());
-    let mut frame = |action| {
-        let start = Instant::now();
-        let effects = update(&mut desk.app, action);
-        view::draw(&desk.app, area, &mut Buffer::empty(area));
-        (start.elapsed().as_secs_f64() * 1e3, effects)
-    };
-    let (time, effects) = frame(action);
-    let asked = effects
-        .into_iter()
-        .find_map(|effect| if let Effect::Solve(request) = effect { Some(request) } else { None });
-    let answered = asked.map(|request| {
-        frame(Action::Solved(Box::new(tipstrike::tui::testing::solver::answer(&request)))).0
-    });
-    [Some(time), answered].into_iter().flatten().collect()
 }
 
 #[test]
