@@ -50,22 +50,6 @@ fn slow_gears_carry_the_static_load() {
     assert!(before < 2e-3, "{before:e}");
 }
 
-#[test]
-fn the_error_falls_with_the_tolerance_and_the_effort_grows_slowly() {
-    let inputs = case("zhou-chen-2014");
-    let run = |tolerance: f64| dynamic(&Inputs { tolerance, ..inputs.clone() }).1;
-    let reference = run(1e-12).peak_force;
-    let mut effort = 0;
-    for exponent in [3, 5, 7, 9] {
-        let tolerance = 10f64.powi(-exponent);
-        let found = run(tolerance);
-        let off = found.peak_force / reference - 1.0;
-        assert!(off.abs() <= tolerance, "{tolerance:e}: {off:e}");
-        assert!(found.evaluations >= effort && (effort == 0 || found.evaluations < 3 * effort));
-        effort = found.evaluations;
-    }
-}
-
 /// The end of the first impact depends on the force and not on the integration steps: neither their
 /// length nor rounding at their borders changes it.
 #[test]

@@ -68,10 +68,7 @@ fn open(text: &str) -> Tty {
 }
 
 fn leave(mut tty: Tty) {
-    tty.type_in("\x11");
-    tty.wait_for("Discard");
-    tty.type_in("d");
-    assert_eq!(tty.wait_for_end().exit_code(), 0);
+    tty.discard();
     tty.assert_restored();
 }
 

@@ -64,21 +64,15 @@ fn a_file_changed_by_another_program_is_refused_and_the_differences_are_shown() 
         );
         desk.keys(&["Ctrl-S"]);
         assert!(desk.shows("has changed on disk"), "{how}");
-        assert!(
+        desk.assert_at(
+            how,
             desk.shows("module: 6 mm in the file, 5 mm in the form (changed in the file)"),
-            "{how}\n{}",
-            desk.screen()
         );
-        assert!(
+        desk.assert_at(
+            how,
             desk.shows("speed: 2100 rpm in the file, 1500 rpm in the form (changed in"),
-            "{how}\n{}",
-            desk.screen()
         );
-        assert!(
-            desk.shows("[  Reload  ] [  Save as  ] [  Overwrite  ] [> Cancel <]"),
-            "{how}\n{}",
-            desk.screen()
-        );
+        desk.assert_at(how, desk.shows("[  Reload  ] [  Save as  ] [  Overwrite  ] [> Cancel <]"));
         assert!(desk.read("case.toml").contains("2100 rpm") && desk.app.tab.is_unsaved(), "{how}");
     }
 }
@@ -112,11 +106,7 @@ fn overwrite_asks_again_after_a_change_that_was_not_shown() {
     desk.keys(&["Ctrl-S"]);
     meddle(&desk, "same time", &theirs("2200 rpm"));
     desk.keys(&["o"]);
-    assert!(
-        desk.shows("has changed on disk") && desk.shows("2200 rpm in the file"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("has changed on disk") && desk.shows("2200 rpm in the file"));
     assert!(desk.read("case.toml").contains("2200 rpm"));
     desk.keys(&["o"]);
     assert!(desk.app.prompts.is_empty() && desk.read("case.toml").contains("1500 rpm"));
@@ -156,10 +146,9 @@ fn a_failed_save_changes_nothing_and_skips_the_next_step() {
         assert_eq!(after.document.stamp(), before.document.stamp(), "{fault:?} {next:?}");
         assert!(after.is_unsaved() && desk.app.tabs().count() == 1, "{fault:?} {next:?}");
         desk.keys(&["Esc", "Esc", "Ctrl-Q"]);
-        assert!(
+        desk.assert_at(
+            format!("{fault:?} {next:?}"),
             desk.shows("has unsaved edits") && !desk.has_quit,
-            "{fault:?} {next:?}\n{}",
-            desk.screen()
         );
     }
 }
@@ -173,7 +162,7 @@ fn text_typed_during_a_save_remains_unsaved() {
     desk.keys(&["Ctrl-U", "1600 rpm"]);
     desk.perform(save);
     assert!(desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"));
-    assert!(desk.shows("1600 rpm") && desk.app.tab.is_unsaved(), "{}", desk.screen());
+    desk.assert(desk.shows("1600 rpm") && desk.app.tab.is_unsaved());
     desk.keys(&["Ctrl-S"]);
     assert!(desk.read("case.toml").contains("1600 rpm") && !desk.app.tab.is_unsaved());
 }
@@ -188,16 +177,14 @@ fn a_save_creates_a_deleted_file_again_with_its_mode_and_reports_this() {
     desk.fill("operation.speed", "1500 rpm");
     fs::remove_file(&path).expect("our own file");
     desk.keys(&["Ctrl-S"]);
-    assert!(
+    desk.assert(
         desk.shows("saved ") && desk.shows("the file was deleted, and this save created it again"),
-        "{}",
-        desk.screen()
     );
     let mode = fs::metadata(&path).expect("it is there").mode();
     assert_eq!(mode & 0o7777, 0o600);
     assert!(desk.read("case.toml").contains("1500 rpm") && !desk.app.tab.is_unsaved());
     desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
-    assert!(desk.shows("saved ") && !desk.shows("deleted"), "{}", desk.screen());
+    desk.assert(desk.shows("saved ") && !desk.shows("deleted"));
 }
 
 #[test]
@@ -205,7 +192,7 @@ fn distributions_stay_in_the_file_of_a_case_and_a_new_case_shows_one() {
     let text = format!("{TABLE_1}\n[spread]\n\"pair.module\" = {{ normal = \"1 um\" }}\n");
     let mut desk = Desk::on(SMALL, "case.toml", &text);
     desk.keys(&["Down"]);
-    assert!(!desk.shows("[spread]"), "{}", desk.screen());
+    desk.assert(!desk.shows("[spread]"));
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
     assert_eq!(desk.read("case.toml"), text.replace("2000 rpm", "1500 rpm"));
     for command in ["solve", "check"] {
@@ -227,7 +214,7 @@ fn after_a_save_under_another_name_the_case_is_the_new_file() {
     let mut desk = edited();
     let new = desk.path("new.toml").display().to_string();
     desk.keys(&["F2", "Ctrl-U", &new, "Enter"]);
-    assert!(desk.shows("saved ") && desk.app.tab.short_name() == "new.toml", "{}", desk.screen());
+    desk.assert(desk.shows("saved ") && desk.app.tab.short_name() == "new.toml");
     desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
     assert!(desk.read("new.toml").contains("1600 rpm") && desk.read("case.toml") == TABLE_1);
 }
@@ -239,11 +226,7 @@ fn the_fix_of_a_failed_save_is_on_the_smallest_screen() {
     let path = desk.path("case.toml");
     let full = SaveError::Unwritable("folder/case.toml".to_owned(), ErrorKind::StorageFull.into());
     desk.act(Action::Saved(path, Next::Stay, Err(SaveFault::Failed(full.to_string()))));
-    assert!(
-        desk.shows("not saved: folder/case.toml") && desk.shows("save elsewhere"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("not saved: folder/case.toml") && desk.shows("save elsewhere"));
 }
 
 #[test]
@@ -267,11 +250,7 @@ fn a_mere_touch_does_not_ask() {
         let mut desk = edited();
         meddle(&desk, how, TABLE_1);
         desk.keys(&["Ctrl-S"]);
-        assert!(
-            desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"),
-            "{how}\n{}",
-            desk.screen()
-        );
+        desk.assert_at(how, desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"));
     }
 }
 
@@ -310,7 +289,7 @@ fn links_and_modes_stay_and_hard_links_are_refused() {
     fs::set_permissions(desk.path("case.toml"), Permissions::from_mode(0o604))
         .expect("our own file");
     desk.keys(&["Ctrl-O", "two", "Enter"]).fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
-    assert!(desk.shows("saved "), "{}", desk.screen());
+    desk.assert_shows("saved ");
     for link in ["two.toml", "sub/one.toml"] {
         assert!(fs::symlink_metadata(desk.path(link)).expect("it is there").is_symlink(), "{link}");
     }
@@ -318,7 +297,7 @@ fn links_and_modes_stay_and_hard_links_are_refused() {
     assert_eq!(fs::metadata(desk.path("case.toml")).expect("it is there").mode() & 0o7777, 0o604);
     fs::hard_link(desk.path("case.toml"), desk.path("hard.toml")).expect("a link");
     desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
-    assert!(desk.shows("2 names (hard links)") && desk.app.tab.is_unsaved(), "{}", desk.screen());
+    desk.assert(desk.shows("2 names (hard links)") && desk.app.tab.is_unsaved());
     assert!(desk.read("hard.toml").contains("1500 rpm"));
 }
 
@@ -426,12 +405,12 @@ fn a_path_to_save_to_is_completed_where_possible() {
     let path = |name: &str| desk.folder.path().join(name).display().to_string();
     let (folder, missing, good) = (path("."), path("none/such/case.toml"), path("good.toml"));
     desk.keys(&["F2", "Ctrl-U", &folder, "Enter"]);
-    assert!(desk.shows("this is a folder: add the name of a file"), "{}", desk.screen());
+    desk.assert_shows("this is a folder: add the name of a file");
     desk.keys(&["Ctrl-U", &missing, "Enter"]);
-    assert!(desk.shows("does not exist: create"), "{}", desk.screen());
+    desk.assert_shows("does not exist: create");
     assert!(desk.app.message.as_ref().is_some_and(|message| message.text.contains("mkdir -p")));
     desk.keys(&["Ctrl-U", &good, "Enter"]);
-    assert!(desk.shows("saved ") && Path::new(&good).is_file(), "{}", desk.screen());
+    desk.assert(desk.shows("saved ") && Path::new(&good).is_file());
 }
 
 #[test]
@@ -557,10 +536,7 @@ fn a_change_of_the_file_at_the_moment_of_a_key_stays_visible() {
             fs::write(tty.case(), TABLE_1).expect("room on the disk");
             tty.wait_until("the change to be reverted", |tty| !tty.shows("*changed"));
         }
-        tty.type_in("\x11");
-        tty.wait_for("Discard");
-        tty.type_in("d");
-        tty.wait_for_end();
+        tty.discard();
     }
 }
 

@@ -17,8 +17,7 @@ fn it_types_saves_quits_and_gives_the_terminal_back() {
     tty.wait_for("1 in");
     tty.type_in("\x13");
     tty.wait_for("saved ");
-    tty.type_in("\x11");
-    assert_eq!(tty.wait_for_end().exit_code(), 0);
+    tty.quit();
     tty.assert_restored();
     assert_eq!(
         fs::read_to_string(tty.case()).expect("it is there"),
@@ -83,8 +82,7 @@ fn the_workbench_suspends_and_resumes() {
     tty.wait_until("the workbench to resume", |tty| {
         tty.screen().alternate_screen() && tty.shows("Corner contact")
     });
-    tty.type_in("\x11");
-    assert_eq!(tty.wait_for_end().exit_code(), 0);
+    tty.quit();
     tty.assert_restored();
 }
 
@@ -94,8 +92,7 @@ fn nothing_is_written_while_idle() {
     tty.wait_for("quit");
     while tty.take_output(Duration::from_millis(300)) > 0 {}
     assert_eq!(tty.take_output(Duration::from_secs(2)), 0);
-    tty.type_in("\x11");
-    tty.wait_for_end();
+    tty.quit();
 }
 
 #[test]
@@ -107,8 +104,7 @@ fn a_flood_of_keys_does_not_block_the_workbench() {
     tty.type_in("\x15");
     tty.type_in("5 mm");
     tty.wait_until("the end of the flood", |tty| tty.shows("5 mm") && !tty.shows("*unsaved*"));
-    tty.type_in("\x11");
-    assert_eq!(tty.wait_for_end().exit_code(), 0);
+    tty.quit();
 }
 
 #[test]
@@ -118,10 +114,7 @@ fn a_paste_presses_no_button() {
     tty.type_in("\x15\x1b[200~3\x03\x11\rmm\x1b[201~");
     tty.wait_for("3 mm");
     assert!(!tty.has_ended());
-    tty.type_in("\x11");
-    tty.wait_for("Discard");
-    tty.type_in("d");
-    assert_eq!(tty.wait_for_end().exit_code(), 0);
+    tty.discard();
 }
 
 #[test]
@@ -141,8 +134,7 @@ fn a_terminal_without_unicode_gets_ascii_and_no_color_no_colour() {
         inverse += usize::from(cell.inverse());
     }
     assert!(bold > 0 && inverse > 0, "without colours, bold and reverse remain");
-    tty.type_in("\x11");
-    tty.wait_for_end();
+    tty.quit();
 }
 
 #[test]
@@ -153,26 +145,22 @@ fn a_terminal_that_changes_its_size_is_followed() {
         tty.resize(rows, columns);
     }
     tty.wait_for("Corner contact");
-    tty.type_in("\x11");
-    assert_eq!(tty.wait_for_end().exit_code(), 0);
+    tty.quit();
 }
 
 #[test]
 fn the_last_case_is_opened_again_and_a_broken_one_is_reported() {
     let mut tty = Tty::open();
     tty.wait_for("Corner contact");
-    tty.type_in("\x11");
-    tty.wait_for_end();
+    tty.quit();
     let mut tty = Launch::of(tty.folder.clone()).start();
     tty.wait_for("case.toml (last case; Alt-T: Table 1)");
-    tty.type_in("\x11");
-    tty.wait_for_end();
+    tty.quit();
     fs::write(tty.case(), "no case").expect("room on the disk");
     let mut tty = Launch::of(tty.folder.clone()).start();
     tty.wait_for("the last case cannot be opened");
     assert!(tty.shows("built-in Table 1"));
-    tty.type_in("\x11");
-    tty.wait_for_end();
+    tty.quit();
 }
 
 #[test]

@@ -332,7 +332,7 @@ fn kill_9_after_two_seconds_loses_nothing() {
     tty.wait_for_end();
     let mut next = again(&tty);
     next.wait_for(OFFER);
-    assert!(next.shows("module: 5 mm -> 1.25 in"), "{}", next.screen().contents());
+    next.assert(next.shows("module: 5 mm -> 1.25 in"));
     assert!(!next.shows("*unsaved*"), "nothing is taken over unasked");
     next.type_in("\r");
     next.wait_for("*unsaved*");
@@ -513,7 +513,7 @@ fn an_offer_for_a_changed_file_shows_the_present_differences() {
     let mut next = next.size(24, 160).start();
     next.wait_for(OFFER);
     next.wait_for("The file has changed");
-    assert!(next.shows("module: 7 mm -> 6 mm"), "{}", next.screen().contents());
+    next.assert(next.shows("module: 7 mm -> 6 mm"));
     next.type_in("l");
     next.quit();
     // Edits equal to the present file are not offered.
@@ -581,7 +581,7 @@ fn a_second_session_reads_names_the_first_and_may_save_elsewhere() {
     assert!(second.shows(&format!("on {} for ", host.trim())), "{}", second.screen().contents());
     second.type_in("\x156 mm");
     wait_for_journal(&mut second, "6 mm");
-    assert!(second.shows("*unsaved*"), "{}", second.screen().contents());
+    second.assert(second.shows("*unsaved*"));
     second.type_in("\x13");
     second.wait_for("Open elsewhere");
     second.type_in("c\x11");

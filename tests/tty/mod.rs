@@ -326,6 +326,20 @@ impl Tty {
         assert_eq!(self.wait_for_end().exit_code(), 0);
     }
 
+    /// Quits a workbench and discards its unsaved edits.
+    pub(crate) fn discard(&mut self) {
+        self.type_in("\x11");
+        self.wait_for("Discard");
+        self.type_in("d");
+        assert_eq!(self.wait_for_end().exit_code(), 0);
+    }
+
+    /// Checks a condition; a failure prints the screen.
+    #[track_caller]
+    pub(crate) fn assert(&self, holds: bool) {
+        assert!(holds, "{}", self.screen().contents());
+    }
+
     /// Closes the terminal, as a broken connection does.
     pub(crate) fn hang_up(&mut self) {
         let Line { master, writer, output, reader, .. } =

@@ -148,17 +148,6 @@ fn a_field_takes_text_until_esc_leaves_it() {
 }
 
 #[test]
-fn hjkl_and_the_arrows_are_alike_outside_a_field() {
-    for (letter, arrow) in
-        [("j", "Down"), ("k", "Up"), ("h", "Left"), ("l", "Right"), ("g", "Home"), ("G", "End")]
-    {
-        let focus =
-            |key: &str| Desk::new(SMALL).keys(&["Esc", "j", "l", "j", key]).app.tab.form.focus;
-        assert_eq!(focus(letter), focus(arrow), "{letter}");
-    }
-}
-
-#[test]
 fn tab_cycles_the_panes_whose_letters_are_commands() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc"]);
@@ -614,14 +603,6 @@ fn settings_for_every_case_are_saved() {
     desk.keys(&["Ctrl-P", "ascii", "Enter", "F8"]);
     assert!(desk.screen().is_ascii() && desk.shows("no effect"));
     assert_eq!(desk.kept.map(|kept| kept.ascii), Some(true));
-}
-
-#[test]
-fn recent_cases_are_a_key_away() {
-    let mut desk = Desk::new(SMALL);
-    desk.recents = vec![desk.write("late.toml", TABLE_1), desk.write("early.toml", TABLE_1)];
-    desk.keys(&["Alt-R", "early", "Enter"]);
-    assert!(desk.shows("opened") && desk.app.tab.short_name() == "early.toml");
 }
 
 #[test]
