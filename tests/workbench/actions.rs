@@ -53,7 +53,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 6 +", "0", "l", "m = 5.05 mm:"),
     ("Esc 6", "s", "", "Second field of the map"),
     ("Esc 6", "r", "", "Range of the study"),
-    ("Esc 6", "v", "", "exact F_S"),
+    ("Esc 6", "v", "", "exact F_S in N"),
     ("Esc 6", "p", "", "Field of the study"),
     ("Esc 6", "o", "", "Result of the study"),
     ("", ":sweep", "", "Range of the study"),

@@ -182,6 +182,19 @@ impl App {
         }
     }
 
+    /// Goes to the parent folder in the file browser.
+    pub(crate) fn browse_up(&mut self) {
+        let work = self.browser().map(Browser::leave);
+        self.start_all(work);
+    }
+
+    /// Handles a change of the line of the topmost dialog.
+    pub(crate) fn line_changed(&mut self) {
+        let prompt = self.prompts.last_mut();
+        let works = prompt.map_or_else(Vec::new, |prompt| prompt.dialog_mut().typed());
+        self.start_all(works);
+    }
+
     /// Closes the topmost dialog if it is a path or a question with this title.
     pub(crate) fn close_titled(&mut self, title: &str) -> bool {
         let is_it = match self.prompts.last() {

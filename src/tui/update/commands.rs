@@ -529,7 +529,7 @@ pub static BINDINGS: &[Binding] = &[
     // In prompts.
     row(Place::BROWSE, "Tab", "complete", navigation::complete_path,
         "Open the selected folder, or complete the selected name.").shown(),
-    row(Place::BROWSE, "Alt-Up", "folder up", navigation::browse_up,
+    row(Place::BROWSE, "Alt-Up", "folder up", App::browse_up,
         "Go to the parent folder; so does Backspace in an empty line.").shown(),
     pair(Place::EXPLAIN, "Tab/Shift-Tab", "next field", navigation::step_page,
         "Select the next or previous field that the result depends on.").shown(),

@@ -5,7 +5,6 @@ use std::borrow::Cow;
 
 use tui_input::InputRequest;
 
-use super::navigation::{browse_up, line_changed};
 use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::{Case, FIELDS, Field, Limit, changes};
 use crate::model::inputs::Method;
@@ -59,7 +58,7 @@ pub(super) fn paste(app: &mut App, text: &str) {
     if editing_case {
         write(app);
     } else {
-        line_changed(app);
+        app.line_changed();
     }
 }
 
@@ -68,12 +67,12 @@ pub(super) fn handle(app: &mut App, request: InputRequest) {
     if request == InputRequest::DeletePrevChar
         && app.browser().is_some_and(|browser| browser.input.value().is_empty())
     {
-        return browse_up(app);
+        return app.browse_up();
     }
     if let Some(prompt) = app.prompts.last_mut() {
         let changed = prompt.dialog_mut().input().and_then(|input| input.handle(request));
         if changed.is_some_and(|changed| changed.value) {
-            line_changed(app);
+            app.line_changed();
         }
     } else if app.tab.form.input.handle(request).is_some_and(|changed| changed.value) {
         write(app);

@@ -40,13 +40,6 @@ pub(super) fn preview(app: &mut App) {
     app.start_all(work);
 }
 
-/// Handles a change of the line of a dialog.
-pub(super) fn line_changed(app: &mut App) {
-    let prompt = app.prompts.last_mut();
-    let works = prompt.map_or_else(Vec::new, |prompt| prompt.dialog_mut().typed());
-    app.start_all(works);
-}
-
 /// Selects another field of the explanation and makes it visible.
 pub(super) fn step_page(app: &mut App, by: isize) {
     app.with_dialog(|dialog, around| dialog.select_field(by, around));
@@ -85,12 +78,6 @@ fn browse(app: &mut App, prefers_recents: bool) {
     let find = |_: &Running<'_>| Some(store::looked_at(store::recents()));
     app.start_all([browser.list(), Work::new(Slot::Recents, find, recents)]);
     app.prompts.push(Prompt::Browse(Box::new(browser)));
-}
-
-/// Goes to the parent folder.
-pub(super) fn browse_up(app: &mut App) {
-    let work = app.browser().map(Browser::leave);
-    app.start_all(work);
 }
 
 /// Enters the selected folder, or writes the selected name into the line.
