@@ -207,11 +207,12 @@ impl Charts<'_> {
         self.work.drawn(self.pane.worker_chart()?)
     }
 
-    /// The point `by` points from the cursor of that chart; its first point without a cursor.
+    /// The point or mark `by` places from the cursor of that chart; the first without a cursor.
     fn moved(&self, by: isize) -> Option<f64> {
-        let series = self.own_chart()?.series.iter();
-        let mut points: Vec<f64> =
-            series.flat_map(|series| series.pieces.iter().flatten()).map(|point| point.0).collect();
+        let chart = self.own_chart()?;
+        let points = chart.series.iter().flat_map(|series| series.pieces.iter().flatten());
+        let points = points.map(|point| point.0).chain(chart.marks.iter().map(|mark| mark.0));
+        let mut points: Vec<f64> = points.collect();
         points.sort_by(f64::total_cmp);
         points.dedup();
         let now = self.pane.place.map(|place| points.partition_point(|point| *point < place));
@@ -235,8 +236,10 @@ impl Charts<'_> {
             Some(format!("{name} {}", value(y, &chart.up.unit)))
         });
         let values: Vec<String> = values.collect();
+        let mark = chart.marks.iter().find(|mark| mark.0.total_cmp(&place).is_eq());
+        let mark = mark.map_or_else(String::new, |(_, name)| format!(" ({name})"));
         let across = value(place, &chart.across.unit);
-        format!("{} {across}: {}.", chart.across.name, values.join(", "))
+        format!("{} {across}{mark}: {}.", chart.across.name, values.join(", "))
     }
 
     /// The roll angles of every visible curve, with round ends.
