@@ -20,7 +20,7 @@ use super::text;
 use super::theme::Theme;
 
 /// Least width of a pane that shows the keys of hidden panes, and of a title beside their names.
-const LEAST_WIDTH: u16 = 40;
+const LEAST_WIDTH: u16 = 30;
 const BESIDE_NAMES: usize = 44;
 
 /// The title line of a pane.

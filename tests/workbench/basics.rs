@@ -180,13 +180,13 @@ fn every_pane_can_be_shown_at_every_size() {
 #[test]
 fn f5_switches_the_lower_area_and_names_the_hidden_panes() {
     let mut desk = Desk::new(SMALL);
-    assert!(desk.shows("4 Teeth  5 Trade"));
+    desk.assert_shows("Esc 4 5 6");
     desk.keys(&["F5"]);
-    assert!(desk.shows("4 Teeth, true to scale") && desk.shows("3 Chart  5 Trade"));
+    desk.assert(desk.shows("Esc 4 Teeth") && desk.shows("Esc 3 5 6"));
     desk.keys(&["F5"]);
-    assert!(desk.shows("Accuracy against run time"));
+    desk.assert_shows("Esc 5 Accuracy");
     desk.keys(&["F5"]);
-    assert!(desk.shows("F_S in N over"));
+    desk.assert_shows("Esc 6 Study: F_S");
     assert!(desk.app.has_line(), "the field keeps the keys");
 }
 

@@ -233,11 +233,7 @@ fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> 
     let (is_edited, is_choice) = (pane.is_edited(index), matches!(kind, Some(Kind::Choice(..))));
     let is_typed = is_edited && written.is_some() && !is_choice;
     let width = |text: &str| text.width() as u16 + 1;
-    let of_label = match field {
-        _ if label.is_empty() => 0,
-        Some(_) => width(label).max(LABEL + 1),
-        None => width(label),
-    };
+    let of_label = if label.is_empty() { 0 } else { width(label).max(LABEL + 1) };
     let (of_symbol, end) = (SYMBOL.max(width(symbol)), verdict.width() as u16);
     let of_value = if is_typed { VALUE } else { VALUE.max(width(&value)) };
     let of_value = of_value.min(line.width.saturating_sub(MARKS + of_symbol + end));
