@@ -221,7 +221,7 @@ impl Case {
                 units::parse(text, dimension, range.unit).ok()
             }
             fields::Kind::Count(..) => text.trim().parse::<u32>().ok().map(f64::from),
-            fields::Kind::Text | fields::Kind::Choice(..) => None,
+            _ => None,
         }
     }
 

@@ -12,9 +12,11 @@ pub mod contact_state;
 pub mod deviation;
 pub mod dynamic;
 pub mod explanation;
+pub mod face;
 pub mod field;
 pub mod figures;
 pub mod geometry;
+pub mod helix;
 pub mod impact;
 pub mod inputs;
 pub mod limits;
@@ -43,8 +45,10 @@ pub use dynamic::Dynamic;
 pub use dynamic::speeds::SpeedCurve;
 pub use dynamic::steady::Steady;
 pub use explanation::Context;
+pub use face::load::{FaceCycle, FaceLoad};
 pub use figures::Figures;
 pub use geometry::Geometry;
+pub use helix::Helix;
 pub use impact::{Band, Friction, Impact};
 pub use inputs::Inputs;
 pub use limits::Refusal;
@@ -117,6 +121,8 @@ pub struct Solution {
     pub geometry: Geometry,
     /// Force along the line of action F₀ = T₁/r_b1, in N.
     pub mesh_force: f64,
+    /// Helical geometry and axial force; `None` for a spur pair.
+    pub helix: Option<Helix>,
     /// Reduced mass m_red of Eq. 33, in kg.
     pub reduced_mass: f64,
     /// The deviation that makes the tooth early.
@@ -143,6 +149,11 @@ pub struct Solution {
     pub mesh: Option<Arc<Mesh>>,
     /// The load sharing in static balance.
     pub static_load: Option<StaticLoad>,
+    /// The line load of the incoming tooth over the face width in static balance, if the pair is in
+    /// slices.
+    pub face_load: Option<Arc<FaceLoad>>,
+    /// One base pitch without deviations over the face width, if the pair is in slices.
+    pub face_cycle: Option<FaceCycle>,
     /// The load sharing with inertia and damping.
     pub dynamic: Option<Dynamic>,
     /// Mesh frequency and natural frequency.
@@ -177,6 +188,7 @@ impl Solution {
             ran: Stages::NONE,
             geometry,
             mesh_force,
+            helix: None,
             reduced_mass: kept.masses.reduced(),
             deviation,
             kept,
@@ -190,6 +202,8 @@ impl Solution {
             stations: Vec::new(),
             mesh: None,
             static_load: None,
+            face_load: None,
+            face_cycle: None,
             dynamic: None,
             resonance: None,
             static_spectrum: None,

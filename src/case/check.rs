@@ -5,11 +5,11 @@ use std::sync::LazyLock;
 use super::fields::{Absent, FIELDS, Field, index_of};
 use super::problem::MISSING;
 use super::{Case, Fix, Limit, Problem};
-use crate::case::fields::{AUTO, Kind, Range, Value};
+use crate::case::fields::{AUTO, Kind, List, Range, Value};
 use crate::case::sanitize::{cut, quoted};
 use crate::case::suggest;
 use crate::case::units::{self, Dimension};
-use crate::model::inputs::{Gear, Method};
+use crate::model::inputs::{Gear, Method, ToothCompliance};
 use crate::model::{Inputs, QUANTITIES, Quantity};
 use crate::numeric::decimal::{shortest, significant};
 
@@ -67,7 +67,11 @@ pub fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), Problem
 /// An example of the field in TOML.
 pub(super) fn example(field: &Field) -> String {
     let example = field.example();
-    if field.is_bare() { example.to_owned() } else { format!("\"{example}\"") }
+    match field.kind {
+        Kind::List(_) => format!("[{example}]"),
+        _ if field.is_bare() => example.to_owned(),
+        _ => format!("\"{example}\""),
+    }
 }
 
 /// The field as a line of a file, with an example value.
@@ -114,6 +118,13 @@ pub fn field_value(field: usize, text: &str) -> Result<Value, Problem> {
         }
         Kind::Count(from, to, _) => count(known, text, from, to).map(Value::Count),
         Kind::Choice(names, _) => choice(known, text, names).map(Value::Choice),
+        Kind::List(_) => list(text).map(Value::List).ok_or_else(|| {
+            let most = List::default().len();
+            let cause = format!("{} is not a list of numbers", quoted(text));
+            let fix =
+                format!("write at most {most} numbers with commas, such as {}", known.example());
+            Problem::new(known.key, cause, fix)
+        }),
     }
 }
 
@@ -230,6 +241,17 @@ fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> 
     }
 }
 
+/// The numbers of a list.
+pub(super) fn list(text: &str) -> Option<List> {
+    let mut values = List::default();
+    let mut rest = values.iter_mut();
+    for number in text.split(',') {
+        let number = units::parse(number.trim(), Dimension::Number, "").ok()?;
+        *rest.next()? = number;
+    }
+    Some(values)
+}
+
 fn choice(known: &Field, text: &str, names: &'static [&'static str]) -> Result<usize, Problem> {
     let name = text.trim();
     if let Some(index) = names.iter().position(|&known| known == name) {
@@ -254,17 +276,85 @@ fn rules(inputs: &Inputs) -> impl Iterator<Item = (Vec<&'static str>, Problem)> 
     let heights = Height::all(inputs).filter_map(move |height| {
         let key = |field: usize| FIELDS[field].key;
         let [teeth, shift, bore] = height.fields.map(key);
-        let (problem, others) = if let Some(problem) = height.outside_range(inputs.module) {
+        let (problem, others) = if let Some(problem) = height.outside_range(inputs) {
             (problem, vec![])
         } else {
-            let problem = height.bore_through_root(inputs.module, bore)?;
+            let problem = height.bore_through_root(inputs, bore)?;
             (problem, vec![key(height.coefficient), bore])
         };
         let size = ["pair.module", "pair.diametral_pitch", teeth, shift, key(height.diameter)];
         Some(([size.to_vec(), others].concat(), problem))
     });
     let ratio = ratio_beyond(inputs).map(|problem| (vec!["driver.teeth", "driven.teeth"], problem));
-    heights.chain(ratio)
+    let face = face_rules(inputs).map(|(key, problem)| (vec![key], problem));
+    let table = table_rules(inputs).map(|(key, problem)| (vec![key], problem));
+    heights.chain(ratio).chain(face).chain(table)
+}
+
+/// Faces without common width, and a misalignment beyond the first order.
+fn face_rules(inputs: &Inputs) -> impl Iterator<Item = (&'static str, Problem)> {
+    /// Greatest angle of a misalignment, in rad.
+    const MOST: f64 = 0.01;
+    let width = inputs.common_width();
+    let apart = (inputs.driver.face_width > 0.0 && inputs.driven.face_width > 0.0 && width <= 0.0)
+        .then(|| {
+            let key = "pair.face_offset";
+            let cause = format!(
+                "the faces have no common width at an offset of {} mm",
+                in_mm(inputs.face_offset)
+            );
+            let most = 0.5 * (inputs.driver.face_width + inputs.driven.face_width);
+            let fix = format!("write an offset within {} mm", in_mm(most));
+            (key, Problem::new(key, cause, fix).coded("no-common-width"))
+        });
+    let slopes = [
+        ("deviations.misalignment", inputs.misalignment, width),
+        ("driver.helix_slope", inputs.driver.helix_slope, inputs.driver.face_width),
+        ("driven.helix_slope", inputs.driven.helix_slope, inputs.driven.face_width),
+    ];
+    let steep =
+        slopes.into_iter().filter(|(_, value, width)| *width > 0.0 && value.abs() > MOST * width);
+    let steep = steep.map(|(key, value, width)| {
+        let cause = format!(
+            "{} mm over {} mm of the face is more than a small angle",
+            in_mm(value),
+            in_mm(width)
+        );
+        let fix = format!("write a value within {} mm", in_mm(MOST * width));
+        (key, Problem::new(key, cause, fix).coded("misalignment-too-large"))
+    });
+    apart.into_iter().chain(steep)
+}
+
+/// A table of compliances that is chosen but not given, lacks a value or is not above 0 everywhere.
+fn table_rules(inputs: &Inputs) -> Option<(&'static str, Problem)> {
+    const CHOICE: &str = "model.tooth_compliance";
+    let is_chosen = inputs.tooth_compliance == Some(ToothCompliance::GIVEN);
+    let Some(given) = &inputs.given_compliance else {
+        let problem = || {
+            let cause = "the case has no table [compliance]";
+            Problem::new(CHOICE, cause, "give the table, or choose another model")
+        };
+        return is_chosen.then(|| (CHOICE, problem().coded("compliance-missing")));
+    };
+    let curves = [
+        ("compliance.driver", given.driver),
+        ("compliance.driven", given.driven),
+        ("compliance.contact", given.contact),
+    ];
+    curves.into_iter().find_map(|(key, curve)| {
+        if curve.middle <= 0.0 {
+            let field = &FIELDS[index_of(key)?];
+            let cause = format!("{key} is missing in the table [compliance]");
+            return Some((key, Problem::new(key, cause, addition(field)).coded(MISSING)));
+        }
+        let parts = (-32..=32).map(|part| f64::from(part) / 32.0);
+        parts.into_iter().any(|part| curve.at(part) <= 0.0).then(|| {
+            let cause = format!("{key} with its coefficients is not above 0 on the whole path");
+            let problem = Problem::new(key, cause, "give smaller coefficients");
+            (key, problem.coded("compliance-not-positive"))
+        })
+    })
 }
 
 fn ratio_beyond(inputs: &Inputs) -> Option<Problem> {
@@ -318,15 +408,15 @@ impl Height<'_> {
     }
 
     /// A diameter whose coefficient is outside the range of the field that it replaces.
-    fn outside_range(&self, module: f64) -> Option<Problem> {
+    fn outside_range(&self, inputs: &Inputs) -> Option<Problem> {
         /// A diameter at an end of the range has the end as its coefficient except for rounding.
         const SLACK: f64 = 1e-9;
         const DIGITS: usize = 4;
         let (gear, given) = (self.gear, self.given_diameter()?);
         let (value, sign) = if self.is_tip {
-            (gear.addendum_coefficient(module), 1.0)
+            (inputs.addendum_of(gear), 1.0)
         } else {
-            (gear.dedendum_coefficient(module), -1.0)
+            (inputs.dedendum_of(gear), -1.0)
         };
         let (from, to) = field_range(self.coefficient);
         let (side, limit) = match value {
@@ -340,23 +430,24 @@ impl Height<'_> {
             FIELDS[self.coefficient].label,
             significant(value, DIGITS),
         );
-        let shifted = f64::from(gear.teeth) + 2.0 * gear.profile_shift;
-        let at = |coefficient: f64| in_mm(module * (shifted + 2.0 * sign * coefficient));
+        let shifted = f64::from(gear.teeth) / inputs.helix_angle.cos() + 2.0 * gear.profile_shift;
+        let at = |coefficient: f64| in_mm(inputs.module * (shifted + 2.0 * sign * coefficient));
         let (least, most) = (at(from).min(at(to)), at(from).max(at(to)));
         let fix = format!("write a diameter from {least} to {most} mm");
         let problem = Problem::new(FIELDS[self.diameter].key, cause, fix);
         Some(problem.coded("diameter-outside-range"))
     }
 
-    fn bore_through_root(&self, module: f64, key: &str) -> Option<Problem> {
+    fn bore_through_root(&self, inputs: &Inputs, key: &str) -> Option<Problem> {
         let gear = self.gear;
-        let dedendum = gear.dedendum_coefficient(module);
-        let root = module * (f64::from(gear.teeth) / 2.0 - dedendum + gear.profile_shift);
+        let height = gear.profile_shift - inputs.dedendum_of(gear);
+        let half_teeth = f64::from(gear.teeth) / (2.0 * inputs.helix_angle.cos());
+        let root = inputs.module * (half_teeth + height);
         (!self.is_tip && gear.bore_radius >= root).then(|| {
             let (bore, root) = (in_mm(gear.bore_radius), in_mm(root));
             let cause = format!(
-                "the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - hf* \
-                    + x)"
+                "the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - \
+                    hf* + x)"
             );
             let fix = format!("write a radius (not a diameter) below {root} mm");
             Problem::new(key, cause, fix).coded("bore-through-root")

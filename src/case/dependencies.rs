@@ -103,7 +103,7 @@ fn with_values(field: usize, values: &[f64], inputs: &Inputs) -> Vec<Inputs> {
     };
     let values = values.iter();
     match FIELDS[field].kind {
-        Kind::Text => Vec::new(),
+        Kind::Text | Kind::List(_) => Vec::new(),
         Kind::Number(_, _, put) => values.map(|&value| with(&|other| put(other, value))).collect(),
         Kind::Count(_, _, put) => {
             values.map(|&value| with(&|other| put(other, value as u32))).collect()
@@ -118,7 +118,7 @@ fn with_values(field: usize, values: &[f64], inputs: &Inputs) -> Vec<Inputs> {
 fn small_step(field: usize, case: &Case, inputs: &Inputs) -> Option<(&'static str, Inputs)> {
     let now = case.value(field)?;
     let (text, to) = match FIELDS[field].kind {
-        Kind::Text | Kind::Choice(..) => return None,
+        Kind::Text | Kind::Choice(..) | Kind::List(_) => return None,
         Kind::Count(..) => ("+1", now + 1.0),
         Kind::Number(_, Range { unit: "um", .. }, _) => ("+1 um", now + 1e-6),
         Kind::Number(Dimension::Number, ..) => ("+0.01", now + 0.01),
@@ -157,7 +157,7 @@ fn other_values(field: usize, case: &Case, inputs: &Inputs) -> Vec<f64> {
     let known = &FIELDS[field];
     let now = case.value(field);
     match known.kind {
-        Kind::Text | Kind::Choice(..) => Vec::new(),
+        Kind::Text | Kind::Choice(..) | Kind::List(_) => Vec::new(),
         Kind::Count(from, ..) => {
             let now = now.unwrap_or_default();
             vec![f64::from(from), now + 1.0, now + (now / 2.0).floor(), 2.0 * now]
@@ -210,7 +210,7 @@ fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
     let values = match FIELDS[field].kind {
         Kind::Number(_, range, _) => SHARES.map(|share| within(range, share)).to_vec(),
         Kind::Count(from, to, _) => vec![f64::from(from), f64::from(to)],
-        Kind::Text | Kind::Choice(..) => Vec::new(),
+        _ => Vec::new(),
     };
     with_values(field, &values, &held)
 }

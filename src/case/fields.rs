@@ -9,7 +9,7 @@ use crate::model::inputs::{Gear, GearSide, Method};
 use crate::model::limits::Member;
 use crate::numeric::decimal::shortest;
 use Reason::{Idle, Partly};
-pub use table::FIELDS;
+pub use table::{FIELDS, List};
 
 /// A line of the form and a key of the case file.
 #[derive(Debug, Clone, Copy)]
@@ -54,6 +54,8 @@ pub enum Kind {
     Count(u32, u32, fn(&mut Inputs, u32)),
     /// One of several names.
     Choice(&'static [&'static str], fn(&mut Inputs, usize)),
+    /// Bare numbers.
+    List(fn(&mut Inputs, List)),
 }
 
 /// A value of a field, in SI.
@@ -67,6 +69,8 @@ pub enum Value {
     Count(u32),
     /// The index of a choice.
     Choice(usize),
+    /// Bare numbers, unused ones 0.
+    List(List),
 }
 
 /// Replaces a number that the program computes.
@@ -112,7 +116,7 @@ impl Field {
     pub fn usual_unit(&self) -> &'static str {
         match self.kind {
             Kind::Number(..) => self.example().split_once(' ').map_or("", |(_, unit)| unit),
-            Kind::Text | Kind::Count(..) | Kind::Choice(..) => "",
+            Kind::Text | Kind::Count(..) | Kind::Choice(..) | Kind::List(_) => "",
         }
     }
 
@@ -195,6 +199,7 @@ impl Field {
             (Kind::Number(_, _, put), Value::Number(value)) => put(inputs, value),
             (Kind::Count(_, _, put), Value::Count(value)) => put(inputs, value),
             (Kind::Choice(_, put), Value::Choice(value)) => put(inputs, value),
+            (Kind::List(put), Value::List(values)) => put(inputs, values),
             _ => {}
         }
     }
@@ -214,7 +219,7 @@ impl Field {
     /// Whether the word "auto" can replace the number.
     #[must_use]
     pub fn takes_auto(&self) -> bool {
-        self.key == "model.stations"
+        matches!(self.key, "model.stations" | "model.slices")
     }
 
     /// Whether a file contains the value without quotes.
@@ -247,6 +252,7 @@ impl Field {
                 format!("{} to {} {}", shortest(range.from), shortest(range.to), range.unit)
             }
             Kind::Text => String::new(),
+            Kind::List(_) => format!("up to {} numbers", List::default().len()),
             Kind::Choice(names, _) => names.join(", "),
         }
     }
@@ -269,7 +275,7 @@ pub fn key_of((gear, name): Member) -> &'static str {
 }
 
 /// The groups of the form: the name of the table in the file and the title.
-pub const GROUPS: [(&str, &str); 7] = [
+pub const GROUPS: [(&str, &str); 8] = [
     ("", "Case"),
     ("pair", "Pair"),
     ("driver", "Driver (gear 1)"),
@@ -277,6 +283,7 @@ pub const GROUPS: [(&str, &str); 7] = [
     ("deviations", "Deviations"),
     ("operation", "Operation"),
     ("model", "Model"),
+    ("compliance", "Given compliance"),
 ];
 
 /// A condition on the inputs.
@@ -298,6 +305,7 @@ const AT_EXIT: &str = "this relief acts at the exit; this method computes only \
 const TIP_OF_DRIVER: &str = "the driver's tip ends contact at B; at the entry this field \
     affects only the number of loaded pairs";
 const IN_TIME: &str = "only the method dynamic follows the motion in time";
+const NO_HAND: &str = "a spur pair has no hand";
 const CURVE: &str = "changes only how closely the curve is sampled";
 
 const ROOT: [Reason; 1] = [Partly(
@@ -305,6 +313,16 @@ const ROOT: [Reason; 1] = [Partly(
     "the tooth compliance ignores the root; only the stiffness spread changes, because the spread \
         includes the other models",
 )];
+
+/// Reasons for the fields of the face width.
+const FACE: [Reason; 2] = [
+    Idle(by_impact, "this method computes one plane across the axis"),
+    Idle(|inputs| inputs.face().is_none(), "all planes across the axis of this pair are equal"),
+];
+
+/// Reasons for the fields of the given compliance.
+const NO_TABLE: [Reason; 1] =
+    [Idle(|inputs| inputs.elasticity().given.is_none(), "model.tooth_compliance is not given")];
 
 /// Reasons for relief lengths and shapes.
 const WHOLE_RELIEF: [Reason; 1] = [Idle(
@@ -357,21 +375,22 @@ fn has_size(inputs: &Inputs, gear: &Gear) -> bool {
     inputs.module > 0.0 && gear.teeth > 0
 }
 
-/// Tip diameter without a chamfer, d_a = m (z + 2 h_a* + 2 x), in m.
+/// Tip diameter without a chamfer, d_a = m_t z + 2 m_n (h_a* + x), in m.
 fn tip_diameter(inputs: &Inputs, gear: &Gear) -> Option<f64> {
-    let addendum = gear.addendum_coefficient(inputs.module);
+    let addendum = inputs.addendum_of(gear);
     has_size(inputs, gear).then(|| diameter(inputs, gear, addendum + gear.profile_shift))
 }
 
-/// Root diameter d_f = m (z − 2 h_fP* + 2 x), in m.
+/// Root diameter d_f = m_t z + 2 m_n (x − h_fP*), in m.
 fn root_diameter(inputs: &Inputs, gear: &Gear) -> Option<f64> {
-    let dedendum = gear.dedendum_coefficient(inputs.module);
+    let dedendum = inputs.dedendum_of(gear);
     has_size(inputs, gear).then(|| diameter(inputs, gear, gear.profile_shift - dedendum))
 }
 
-/// The diameter of a circle at a height above the reference circle, times the module.
+/// The diameter of a circle at a height above the reference circle, times the normal module.
 fn diameter(inputs: &Inputs, gear: &Gear, height: f64) -> f64 {
-    inputs.module * (f64::from(gear.teeth) + 2.0 * height)
+    let teeth = f64::from(gear.teeth) / inputs.helix_angle.cos();
+    inputs.module * (teeth + 2.0 * height)
 }
 
 #[cfg(test)]

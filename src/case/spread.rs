@@ -112,7 +112,7 @@ fn spreadable(key: &str) -> Result<(&'static Field, Dimension), Problem> {
             format!("{key} is a whole number and has no distribution"),
             format!("remove the line; `tipstrike sweep --vary '{key}=FROM..TO'` varies {key}"),
         ),
-        Kind::Text | Kind::Choice(..) => {
+        Kind::Text | Kind::Choice(..) | Kind::List(_) => {
             (format!("{key} is not a number and has no distribution"), "remove the line".to_owned())
         }
     };

@@ -48,6 +48,8 @@ pub enum Reason {
     FreeImpact,
     /// The closed form has no result.
     Refused,
+    /// The load of the pair varies over the face width.
+    OverFace,
     /// The pair ahead loses contact.
     ContactLost,
     /// The impact lasts longer than the time from D to E: both times, in s.
@@ -236,6 +238,7 @@ impl fmt::Display for Reason {
                 f.write_str("the impact ends before E, and the load adds little to it")
             }
             Reason::Refused => f.write_str("the closed form has no solution"),
+            Reason::OverFace => f.write_str("the load varies over the face width"),
             Reason::ContactLost => f.write_str("the pair ahead loses contact"),
             Reason::Outlasts(lasts, way) => {
                 write!(

@@ -5,6 +5,7 @@ use std::cell::RefCell;
 
 use super::budget::{Meter, SEARCH_TRIES, SEARCH_WORK};
 use super::dynamic::{Approach, Settings, approach};
+use super::face::{Face, FaceInputs};
 use super::inputs::{Inputs, Method};
 use super::mesh::MeshInputs;
 use super::mesh::build::Meshes;
@@ -71,7 +72,7 @@ pub fn clearing(
         (_, Method::Static | Method::Dynamic) => {
             let is_moving = inputs.method == Method::Dynamic;
             let motion = is_moving.then(|| Settings::approach(inputs, solution.reduced_mass));
-            search.least(&inputs.mesh(), motion.as_ref(), solution, go_on).map(Some)
+            search.least(&inputs.mesh(), motion.as_ref(), inputs.face(), solution, go_on).map(Some)
         }
     };
     let (relief, withheld) = match found {
@@ -100,6 +101,7 @@ impl Search {
         &self,
         mesh: &MeshInputs,
         motion: Option<&Settings>,
+        face: Option<FaceInputs>,
         solution: &Solution,
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<f64, Refusal> {
@@ -107,7 +109,7 @@ impl Search {
             if self.runs() >= SEARCH_TRIES || !self.meter.spend(0) {
                 return Err(self.ended(motion.is_some()));
             }
-            let tried = relieved(relief, (mesh, motion), solution, &self.meter, go_on);
+            let tried = relieved(relief, (mesh, motion, face), solution, &self.meter, go_on);
             if let Ok(tried) = tried {
                 self.tries.borrow_mut().push(tried);
             }
@@ -150,7 +152,7 @@ impl Search {
 /// motion.
 fn relieved(
     relief: f64,
-    (mesh, motion): (&MeshInputs, Option<&Settings>),
+    (mesh, motion, face): (&MeshInputs, Option<&Settings>, Option<FaceInputs>),
     solution: &Solution,
     meter: &Meter,
     go_on: &dyn Fn(f64) -> bool,
@@ -159,6 +161,10 @@ fn relieved(
     relieved.reliefs.driven.tip += relief;
     Meshes::new(&relieved, solution, solution.mesh.as_ref(), None).find(|mesh| {
         meter.spend(mesh.work());
+        if let Some(face) = &face {
+            let lead = Face::new(face, &solution.geometry, mesh)?.lead_before_start()?;
+            return Ok(Tried { relief, lead, contact_lost: false });
+        }
         let Approach { lead, contact_lost } = if let Some(motion) = motion {
             approach(mesh, motion, meter, go_on)?
         } else {

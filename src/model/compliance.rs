@@ -4,6 +4,7 @@
 
 pub mod contact;
 pub mod flanks;
+pub mod given;
 pub mod tooth;
 
 use super::Refusal;
@@ -13,6 +14,7 @@ use super::position::TipContact;
 use crate::numeric::chebyshev::TERMS;
 use crate::numeric::real::Lanes;
 use contact::{ContactLaw, ContactSpring};
+use given::GivenCompliance;
 use tooth::Tooth;
 
 pub use super::field::ElasticGear;
@@ -29,6 +31,8 @@ pub struct Elasticity {
     pub driver: ElasticGear,
     /// The driven gear.
     pub driven: ElasticGear,
+    /// The table of the case, if it gives the compliance.
+    pub given: Option<GivenCompliance>,
     /// Common face width b, in m.
     pub width: f64,
 }
@@ -48,6 +52,7 @@ impl Inputs {
             },
             driver: gear(&self.driver),
             driven: gear(&self.driven),
+            given: self.given_compliance.filter(|_| tooth == ToothCompliance::GIVEN),
             width: self.common_width(),
         }
     }
@@ -157,8 +162,23 @@ impl Teeth {
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
     pub fn at(&self, place: &ContactPlace) -> Result<TeethCompliance, Refusal> {
-        let [driver, driven] = self.both(place, Tooth::at)?;
+        let [driver, driven] = match self.given_at(place) {
+            Some((given, part)) => given.teeth(part),
+            None => self.both(place, Tooth::at)?,
+        };
         Ok(TeethCompliance { model: self.elasticity.tooth, driver, driven })
+    }
+
+    /// The table of the case, if it gives the compliance, and the part of the path.
+    fn given_at(&self, place: &ContactPlace) -> Option<(GivenCompliance, f64)> {
+        let Geometry { driver, driven, .. } = &self.geometry;
+        let curvature =
+            |radius: f64, base: f64| ((radius - base) * (radius + base)).max(0.0).sqrt();
+        let arms = (
+            curvature(place.radius_driver, driver.base),
+            curvature(place.radius_driven, driven.base),
+        );
+        Some((self.elasticity.given?, GivenCompliance::part(&self.geometry, arms)))
     }
 
     /// A value of driver and driven gear at a place.
@@ -176,6 +196,10 @@ impl Teeth {
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
     pub fn contacts(&self, place: &ContactPlace) -> Result<[Option<ContactLaw>; 2], Refusal> {
+        if let Some((given, part)) = self.given_at(place) {
+            let half = ContactLaw { offset: 0.5 * given.contact.at(part), slope: 0.0 };
+            return Ok([Some(half); 2]);
+        }
         self.both(place, Tooth::contact)
     }
 
@@ -221,6 +245,10 @@ impl Teeth {
         earlier: &ContactPlace,
         pitches: i32,
     ) -> Result<f64, Refusal> {
+        if let Some((given, one)) = self.given_at(later) {
+            let other = self.given_at(earlier).map_or(one, |(_, other)| other);
+            return Ok(if pitches.abs() == 1 { given.next(one, other) } else { 0.0 });
+        }
         // The force pushes a driver's tooth back towards the later pairs, and a driven tooth
         // towards the earlier pairs.
         let driver = self.driver.neighbour(earlier.radius_driver, later.radius_driver, pitches)?;
@@ -242,7 +270,10 @@ impl Teeth {
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
     pub fn abscissas(&self, place: &ContactPlace) -> Result<[f64; 2], Refusal> {
-        self.both(place, Tooth::abscissa)
+        match self.given_at(place) {
+            Some((_, part)) => Ok([part; 2]),
+            None => self.both(place, Tooth::abscissa),
+        }
     }
 
     /// The same as [`Teeth::coupling`] at several [places](Teeth::abscissas) at once.
@@ -252,6 +283,11 @@ impl Teeth {
         earlier: [Lanes<TERMS>; 2],
         pitches: i32,
     ) -> Lanes<TERMS> {
+        if let Some(given) = self.elasticity.given {
+            let next = |lane: usize| given.next(later[0].0[lane], earlier[0].0[lane]);
+            let is_next = pitches.abs() == 1;
+            return Lanes(std::array::from_fn(|lane| if is_next { next(lane) } else { 0.0 }));
+        }
         self.driver.neighbours([earlier[0], later[0]], pitches)
             + self.driven.neighbours([earlier[1], later[1]], -pitches)
     }

@@ -9,6 +9,7 @@ use twofloat::TwoFloat;
 
 use super::Refusal;
 use super::compliance::{ContactPlace, Teeth};
+use super::face::FaceInputs;
 use super::geometry::Geometry;
 use super::inputs::{Combination, Gear, Inputs, Method};
 use super::pair_forces::{PITCHES, Pair, PairSet};
@@ -187,6 +188,56 @@ pub(super) fn deflected<'t>(
     })
 }
 
+/// The two parts of the combined deflection of a pair in slices when the leading end of the incoming
+/// tooth is at E, in m: the other pairs as independent springs in each plane.
+///
+/// # Formula
+/// ```text
+/// δ = x (1 − Q_01/Q_11),   x = F0/Σ_k ∫ dz/Q_kk  over the pairs on the path of contact
+/// ```
+///
+/// # Errors
+/// [`Refusal::TotalContactRatioBelowOne`] if no other pair is in contact, or the errors of the
+/// compliance.
+pub(super) fn deflected_over_face(
+    face: &FaceInputs,
+    geometry: &Geometry,
+    teeth: &Teeth,
+    mesh_force: f64,
+) -> Result<Deflected, Refusal> {
+    const SLICES: u32 = 64;
+    let (start, pitch) = (geometry.start, geometry.base_pitch);
+    let place = |path: f64| {
+        let place = ContactPlace::on_line_of_action(geometry, start + path);
+        teeth.under(&place, mesh_force)
+    };
+    let is_on_path = |path: &f64| *path > 0.0 && start + path <= geometry.end;
+    let mut stiffness = 0.0;
+    for slice in 0..SLICES {
+        let part = (f64::from(slice) + 0.5) / f64::from(SLICES);
+        let first = pitch - part * face.width * face.lead.abs();
+        let ahead = std::iter::successors(Some(first), |path| Some(path + pitch));
+        let ahead = ahead.take_while(|path| start + path <= geometry.end).filter(is_on_path);
+        for path in ahead {
+            stiffness += 1.0 / teeth.pair_at_load(&place(path), mesh_force)? / f64::from(SLICES);
+        }
+    }
+    if stiffness <= 0.0 {
+        let ratio = face.total_contact_ratio(geometry);
+        return Err(Refusal::TotalContactRatioBelowOne { ratio });
+    }
+    let pairs_ahead = mesh_force / (face.width * stiffness);
+    let next = Some(place(pitch)).filter(|_| is_on_path(&pitch) && teeth.is_coupled());
+    let incoming_pair = match next {
+        Some(next) => {
+            let own = teeth.pair_at_load(&next, mesh_force)?;
+            pairs_ahead * teeth.coupling(&place(0.0), &next, 1)? / own
+        }
+        None => 0.0,
+    };
+    Ok(Deflected { pairs_ahead, incoming_pair })
+}
+
 /// The displacements if several coupled pairs, all places except the first, carry the force.
 fn shared(teeth: &Teeth, places: &[ContactPlace], mesh_force: f64) -> Result<Deflected, Refusal> {
     let (mut pairs, mut couplings) = (Vec::new(), Vec::new());
@@ -273,15 +324,15 @@ impl Inputs {
     ///
     /// # Formula
     /// ```text
-    /// f_pb = f_pT cos α  for a flank tolerance class
+    /// f_pb = f_pT cos α_t  for a flank tolerance class
     /// ```
     pub fn base_pitch_of(&self, gear: &Gear) -> (f64, Origin) {
         match (gear.base_pitch, gear.grade) {
             (Some(own), _) => (own, Origin::Own),
             (None, Some(grade)) => {
-                let diameter = self.module * f64::from(gear.teeth);
-                let allowed =
-                    base_pitch_tolerance(grade, self.module, diameter, self.pressure_angle);
+                let (module, angle) = (self.transverse_module(), self.transverse_pressure_angle());
+                let diameter = module * f64::from(gear.teeth);
+                let allowed = base_pitch_tolerance(grade, self.module, diameter, angle);
                 (allowed, Origin::Grade)
             }
             (None, None) => (self.base_pitch_deviation, Origin::Common),
@@ -290,7 +341,7 @@ impl Inputs {
 
     /// Single pitch deviation f_pT of a gear's flank tolerance class, in m.
     pub fn graded_pitch(&self, gear: &Gear) -> Option<f64> {
-        let diameter = self.module * f64::from(gear.teeth);
+        let diameter = self.transverse_module() * f64::from(gear.teeth);
         Some(pitch_tolerance(gear.grade?, self.module, diameter))
     }
 

@@ -10,11 +10,11 @@ mod tests;
 use std::f64::consts::PI;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::geometry::GearShape;
+use super::geometry::{Circles, GearShape};
 use super::inputs::{Gear, Inputs};
 pub use super::limits::FieldRefusal;
 use super::limits::POISSON;
-use super::profile::{Profile, Rack};
+use super::profile::{Profile, RACK_ROUNDING, Rack};
 use super::{Refusal, geometry};
 use crate::numeric::real::Lanes;
 use element::{Load, Material};
@@ -271,19 +271,82 @@ pub struct ElasticGear {
     pub young: f64,
     /// Poisson's ratio ν.
     pub poisson: f64,
+    /// 1/cos β_b: the compliance of the transverse section over that of the normal section.
+    pub oblique: f64,
+    /// Radius of a point of this gear minus that of the point at the same height on the gear of the
+    /// pair, in m; 0 for a spur gear.
+    pub rise: f64,
 }
 
 impl ElasticGear {
-    /// A gear of the pair.
+    /// A gear of the pair; of a helical gear, the virtual spur gear of its normal section.
+    ///
+    /// # Formula
+    /// ```text
+    /// q = q_n/cos β_b,   z_n = z/(cos² β_b cos β), rounded
+    /// ```
+    /// q_n is the compliance of the gear with z_n teeth, the normal module and pressure angle, the
+    /// same heights and the same rim, under a load at the same height. The force on the transverse
+    /// width is that on the length of the contact line, and the displacement in the transverse plane is
+    /// that along the normal over cos β_b.
+    ///
+    /// # Source
+    /// ISO 21771:2007 for z_n; ISO 6336-1:2019, 9.2 has cos β in place of cos β_b.
+    ///
+    /// # Valid for
+    /// Helix angles up to 30 deg: own finite elements in three dimensions give 1.02 to 1.06 times
+    /// these compliances, as they do for spur gears.
     pub fn of(inputs: &Inputs, gear: &Gear) -> ElasticGear {
+        // The rounding of the tip moves the load but does not change the stiffness of the tooth.
+        let shape = GearShape { tip_radius: None, ..inputs.gear_shape(gear) };
+        let (rack, bore_radius) = (Rack::of(inputs, gear), gear.bore_radius);
+        let Gear { young, poisson, .. } = *gear;
+        let spur =
+            ElasticGear { rack, shape, bore_radius, young, poisson, oblique: 1.0, rise: 0.0 };
+        if inputs.helix_angle == 0.0 {
+            return spur;
+        }
+        let (teeth, cosine) = (f64::from(gear.teeth), inputs.base_helix_angle().cos());
+        let virtual_teeth = inputs.virtual_teeth(gear).round();
+        let rise = 0.5 * (inputs.module * virtual_teeth - inputs.transverse_module() * teeth);
+        let tip_chamfer = gear.tip_chamfer;
+        let (addendum, dedendum) = (inputs.addendum_of(gear), inputs.dedendum_of(gear));
+        let (teeth, profile_shift) = (virtual_teeth as u32, gear.profile_shift);
         ElasticGear {
-            rack: Rack::of(inputs, gear),
-            // The rounding of the tip moves the load but does not change the stiffness of the
-            // tooth.
-            shape: GearShape { tip_radius: None, ..gear.shape(inputs.module) },
-            bore_radius: gear.bore_radius,
-            young: gear.young,
-            poisson: gear.poisson,
+            rack: Rack {
+                module: inputs.module,
+                pressure_angle: inputs.pressure_angle,
+                teeth,
+                profile_shift,
+                dedendum,
+                rounding: RACK_ROUNDING,
+            },
+            shape: GearShape {
+                teeth,
+                profile_shift,
+                addendum,
+                tip_diameter: None,
+                dedendum,
+                root_diameter: None,
+                tip_chamfer,
+                tip_radius: None,
+            },
+            bore_radius: if bore_radius > 0.0 { bore_radius + rise } else { 0.0 },
+            oblique: cosine.recip(),
+            rise,
+            ..spur
+        }
+    }
+
+    /// The circles of the gear. Those of a spur gear of the pair are given.
+    ///
+    /// # Errors
+    /// Those of [`geometry::circles`].
+    pub fn circles(&self, of_pair: &Circles) -> Result<Circles, Refusal> {
+        if self.oblique > 1.0 {
+            geometry::circles(self.rack.module, self.rack.pressure_angle, &self.shape)
+        } else {
+            Ok(*of_pair)
         }
     }
 

@@ -45,6 +45,11 @@ impl Figures {
         let pitch = base * geometry.tangent_length / (base + geometry.driven.base);
         let line_load = tangential_force / width;
         let stiffness = IsoStiffness::of(inputs, geometry.contact_ratio, line_load);
+        let helix = inputs.helix(geometry, mesh_force);
+        let overlap = helix.map_or(0.0, |helix| helix.overlap_ratio);
+        // The mean line load of a helical pair; near the pitch point of a spur pair one pair carries.
+        let pairs = helix.map_or(1.0, |_| geometry.contact_ratio);
+        let normal = inputs.base_helix_angle().cos().recip();
         Figures {
             tip_thickness: [driver.0, driven.0],
             tip_clearance: [
@@ -54,10 +59,18 @@ impl Figures {
             tangential_force,
             pitch_line_speed: inputs.speed * geometry.driver.reference,
             sliding: [geometry.start, geometry.end].map(sliding),
-            pitch_pressure: Hertz::of(inputs)
-                .pressure(mesh_force, pitch * (1.0 - pitch / geometry.tangent_length)),
+            pitch_pressure: Hertz::of(inputs).pressure(
+                mesh_force / pairs,
+                normal * pitch * (1.0 - pitch / geometry.tangent_length),
+            ),
             stiffness,
-            dynamic: IsoDynamic::of(inputs, geometry.contact_ratio, line_load, &stiffness, mass),
+            dynamic: IsoDynamic::of(
+                inputs,
+                geometry.contact_ratio + overlap,
+                line_load,
+                &stiffness,
+                mass,
+            ),
         }
     }
 }
@@ -86,12 +99,14 @@ impl IsoStiffness {
         let [driver, driven] = gears.map(|gear| gear.young);
         let ratio = 2.0 * driver * driven / ((driver + driven) * STEEL);
         let theoretical = theoretical_stiffness(
-            gears.map(|gear| f64::from(gear.teeth)),
+            gears.map(|gear| inputs.virtual_teeth(gear)),
             gears.map(|gear| gear.profile_shift),
         );
-        let dedendums = gears.map(|gear| gear.dedendum_coefficient(inputs.module));
+        let dedendums = gears.map(|gear| inputs.dedendum_of(gear));
         let rack = rack_factor(dedendums, inputs.pressure_angle);
-        let single = single_stiffness(theoretical, rack, 1.0) * ratio * low_load(line_load);
+        let single = single_stiffness(theoretical, rack, inputs.helix_angle.cos())
+            * ratio
+            * low_load(line_load);
         IsoStiffness { theoretical, rack, single, mesh: mesh_stiffness(single, contact_ratio) }
     }
 }
@@ -311,6 +326,10 @@ impl Solution {
     /// The Hertz pressure at a station, in Pa: of both flanks from E to B, and of the rounded tip edge
     /// on the flank before E and after B. `None` at a sharp edge, where no pressure is finite.
     pub fn pressure(&self, station: &Station) -> Option<f64> {
+        // The force of a station does not say where on the face it acts.
+        if self.face_load.is_some() {
+            return None;
+        }
         let (geometry, hertz) = (&self.geometry, &self.kept.hertz);
         let along = geometry.start - station.roll_angle_driver * geometry.driver.base;
         let curvature = if station.roll_angle_driven > 0.0 {

@@ -272,12 +272,12 @@ impl<T: Real> Geometry<T> {
     }
 }
 
-/// Shape of the pair.
+/// Shape of the pair in the transverse section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairShape {
-    /// Module m, in m.
+    /// Transverse module m_t, in m.
     pub module: f64,
-    /// Pressure angle α, in rad.
+    /// Transverse pressure angle α_t, in rad.
     pub pressure_angle: f64,
     /// Centre distance a, in m; `None` for a mesh without backlash.
     pub centre_distance: Option<f64>,
@@ -287,7 +287,7 @@ pub struct PairShape {
     pub driven: GearShape,
 }
 
-/// Shape of one gear.
+/// Shape of one gear in the transverse section. Coefficients are times the transverse module.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearShape {
     /// Number of teeth z.
@@ -308,52 +308,51 @@ pub struct GearShape {
     pub tip_radius: Option<f64>,
 }
 
-impl Gear {
-    /// Addendum coefficient: h_a* = d_a/(2 m) − z/2 − x if the tip diameter is given, otherwise the
-    /// given coefficient. The module is in m.
-    pub fn addendum_coefficient(&self, module: f64) -> f64 {
-        self.tip_diameter
-            .map_or(self.addendum, |diameter| self.height_of(diameter, module) - self.profile_shift)
+impl Inputs {
+    /// Addendum coefficient of a gear: h_a* = (d_a − m_t z)/(2 m_n) − x if the tip diameter is
+    /// given, otherwise the given coefficient.
+    pub fn addendum_of(&self, gear: &Gear) -> f64 {
+        gear.tip_diameter
+            .map_or(gear.addendum, |diameter| self.height_of(gear, diameter) - gear.profile_shift)
     }
 
-    /// Dedendum coefficient: h_fP* = z/2 + x − d_f/(2 m) if the root diameter is given, otherwise
-    /// the given coefficient. The module is in m.
-    pub fn dedendum_coefficient(&self, module: f64) -> f64 {
-        self.root_diameter
-            .map_or(self.dedendum, |diameter| self.profile_shift - self.height_of(diameter, module))
+    /// Dedendum coefficient of a gear: h_fP* = x − (d_f − m_t z)/(2 m_n) if the root diameter is
+    /// given, otherwise the given coefficient.
+    pub fn dedendum_of(&self, gear: &Gear) -> f64 {
+        gear.root_diameter
+            .map_or(gear.dedendum, |diameter| gear.profile_shift - self.height_of(gear, diameter))
     }
 
     /// Height of a circle above the reference circle, times the module.
-    fn height_of(&self, diameter: f64, module: f64) -> f64 {
-        (diameter - module * f64::from(self.teeth)) / (2.0 * module)
+    fn height_of(&self, gear: &Gear, diameter: f64) -> f64 {
+        (diameter - self.transverse_module() * f64::from(gear.teeth)) / (2.0 * self.module)
     }
 
-    /// Shape of the gear with a module in m.
-    pub fn shape(&self, module: f64) -> GearShape {
+    /// Shape of a gear of the pair in the transverse section, where m_t x_t = m_n x.
+    pub fn gear_shape(&self, gear: &Gear) -> GearShape {
+        let cosine = self.helix_angle.cos();
         GearShape {
-            teeth: self.teeth,
-            profile_shift: self.profile_shift,
-            addendum: self.addendum_coefficient(module),
-            tip_diameter: self.tip_diameter,
-            dedendum: self.dedendum_coefficient(module),
-            root_diameter: self.root_diameter,
-            tip_chamfer: self.tip_chamfer,
-            tip_radius: self.tip_radius,
+            teeth: gear.teeth,
+            profile_shift: gear.profile_shift * cosine,
+            addendum: self.addendum_of(gear) * cosine,
+            tip_diameter: gear.tip_diameter,
+            dedendum: self.dedendum_of(gear) * cosine,
+            root_diameter: gear.root_diameter,
+            tip_chamfer: gear.tip_chamfer,
+            tip_radius: gear.tip_radius,
         }
     }
-}
 
-impl Inputs {
-    /// Shape of the pair. The method `paper` has only sharp tips.
+    /// Shape of the pair in the transverse section. The method `paper` has only sharp tips.
     pub fn shape(&self) -> PairShape {
         let shape = |gear: &Gear| {
-            let shape = gear.shape(self.module);
+            let shape = self.gear_shape(gear);
             let tip_radius = shape.tip_radius.filter(|_| self.method != Method::Paper);
             GearShape { tip_radius, ..shape }
         };
         PairShape {
-            module: self.module,
-            pressure_angle: self.pressure_angle,
+            module: self.transverse_module(),
+            pressure_angle: self.transverse_pressure_angle(),
             centre_distance: self.centre_distance,
             driver: shape(&self.driver),
             driven: shape(&self.driven),

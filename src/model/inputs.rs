@@ -1,5 +1,6 @@
 //! Inputs of a solve, in SI units.
 
+use super::compliance::given::GivenCompliance;
 use super::stage::{Stage, Stages};
 
 /// A gear of the pair.
@@ -15,6 +16,25 @@ impl GearSide {
     /// The other gear.
     pub fn other(self) -> GearSide {
         if self == GearSide::Driver { GearSide::Driven } else { GearSide::Driver }
+    }
+}
+
+/// Hand of the helix of a gear.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hand {
+    /// The teeth turn to the right along the axis.
+    Right,
+    /// The teeth turn to the left along the axis.
+    Left,
+}
+
+impl Hand {
+    /// Both hands.
+    pub const ALL: [Hand; 2] = [Hand::Right, Hand::Left];
+
+    /// 1 for a right hand, −1 for a left one.
+    pub fn sign(self) -> f64 {
+        if self == Hand::Right { 1.0 } else { -1.0 }
     }
 }
 
@@ -63,6 +83,15 @@ pub struct Gear {
     pub base_pitch: Option<f64>,
     /// Flank tolerance class of ISO 1328-1:2013.
     pub grade: Option<u32>,
+    /// Helix slope deviation f_Hβ over the face width, in m; above 0 the helix angle is larger than
+    /// that of the design.
+    pub helix_slope: f64,
+    /// Crowning C_β: material removed at both ends of the face, in m.
+    pub crowning: f64,
+    /// End relief at the end of the face towards −z and +z, in m.
+    pub end_reliefs: [f64; 2],
+    /// Length of the end reliefs along the face, in m. `None` for a tenth of the face width.
+    pub end_relief_length: Option<f64>,
 }
 
 /// A full-depth gear without shift, relief and bore. Teeth, width and material are zero, which
@@ -90,6 +119,10 @@ impl Default for Gear {
             tip_radius: None,
             base_pitch: None,
             grade: None,
+            helix_slope: 0.0,
+            crowning: 0.0,
+            end_reliefs: [0.0; 2],
+            end_relief_length: None,
         }
     }
 }
@@ -245,10 +278,16 @@ impl ReliefShape {
 /// A gear pair in operation: all inputs of a solve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inputs {
-    /// Module m, in m.
+    /// Normal module m_n, in m.
     pub module: f64,
-    /// Pressure angle α, in rad.
+    /// Normal pressure angle α_n, in rad.
     pub pressure_angle: f64,
+    /// Helix angle β at the reference cylinder, in rad; 0 for a spur pair.
+    pub helix_angle: f64,
+    /// Hand of the driver; the driven gear has the other.
+    pub driver_hand: Hand,
+    /// Middle of the driven face minus middle of the driver's along +z, in m.
+    pub face_offset: f64,
     /// Centre distance a, in m; `None` for a mesh without backlash.
     pub centre_distance: Option<f64>,
     /// Gear 1.
@@ -259,6 +298,9 @@ pub struct Inputs {
     pub base_pitch_deviation: f64,
     /// How the base pitch deviations of both gears add; see [`Inputs::effective_combination`].
     pub combination: Combination,
+    /// Misalignment F_βx of the flanks over the common face width, in m; above 0 the flanks open
+    /// towards +z.
+    pub misalignment: f64,
     /// Normal backlash j_bn, in m.
     pub backlash: f64,
     /// Power or torque on the driver.
@@ -275,6 +317,12 @@ pub struct Inputs {
     pub tooth_compliance: Option<ToothCompliance>,
     /// Compliance of the contact.
     pub contact_compliance: ContactCompliance,
+    /// The table of the compliance model `given`.
+    pub given_compliance: Option<GivenCompliance>,
+    /// Number of slices of the face width; `None` for as many as the pair needs.
+    pub slices: Option<usize>,
+    /// Whether a force on a slice displaces the slices beside it.
+    pub slice_coupling: bool,
     /// Body of a gear without a given inertia.
     pub inertia: InertiaModel,
     /// Shape of tip and root reliefs along the path of contact.
@@ -311,11 +359,15 @@ impl Default for Inputs {
         Inputs {
             module: 0.0,
             pressure_angle: 0.0,
+            helix_angle: 0.0,
+            driver_hand: Hand::Right,
+            face_offset: 0.0,
             centre_distance: None,
             driver: Gear::default(),
             driven: Gear::default(),
             base_pitch_deviation: 0.0,
             combination: Combination::Independent,
+            misalignment: 0.0,
             backlash: 0.0,
             drive: Drive::Power(0.0),
             speed: 0.0,
@@ -324,6 +376,9 @@ impl Default for Inputs {
             deflection: None,
             tooth_compliance: None,
             contact_compliance: ContactCompliance::ALL[0],
+            given_compliance: None,
+            slices: None,
+            slice_coupling: true,
             inertia: InertiaModel::Outline,
             relief_shape: ReliefShape::Linear,
             damping_ratio: 0.07,
@@ -374,8 +429,35 @@ impl Inputs {
         self.deflection.filter(|_| !self.method.shares_load())
     }
 
-    /// Common face width b, the smaller of the two, in m.
+    /// First and last place of the common face, from the middle of the driver's face along +z, in m.
+    pub fn common_face(&self) -> (f64, f64) {
+        let [driver, driven] = [&self.driver, &self.driven].map(|gear| 0.5 * gear.face_width);
+        let (first, last) = (self.face_offset - driven, self.face_offset + driven);
+        (first.max(-driver), last.min(driver))
+    }
+
+    /// Common face width b, in m.
     pub fn common_width(&self) -> f64 {
-        self.driver.face_width.min(self.driven.face_width)
+        let (first, last) = self.common_face();
+        last - first
+    }
+
+    /// Transverse module m_t = m_n/cos β, in m.
+    pub fn transverse_module(&self) -> f64 {
+        self.module / self.helix_angle.cos()
+    }
+
+    /// Transverse pressure angle, tan α_t = tan α_n/cos β, in rad.
+    pub fn transverse_pressure_angle(&self) -> f64 {
+        if self.helix_angle > 0.0 {
+            (self.pressure_angle.tan() / self.helix_angle.cos()).atan()
+        } else {
+            self.pressure_angle
+        }
+    }
+
+    /// Base helix angle, sin β_b = sin β cos α_n, in rad.
+    pub fn base_helix_angle(&self) -> f64 {
+        (self.helix_angle.sin() * self.pressure_angle.cos()).asin()
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-use super::inputs::GearSide;
+use super::inputs::{GearSide, Method};
 use crate::numeric::decimal::significant;
 
 const MICROMETRE: f64 = 1e-6;
@@ -84,6 +84,32 @@ pub enum Refusal {
         /// The tip chamfer or tip radius that removes the greatest part of the path, if whole tips
         /// have a greater contact ratio than 1.
         cut: Option<Member>,
+    },
+    /// At times no pair of a helical gear pair is in contact.
+    TotalContactRatioBelowOne {
+        /// ε_γ.
+        ratio: f64,
+    },
+    /// The end reliefs of a gear are longer than its face.
+    EndReliefsOverlap {
+        /// The gear.
+        gear: GearSide,
+        /// Length of its end reliefs together, in m.
+        length: f64,
+        /// Face width, in m.
+        width: f64,
+    },
+    /// The slices are too wide for the overlap ratio.
+    TooFewSlices {
+        /// Number of slices.
+        slices: usize,
+        /// Least number.
+        least: usize,
+    },
+    /// The method has no answer for a pair whose load varies over the face width.
+    NotOverFace {
+        /// The method.
+        method: Method,
     },
     /// The bore leaves no gear body.
     BoreTooLarge {
@@ -428,6 +454,38 @@ impl Refusal {
                             a given deflection"
                     }
                 },
+            ),
+            Refusal::TotalContactRatioBelowOne { ratio } => (
+                "total-contact-ratio-below-1",
+                pair("helix_angle"),
+                format!("the total contact ratio is {ratio:.4} and must be at least 1"),
+                "widen the faces, or give a greater helix angle or longer addenda",
+            ),
+            Refusal::EndReliefsOverlap { gear, length, width } => (
+                "end-reliefs-overlap",
+                of(gear, "end_relief_length"),
+                format!(
+                    "the end reliefs are {} long together, more than the face width {}",
+                    mm(length),
+                    mm(width)
+                ),
+                "give a shorter length of the end reliefs",
+            ),
+            Refusal::TooFewSlices { slices, least } => (
+                "too-few-slices",
+                pair("slices"),
+                format!("{slices} slices are too few for this overlap ratio, which needs {least}"),
+                "give more slices, or leave them out",
+            ),
+            Refusal::NotOverFace { method } => (
+                "not-over-face",
+                pair("method"),
+                format!(
+                    "the method {} has no force for a pair whose contact begins at a point of the \
+                        face: a helical, misaligned or crowned pair",
+                    method.name()
+                ),
+                "set model.method to static",
             ),
             Refusal::BoreTooLarge { gear, bore, circle, limit } => (
                 "bore-too-large",

@@ -67,7 +67,7 @@ const TOLERANCE: f64 = 1e-14;
 impl Inputs {
     /// The inputs of a gear's inertia besides its circles.
     pub(super) fn body(&self, gear: &Gear) -> impl PartialEq + use<> {
-        let section = || (Rack::of(self, gear), gear.addendum_coefficient(self.module));
+        let section = || (Rack::of(self, gear), self.gear_shape(gear).addendum);
         let section = (self.inertia_model() == InertiaModel::Outline).then(section);
         let blank = || (gear.bore_radius, gear.face_width, gear.density, section);
         (gear.inertia, gear.inertia.is_none().then(blank))
@@ -124,7 +124,7 @@ impl Inertia {
         let is_outline = inputs.inertia_model() == InertiaModel::Outline;
         if is_outline {
             let rack = Rack::of(inputs, gear);
-            let addendum = gear.addendum_coefficient(inputs.module);
+            let addendum = inputs.gear_shape(gear).addendum;
             let profile = Profile::of(&rack, &whole(&circles.rounded(), &rack, addendum));
             if let Some(section) = polar_moment(&profile, rack.teeth, bore) {
                 let moment = gear.density * gear.face_width * section;

@@ -228,9 +228,8 @@ fn involute(angle: f64) -> f64 {
     angle.tan() - angle
 }
 
-/// Tip rounding of the standard basic rack, in modules (ISO 53, profile A), if the tip is wide
-/// enough.
-const RACK_ROUNDING: f64 = 0.38;
+/// Tip rounding of the standard basic rack, in modules (ISO 53, profile A).
+pub const RACK_ROUNDING: f64 = 0.38;
 
 /// The rack that cuts a gear: the inputs of the tooth profile besides its circles.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -245,23 +244,30 @@ pub struct Rack {
     pub profile_shift: f64,
     /// Dedendum coefficient h_fP*.
     pub dedendum: f64,
+    /// Tip rounding in modules, if the tip is wide enough.
+    pub rounding: f64,
 }
 
 impl Rack {
-    /// The rack of a gear of the pair.
+    /// The rack of a gear of the pair in the transverse section.
     pub fn of(inputs: &Inputs, gear: &Gear) -> Rack {
+        let (shape, transverse) = (inputs.gear_shape(gear), inputs.transverse_pressure_angle());
+        // The rounding has the height of that of the normal section.
+        let height = |angle: f64| 1.0 - angle.sin();
+        let steeper = height(inputs.pressure_angle) / height(transverse);
         Rack {
-            module: inputs.module,
-            pressure_angle: inputs.pressure_angle,
+            module: inputs.transverse_module(),
+            pressure_angle: transverse,
             teeth: gear.teeth,
-            profile_shift: gear.profile_shift,
-            dedendum: gear.dedendum_coefficient(inputs.module),
+            profile_shift: shape.profile_shift,
+            dedendum: shape.dedendum,
+            rounding: RACK_ROUNDING * inputs.helix_angle.cos() * steeper,
         }
     }
 
     /// Radius of the rack's tip rounding, in modules.
     fn rounding(&self) -> f64 {
-        self.fitting(RACK_ROUNDING)
+        self.fitting(self.rounding)
     }
 
     /// The given rounding, or the largest one that fits the tip, in modules.

@@ -10,6 +10,7 @@ mod at_rest;
 mod checks;
 pub mod conditions;
 mod deviation;
+mod face;
 mod figures;
 mod friction;
 mod geometry;
@@ -213,7 +214,7 @@ const FREE_IMPACT: [Stage; 7] = [
 ];
 
 /// The rows by groups, in the order of the results.
-const GROUPS: [&[Quantity]; 9] = [
+const GROUPS: [&[Quantity]; 10] = [
     geometry::TABLE,
     figures::TABLE,
     deviation::TABLE,
@@ -223,6 +224,7 @@ const GROUPS: [&[Quantity]; 9] = [
     at_rest::TABLE,
     motion::TABLE,
     whine::TABLE,
+    face::TABLE,
 ];
 
 const COUNT: usize = {

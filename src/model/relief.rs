@@ -47,7 +47,7 @@ impl Inputs {
 ///
 /// # Formula
 /// ```text
-/// C < r_b (π/2 + 2 x tan α)/z + r_b inv α
+/// C < r_b (π/2 + 2 x tan α_n)/z + r_b inv α_t
 /// ```
 /// The right side is half the thickness of the tooth at the base circle, along which C is measured.
 ///
@@ -65,8 +65,9 @@ pub(super) fn check_reliefs(inputs: &Inputs, geometry: &Geometry) -> Result<(), 
         if reliefs.iter().all(|relief| *relief <= SMALL * inputs.module) {
             continue;
         }
-        let (angle, tangent) = (inputs.pressure_angle, inputs.pressure_angle.tan());
-        let at_reference = (FRAC_PI_2 + 2.0 * gear.profile_shift * tangent) / f64::from(gear.teeth);
+        let angle = inputs.transverse_pressure_angle();
+        let (tangent, normal) = (angle.tan(), inputs.pressure_angle.tan());
+        let at_reference = (FRAC_PI_2 + 2.0 * gear.profile_shift * normal) / f64::from(gear.teeth);
         let half = circles.base * (at_reference + tangent - angle);
         if let Some(at) = reliefs.iter().position(|relief| *relief >= half) {
             let (is_at_tip, relief) = (at == 0, reliefs[at]);

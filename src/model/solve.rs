@@ -4,10 +4,11 @@ use super::auto::{self, Choice, Reason};
 use super::budget::{MOTION_WORK, Meter};
 use super::clearing::clearing;
 use super::compliance::{ContactPlace, Teeth};
-use super::deviation::{deflected, deviation};
+use super::deviation::{deflected, deflected_over_face, deviation};
 use super::dynamic::speeds::{SPEEDS, over_speed};
 use super::dynamic::steady::steady;
 use super::dynamic::{Settings, dynamic};
+use super::face::{Face, FaceInputs, check_face};
 use super::figures::{Figures, Hertz};
 use super::geometry::{geometry, mesh_force, precise};
 use super::inputs::{Inputs, Method};
@@ -98,8 +99,13 @@ pub(crate) fn solve_by_method(
     earlier: Option<Earlier<'_>>,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Solution, Refusal> {
+    let face = inputs.face();
+    if face.is_some() && matches!(inputs.method, Method::Paper | Method::Dynamic) {
+        return Err(Refusal::NotOverFace { method: inputs.method });
+    }
     let mut run = Run {
         inputs,
+        face,
         wanted: wanted.within(inputs.method.stages()),
         earlier: earlier.filter(|earlier| earlier.solution.method == inputs.method),
         go_on,
@@ -124,6 +130,8 @@ pub(crate) fn solve_by_method(
 /// The state of a solve.
 struct Run<'a> {
     inputs: &'a Inputs,
+    /// The face width, if its slices differ.
+    face: Option<FaceInputs>,
     wanted: Stages,
     earlier: Option<Earlier<'a>>,
     go_on: &'a dyn Fn(f64) -> bool,
@@ -186,6 +194,9 @@ impl<'a> Run<'a> {
             self.changed = self.changed.with(Stage::Geometry);
         }
         check_reliefs(inputs, &geometry)?;
+        if let Some(face) = &self.face {
+            check_face(face, &geometry)?;
+        }
         let force = || Ok(mesh_force(inputs.torque(), &geometry));
         let mesh_force = self.result(Stage::Load, |s| Some(s.mesh_force), force)?;
         let masses = || match lazy.precise(inputs, &geometry)? {
@@ -194,16 +205,24 @@ impl<'a> Run<'a> {
         };
         let masses = self.result(Stage::Masses, |s| Some(s.kept.masses), masses)?;
         let teeth = || lazy.teeth(inputs, &geometry);
-        let by_load = || deflected(inputs.method, &geometry, teeth, mesh_force);
+        let face = self.face;
+        let by_load = || match &face {
+            Some(face) => deflected_over_face(face, &geometry, teeth()?, mesh_force),
+            None => deflected(inputs.method, &geometry, teeth, mesh_force),
+        };
         let deviation = || deviation(inputs, by_load);
         let deviation = self.result(Stage::Deviation, |s| Some(s.kept.deviation), deviation)?;
         let kept = Kept { masses, deviation, hertz: Hertz::of(inputs) };
-        Ok(Solution::new(inputs.method, geometry, mesh_force, kept))
+        let solution = Solution::new(inputs.method, geometry, mesh_force, kept);
+        Ok(Solution { helix: inputs.helix(&geometry, mesh_force), ..solution })
     }
 
     /// D and all later stages of the impact.
     fn locate(&mut self, lazy: &Lazy, solution: &mut Solution) -> Result<(), Refusal> {
         let (inputs, geometry) = (self.inputs, &solution.geometry);
+        if self.face.is_some() && inputs.method.shares_load() {
+            return Ok(());
+        }
         let located = || {
             let precise = lazy.precise(inputs, geometry)?;
             position(inputs, geometry, precise, &solution.kept.deviation)
@@ -233,6 +252,9 @@ impl<'a> Run<'a> {
         let Solution { geometry, kept: Kept { masses, .. }, .. } = solution;
         let new = || Ok(velocity(inputs.driven_speed(), tip));
         solution.velocity = self.stage(Stage::Velocity, |s| s.velocity, new)?;
+        if self.face.is_some() {
+            return Err(Refusal::NotOverFace { method: inputs.method });
+        }
         let place = ContactPlace::at_tip(inputs.driven.tip_radius, geometry, tip);
         let new = || lazy.teeth(inputs, geometry)?.at(&place);
         solution.compliance = self.stage(Stage::Compliance, |s| s.compliance, new)?;
@@ -288,17 +310,37 @@ impl<'a> Run<'a> {
         }
         let alike = self.kept(Stage::Geometry).and_then(|earlier| earlier.mesh.as_ref());
         let mut meshes = Meshes::new(&of_mesh, solution, alike, kept.as_ref());
-        let find = |mesh: &Arc<Mesh>| static_load(mesh, Spacing::of(inputs));
-        let of = |s: &Solution| s.static_load.clone();
-        solution.static_load = self.on_mesh(Stage::Static, of, &mut meshes, find)?;
+        let (face, geometry) = (self.face, solution.geometry);
+        let find = |mesh: &Arc<Mesh>| {
+            let spacing = Spacing::of(inputs);
+            match &face {
+                Some(face) => Face::new(face, &geometry, mesh)?.static_load(spacing),
+                None => Ok((static_load(mesh, spacing)?, None)),
+            }
+        };
+        let of = |s: &Solution| Some((s.static_load.clone()?, s.face_load.clone()));
+        if let Some((load, face)) = self.on_mesh(Stage::Static, of, &mut meshes, find)? {
+            (solution.static_load, solution.face_load) = (Some(load), face);
+        }
         let find = |mesh: &Arc<Mesh>| dynamic(mesh, &Settings::of(inputs, mass), go_on);
         let of = |s: &Solution| s.dynamic.clone();
         solution.dynamic = self.on_mesh(Stage::Dynamic, of, &mut meshes, find)?;
         let find = |mesh: &Arc<Mesh>| Ok(Resonance::of(inputs.speed, mesh, mass));
         solution.resonance = self.on_mesh(Stage::Resonance, |s| s.resonance, &mut meshes, find)?;
-        let find = |mesh: &Arc<Mesh>| late(mesh, static_spectrum(mesh));
-        let of = |s: &Solution| s.static_spectrum;
-        solution.static_spectrum = self.on_mesh(Stage::StaticSpectrum, of, &mut meshes, find)?;
+        let find = |mesh: &Arc<Mesh>| match &face {
+            Some(face) => {
+                let cycle = Face::new(face, &geometry, mesh)?.cycle();
+                late(mesh, cycle).map(|found| match found {
+                    Ok((cycle, spectrum)) => (Ok(spectrum), Some(cycle)),
+                    Err(refusal) => (Err(refusal), None),
+                })
+            }
+            None => Ok((late(mesh, static_spectrum(mesh))?, None)),
+        };
+        let of = |s: &Solution| Some((s.static_spectrum?, s.face_cycle.clone()));
+        if let Some((found, cycle)) = self.on_mesh(Stage::StaticSpectrum, of, &mut meshes, find)? {
+            (solution.static_spectrum, solution.face_cycle) = (Some(found), cycle);
+        }
         let find = |mesh: &Arc<Mesh>| {
             let (settings, meter) = (Settings::steady(inputs, mass), Meter::new(MOTION_WORK));
             late(mesh, steady(mesh, &settings, None, &meter, go_on))
@@ -444,6 +486,12 @@ impl Auto<'_> {
 
     /// Solves by the chosen method. Uses static balance if the speed is too low for a motion.
     fn chosen(&self, wanted: Stages) -> Result<Solution, Refusal> {
+        if self.inputs.face().is_some() {
+            let solution = self.solve(Method::Static, wanted, None)?;
+            let reason = Reason::OverFace;
+            let choice = Choice { method: Method::Static, reason, inertia: None };
+            return Ok(Solution { choice: Some(choice), ..solution });
+        }
         let exact = auto::taken(self.inputs, Method::Exact);
         let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
         let closed_form = solve_by_method(&exact, read, None, &|_| true);
@@ -492,13 +540,20 @@ impl Stage {
         let stages =
             |stages: &[Stage]| stages.iter().all(|stage| stage.has_equal_inputs(one, other));
         match self {
-            Stage::Geometry => equal(cases, |i| (i.shape(), i.bores(), i.accurate)),
-            Stage::Load => equal(cases, Inputs::torque),
+            Stage::Geometry => {
+                let helix =
+                    |i: &Inputs| (i.helix_angle > 0.0).then(|| (i.helix_angle, i.common_width()));
+                equal(cases, |i| (i.shape(), i.bores(), i.accurate, helix(i)))
+            }
+            Stage::Load => {
+                equal(cases, |i| (i.torque(), (i.helix_angle > 0.0).then_some(i.driver_hand)))
+            }
             Stage::Masses => equal(cases, |i| (i.body(&i.driver), i.body(&i.driven))),
             Stage::Figures => equal(cases, figured),
             // The load causes the deflection if the case does not give it.
             Stage::Deviation => {
-                equal(cases, given_deviations)
+                let face = |i: &Inputs| i.face().map(|face| (face.width, face.lead.abs()));
+                equal(cases, |i| (given_deviations(i), face(i)))
                     && (one.given_deflection().is_some() || equal(cases, Inputs::elasticity))
             }
             Stage::Position => equal(cases, |i| (i.method, i.shape(), i.driven.tip_radius)),
@@ -514,10 +569,9 @@ impl Stage {
             }
             Stage::Mesh => equal(cases, |i| i.mesh().at_speed(1.0)),
             Stage::Resonance => equal(cases, |i| i.speed),
-            Stage::Static => equal(cases, |i| (i.speed, Spacing::of(i))),
-            Stage::Dynamic => equal(cases, |i| (i.speed, Settings::of(i, 0.0))),
-            // This stage reads only the results of other stages.
-            Stage::StaticSpectrum => true,
+            Stage::Static => equal(cases, |i| (i.face(), i.speed, Spacing::of(i))),
+            Stage::Dynamic => equal(cases, |i| (i.face(), i.speed, Settings::of(i, 0.0))),
+            Stage::StaticSpectrum => equal(cases, Inputs::face),
             Stage::SteadyMotion => equal(cases, |i| (i.speed, Settings::steady(i, 0.0))),
             // The torque stays the same at every speed.
             Stage::SpeedRun => stages(&[Stage::SteadyMotion]) && equal(cases, Inputs::torque),
@@ -542,7 +596,8 @@ fn figured(inputs: &Inputs) -> impl PartialEq + use<> {
     let classes = [&inputs.driver, &inputs.driven].map(|gear| inputs.class_of(gear));
     let relief = [inputs.driven.tip_relief, inputs.driver.root_relief];
     let width = inputs.common_width();
-    (inputs.shape(), inputs.speed, materials, classes, inputs.base_pitches(), relief, width)
+    let pair = (inputs.shape(), inputs.helix_angle, inputs.module);
+    (pair, inputs.speed, materials, classes, inputs.base_pitches(), relief, width)
 }
 
 /// Deviations, reliefs and deflection that the case gives. Only `paper` subtracts the backlash.

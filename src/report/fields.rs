@@ -91,7 +91,7 @@ fn range(field: &Field) -> Option<(f64, f64)> {
     match field.kind {
         Kind::Number(_, range, _) => Some((range.from, range.to)),
         Kind::Count(from, to, _) => Some((f64::from(from), f64::from(to))),
-        Kind::Text | Kind::Choice(..) => None,
+        _ => None,
     }
 }
 

@@ -111,6 +111,7 @@ fn object(description: &str, members: Map<String, Value>) -> Value {
 fn of_field(field: &Field) -> Value {
     let mut schema = match field.kind {
         Kind::Text => json!({"type": "string"}),
+        Kind::List(_) => json!({"type": "array", "items": {"type": "number"}}),
         Kind::Choice(..) if field.is_flag() => json!({"type": "boolean"}),
         Kind::Choice(names, _) => json!({"enum": names}),
         Kind::Count(from, to, _) => {

@@ -278,7 +278,7 @@ fn number_in(field: usize, value: &str, unit: &str) -> Result<f64, Problem> {
         }
         Value::Number(_) => plain(number),
         Value::Count(count) => f64::from(count),
-        Value::Text | Value::Choice(_) => 0.0,
+        _ => 0.0,
     })
 }
 

@@ -27,7 +27,7 @@ impl Field {
             Kind::Number(dimension, ..) => {
                 units::converted(typed, dimension, self.usual_unit(), system)
             }
-            Kind::Text | Kind::Count(..) | Kind::Choice(..) => None,
+            _ => None,
         }
     }
 
@@ -92,7 +92,7 @@ impl Field {
             Kind::Count(from, ..) => {
                 Some(Measure { dimension: Dimension::Number, unit: "", least: f64::from(from) })
             }
-            Kind::Text | Kind::Choice(..) => None,
+            _ => None,
         }
     }
 
@@ -171,7 +171,7 @@ impl Case {
 #[must_use]
 pub(crate) fn step(text: &str, field: usize, by: isize) -> Option<String> {
     match FIELDS[field].kind {
-        Kind::Text => None,
+        Kind::Text | Kind::List(_) => None,
         Kind::Choice(names, _) => named(text, names, by),
         Kind::Number(..) | Kind::Count(..) => moved(text, by, |text| is_taken(field, text)),
     }

@@ -80,7 +80,7 @@ fn attempt(random: &mut Random, number: u64) -> Case {
 fn move_field(case: &mut Case, field: usize, random: &mut Random) {
     let known = &FIELDS[field];
     let text = match known.kind {
-        Kind::Text => return,
+        Kind::Text | Kind::List(_) => return,
         Kind::Choice(names, _) => random.one_of(names).to_owned(),
         Kind::Count(..) if known.takes_auto() && random.chance(0.25) => AUTO.to_owned(),
         Kind::Count(from, to, _) => {

@@ -26,6 +26,7 @@ fn profile(row: &Value, module: f64, rounding: f64) -> Profile {
         teeth: number(row, "teeth") as u32,
         profile_shift: number(row, "profile_shift"),
         dedendum: number(row, "dedendum"),
+        rounding,
     };
     let reference = module * number(row, "teeth") / 2.0;
     let base = reference * rack.pressure_angle.cos();

@@ -156,6 +156,7 @@ fn changed(solved: &Solved, field: usize) -> Vec<Inputs> {
     };
     match FIELDS[field].kind {
         Kind::Text => Vec::new(),
+        Kind::List(put) => [0.1, -0.2].map(|value| with(&|inputs| put(inputs, [value; 8]))).into(),
         // A change of the method is tested as another case.
         Kind::Choice(..)
             if FIELDS[field].key == "model.method" && !AS_IT_IS.contains(&solved.variant) =>

@@ -6,14 +6,16 @@ use super::{Absent, Field, Kind, Range};
 use crate::case::fields::Absent::Refused;
 use crate::case::fields::Reason::{Idle, Partly};
 use crate::case::fields::{
-    AT_EXIT, BORE, CURVE, FLAG, IN_TIME, LOAD, MASS, ROOT, TIP_OF_DRIVER, WHOLE_RELIEF, always,
-    by_impact, has_size, is_driver, is_wider, root_diameter, tip_diameter,
+    AT_EXIT, BORE, CURVE, FACE, FLAG, IN_TIME, LOAD, MASS, NO_HAND, NO_TABLE, ROOT, TIP_OF_DRIVER,
+    WHOLE_RELIEF, always, by_impact, has_size, is_driver, is_wider, root_diameter, tip_diameter,
 };
 use crate::case::units::Dimension;
 use crate::model::Inputs;
 use crate::model::compliance::contact_of;
+use crate::model::compliance::given::{COEFFICIENTS, GivenCompliance};
+use crate::model::face::MOST_SLICES;
 use crate::model::inputs::{
-    Combination, ContactCompliance, Drive, InertiaModel, Method, ReliefShape, ToothCompliance,
+    Combination, ContactCompliance, Drive, Hand, InertiaModel, Method, ReliefShape, ToothCompliance,
 };
 
 macro_rules! number {
@@ -72,7 +74,7 @@ const PAIR: &[Field] = &[
         "mm",
         Either,
         |inputs, value| inputs.module = value,
-        "Module of both gears; give either the module or the diametral pitch."
+        "Normal module of both gears; give either the module or the diametral pitch."
     )
     .with_example("5 mm")
     .instead_of("pair.diametral_pitch", |inputs| (inputs.module > 0.0).then_some(inputs.module)),
@@ -100,7 +102,35 @@ const PAIR: &[Field] = &[
         "deg",
         Default("20 deg"),
         |inputs, value| inputs.pressure_angle = value,
-        "Pressure angle of the basic rack."
+        "Normal pressure angle of the basic rack."
+    ),
+    number!(
+        "pair.helix_angle",
+        "β",
+        "helix angle",
+        Angle,
+        0.0,
+        45.0,
+        "deg",
+        Default("0 deg"),
+        |inputs, value| inputs.helix_angle = value,
+        "Helix angle at the reference cylinder; with it module and pressure angle are the normal ones. 0 for a spur pair."
+    ),
+    choice("pair.driver_hand", "", "hand of the driver", &["right", "left"], Default("right"), |inputs, value| {
+            inputs.driver_hand = Hand::ALL[value];
+        }, "Hand of the driver's helix; the driven gear has the other. The driver turns positively about +z.")
+    .reasons(&[Idle(|inputs| inputs.helix_angle == 0.0, NO_HAND)]),
+    number!(
+        "pair.face_offset",
+        "",
+        "face offset",
+        Length,
+        -1000.0,
+        1000.0,
+        "mm",
+        Default("0 mm"),
+        |inputs, value| inputs.face_offset = value,
+        "Middle of the driven face minus middle of the driver's, along +z."
     ),
     number!(
         "pair.centre_distance",
@@ -118,9 +148,16 @@ const PAIR: &[Field] = &[
 ];
 
 /// The rows by groups, in the order of the form and of a new file.
-const PARTS: [&[Field]; 5] = [PAIR, DRIVER, DRIVEN, OPERATION, MODEL];
+const PARTS: [&[Field]; 6] = [PAIR, DRIVER, DRIVEN, OPERATION, MODEL, COMPLIANCE];
 
-const COUNT: usize = PAIR.len() + DRIVER.len() + DRIVEN.len() + OPERATION.len() + MODEL.len();
+const COUNT: usize = {
+    let (mut count, mut part) = (0, 0);
+    while part < PARTS.len() {
+        count += PARTS[part].len();
+        part += 1;
+    }
+    count
+};
 
 /// Every field, in the order of the form and of a new file.
 pub static FIELDS: [Field; COUNT] = {
@@ -172,11 +209,10 @@ macro_rules! gear {
                 "",
                 Default("1"),
                 |inputs, value| (inputs.$gear.addendum, inputs.$gear.tip_diameter) = (value, None),
-                "Addendum coefficient, times the module: tip radius = m (z/2 + ha* + x)."
+                "Addendum coefficient, times the module: tip radius = m (z/(2 cos β) + ha* + x)."
             )
             .instead_of(concat!($table, ".tip_diameter"), |inputs| {
-                has_size(inputs, &inputs.$gear)
-                    .then(|| inputs.$gear.addendum_coefficient(inputs.module))
+                has_size(inputs, &inputs.$gear).then(|| inputs.addendum_of(&inputs.$gear))
             })
             .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
             number!(
@@ -205,12 +241,11 @@ macro_rules! gear {
                 "",
                 Default("1.25"),
                 |inputs, value| (inputs.$gear.dedendum, inputs.$gear.root_diameter) = (value, None),
-                "Dedendum coefficient of the cutting rack, times the module: root radius = m (z/2 \
-                    - hf* + x)."
+                "Dedendum coefficient of the cutting rack, times the module: root radius = m (z/(2 \
+                    cos β) - hf* + x)."
             )
             .instead_of(concat!($table, ".root_diameter"), |inputs| {
-                has_size(inputs, &inputs.$gear)
-                    .then(|| inputs.$gear.dedendum_coefficient(inputs.module))
+                has_size(inputs, &inputs.$gear).then(|| inputs.dedendum_of(&inputs.$gear))
             })
             .reasons(&ROOT),
             number!(
@@ -434,6 +469,76 @@ macro_rules! gear {
             )
             .with_example("7")
             .reasons(&[Idle(always, "the base pitch deviation of this gear is given")]),
+            number!(
+                concat!($table, ".helix_slope"),
+                concat!("f_Hβ", $i),
+                "helix slope",
+                Length,
+                -5000.0,
+                5000.0,
+                "um",
+                Default("0 um"),
+                |inputs, value| inputs.$gear.helix_slope = value,
+                "Helix slope deviation over the face width, along the base tangent in the \
+                        transverse plane; above 0 the helix angle is greater than designed."
+            )
+            .reasons(&FACE),
+            number!(
+                concat!($table, ".crowning"),
+                concat!("Cβ", $i),
+                "crowning",
+                Length,
+                0.0,
+                5000.0,
+                "um",
+                Default("0 um"),
+                |inputs, value| inputs.$gear.crowning = value,
+                "Crowning: material removed at both ends of the face, a parabola along it."
+            )
+            .reasons(&FACE),
+            number!(
+                concat!($table, ".end_relief_minus"),
+                concat!("CI", $i),
+                "end relief at -z",
+                Length,
+                0.0,
+                5000.0,
+                "um",
+                Default("0 um"),
+                |inputs, value| inputs.$gear.end_reliefs[0] = value,
+                "Material removed at the end of the face towards -z."
+            )
+            .reasons(&FACE),
+            number!(
+                concat!($table, ".end_relief_plus"),
+                concat!("CII", $i),
+                "end relief at +z",
+                Length,
+                0.0,
+                5000.0,
+                "um",
+                Default("0 um"),
+                |inputs, value| inputs.$gear.end_reliefs[1] = value,
+                "Material removed at the end of the face towards +z."
+            )
+            .reasons(&FACE),
+            number!(
+                concat!($table, ".end_relief_length"),
+                concat!("LI", $i),
+                "end relief length",
+                Length,
+                0.001,
+                1000.0,
+                "mm",
+                Without("0.1 b"),
+                |inputs, value| inputs.$gear.end_relief_length = Some(value),
+                "Length of the end reliefs along the face."
+            )
+            .with_example("4 mm")
+            .reasons(&[
+                Idle(|inputs| inputs.$gear.end_reliefs == [0.0; 2], "the gear has no end relief"),
+                FACE[0],
+            ]),
         ]
     };
 }
@@ -464,6 +569,18 @@ const OPERATION: &[Field] = &[
         always,
         "base pitch deviations of unlike sign are known and always add as a sum",
     )]),
+    number!(
+        "deviations.misalignment",
+        "F_βx",
+        "misalignment",
+        Length,
+        -5000.0,
+        5000.0,
+        "um",
+        Default("0 um"),
+        |inputs, value| inputs.misalignment = value,
+        "Misalignment of the flanks over the common face width, along the base tangent; above 0 they open towards +z."
+    ).reasons(&FACE),
     number!(
         "deviations.backlash",
         "j_bn",
@@ -559,7 +676,7 @@ const MODEL: &[Field] = &[
         "this method computes the deflection from the load",
     )]),
     choice("model.tooth_compliance", "q1,q2", "tooth compliance", &ToothCompliance::NAMES, Without("by the method"), |inputs, value| {
-            inputs.tooth_compliance = Some(ToothCompliance::ALL[value]);
+            inputs.tooth_compliance = Some(ToothCompliance::CHOICES[value]);
         }, ToothCompliance::HELP),
     choice("model.contact_compliance", "q_H", "contact compliance", &ContactCompliance::NAMES, Default(ContactCompliance::NAMES[0]), |inputs, value| {
             inputs.contact_compliance = ContactCompliance::ALL[value];
@@ -567,6 +684,11 @@ const MODEL: &[Field] = &[
         |inputs| contact_of(inputs).is_none(),
         "the tooth compliance of this case includes the contact",
     )]),
+    count("model.slices", "", "slices", (3, MOST_SLICES as u32), Default("auto"), |inputs, value| {
+            inputs.slices = (value > 0).then_some(value as usize);
+        }, "Slices of the face width; auto: as many as the load to 0.1 % needs.").reasons(&FACE),
+    choice("model.slice_coupling", "", "slice coupling", FLAG, Default("true"), |inputs, value| inputs.slice_coupling = value == 1, "Whether a force on a slice displaces the slices beside it; without it each slice \
+            deflects alone.").reasons(&FACE),
     choice("model.inertia", "", "inertia model", &["outline", "base-circle"], Default("outline"), |inputs, value| {
             inputs.inertia = InertiaModel::ALL[value];
         }, "outline: inertia of the true gear outline. base-circle: inertia of a disc up to \
@@ -657,3 +779,144 @@ const MODEL: &[Field] = &[
         "changes only digits beyond those shown",
     )]),
 ];
+
+/// The table of the compliance model `given`, which a case without this table does not have.
+fn given(inputs: &mut Inputs) -> &mut GivenCompliance {
+    inputs.given_compliance.get_or_insert_default()
+}
+
+/// The rows of a curve: its value in the middle and its coefficients.
+macro_rules! curve {
+    ($name:ident, $symbol:literal, $label:literal, $help:literal) => {
+        [
+            number!(
+                concat!("compliance.", stringify!($name)),
+                $symbol,
+                $label,
+                Compliance,
+                1e-6,
+                1e6,
+                "um mm/N",
+                Without("not given"),
+                |inputs, value| given(inputs).$name.middle = value,
+                $help
+            )
+            .with_example("0.03 um mm/N")
+            .reasons(&NO_TABLE),
+            Field {
+                key: concat!("compliance.", stringify!($name), "_coefficients"),
+                symbol: "",
+                label: concat!($label, ": c1, c2, .."),
+                help: "Change along the path: times 1 + c1 t + c2 t^2 .., t from -1 at E to 1 at B.",
+                kind: Kind::List(|inputs, values| given(inputs).$name.coefficients = values),
+                absent: Without("0"),
+                example: "0.6, 0.5",
+                reasons: &NO_TABLE,
+                ..Field::PLAIN
+            },
+        ]
+    };
+}
+
+const CURVES: [[Field; 2]; 3] = [
+    curve!(
+        driver,
+        "q1",
+        "driver",
+        "Compliance of the driver's tooth and body per width without the contact, in the middle of the path."
+    ),
+    curve!(
+        driven,
+        "q2",
+        "driven",
+        "Compliance of the driven tooth and body per width without the contact, in the middle of the path."
+    ),
+    curve!(
+        contact,
+        "qH",
+        "contact",
+        "Compliance of the contact of both flanks per width, in the middle of the path."
+    ),
+];
+
+const COMPLIANCE: &[Field] = &[
+    CURVES[0][0],
+    CURVES[0][1],
+    CURVES[1][0],
+    CURVES[1][1],
+    CURVES[2][0],
+    CURVES[2][1],
+    number!(
+        "compliance.cross",
+        "κ",
+        "next pair",
+        Number,
+        0.0,
+        0.45,
+        "",
+        Without("0"),
+        |inputs, value| given(inputs).cross = value,
+        "Displacement of the next pair over that of the loaded pair, without the contact."
+    )
+    .with_example("0.2")
+    .reasons(&NO_TABLE),
+    number!(
+        "compliance.coupling_length",
+        "L",
+        "coupling length",
+        Length,
+        0.001,
+        1000.0,
+        "mm",
+        Without("independent slices"),
+        |inputs, value| given(inputs).coupling_length = Some(value),
+        "Length along the face over which a force displaces the slices beside it."
+    )
+    .with_example("3.9 mm")
+    .reasons(&NO_TABLE),
+    number!(
+        "compliance.end_acute",
+        "c_a",
+        "acute end",
+        Number,
+        0.0,
+        10.0,
+        "",
+        Without("0"),
+        |inputs, value| given(inputs).end_acute = value,
+        "Softening of the acute end of a tooth, times its compliance."
+    )
+    .with_example("0.87")
+    .reasons(&NO_TABLE),
+    number!(
+        "compliance.end_obtuse",
+        "c_o",
+        "obtuse end",
+        Number,
+        0.0,
+        0.9,
+        "",
+        Without("0"),
+        |inputs, value| given(inputs).end_obtuse = value,
+        "Stiffening of the obtuse end of a tooth, times its compliance."
+    )
+    .with_example("0.19")
+    .reasons(&NO_TABLE),
+    number!(
+        "compliance.end_decay",
+        "",
+        "decay of the ends",
+        Length,
+        0.001,
+        1000.0,
+        "mm",
+        Without("0.58 of the depth"),
+        |inputs, value| given(inputs).end_decay = Some(value),
+        "Length over which the effect of an end decays."
+    )
+    .with_example("3.9 mm")
+    .reasons(&NO_TABLE),
+];
+
+/// Values of a list, unused ones 0.
+pub type List = [f64; COEFFICIENTS];

@@ -16,7 +16,8 @@ pub(super) enum Value {
     Flag(bool),
     /// As in the text.
     Date(String),
-    Array,
+    /// The numbers of an array with commas between them; `None` if it has other values.
+    Array(Option<String>),
     Table,
 }
 
@@ -28,7 +29,7 @@ impl Value {
             Value::Number(_) => "a number",
             Value::Flag(_) => "true or false",
             Value::Date(_) => "a date",
-            Value::Array => "an array",
+            Value::Array(_) => "an array",
             Value::Table => "a table",
         }
     }
@@ -160,7 +161,7 @@ impl Reader<'_> {
                 // No case reads the content of an array.
                 Item::ArrayOfTables(all) => {
                     for own in all {
-                        self.header(&path, own.span(), Value::Array);
+                        self.header(&path, own.span(), Value::Array(None));
                     }
                 }
                 Item::Value(_) | Item::None => {}
@@ -206,7 +207,15 @@ impl Reader<'_> {
             toml_edit::Value::String(text) => Value::String(text.value().clone()),
             toml_edit::Value::Boolean(flag) => Value::Flag(*flag.value()),
             toml_edit::Value::Datetime(_) => Value::Date(self.text[span.clone()].to_owned()),
-            toml_edit::Value::Array(_) => Value::Array,
+            toml_edit::Value::Array(all) => {
+                let numbers = all.iter().map(|value| {
+                    match self.read(value, &value.span().unwrap_or_default()) {
+                        Value::Number(number) => Some(number),
+                        _ => None,
+                    }
+                });
+                Value::Array(numbers.collect::<Option<Vec<_>>>().map(|all| all.join(", ")))
+            }
             toml_edit::Value::InlineTable(_) => Value::Table,
             // Hexadecimal, octal or binary.
             toml_edit::Value::Integer(number) if self.text[span.clone()].starts_with('0') => {

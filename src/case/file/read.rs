@@ -392,6 +392,10 @@ fn text_of(field: &Field, value: &Value) -> Result<String, Problem> {
         (Kind::Count(..), Value::String(text)) if field.takes_auto() && text == AUTO => {
             Ok(text.clone())
         }
+        (Kind::List(_), Value::Array(Some(numbers))) => Ok(numbers.clone()),
+        (Kind::List(_), _) => {
+            Err(misplaced("numbers in brackets", value, &check::assignment(field)))
+        }
         _ => number_or_text(value, field.is_bare(), &check::assignment(field)),
     }
 }

@@ -99,7 +99,7 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
 const FIXES: [(&str, &str); 17] = [
     ("overflowed", "write a smaller number"),
     ("unclosed table", "close the table's name with ]"),
-    ("unclosed array", "close it with ]; a case has no arrays"),
+    ("unclosed array", "close it with ]"),
     ("recurse", "a case has no nested arrays"),
     ("recursion", "a case has no nested arrays"),
     ("unclosed inline table", "close it with }"),

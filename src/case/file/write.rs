@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::FORMAT;
 use super::layout::{Entry, Layout, Place, Value};
 use crate::case::changes::texts;
-use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS, index_of};
+use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS, Kind, index_of};
 use crate::case::sanitize::{is_hidden, sanitize};
 use crate::case::units::{self, Dimension};
 use crate::case::{ABOUT, Case, check, spread, variant};
@@ -180,6 +180,8 @@ fn unwritten(case: &Case, index: usize) -> String {
 fn value(field: &Field, text: &str) -> String {
     if field.is_flag() && FLAG.contains(&text) {
         text.to_owned()
+    } else if matches!(field.kind, Kind::List(_)) && check::list(text).is_some() {
+        format!("[{}]", text.trim())
     } else if field.is_bare() {
         number(text)
     } else {

@@ -8,7 +8,7 @@ use super::{ContactPlace, ElasticGear, Elasticity};
 use crate::model::Refusal;
 use crate::model::explanation::Formula::{Text, Words};
 use crate::model::explanation::{Context, Step, step};
-use crate::model::geometry::Geometry;
+use crate::model::geometry::{Circles, Geometry};
 use crate::model::inputs::{ContactCompliance, GearSide};
 use crate::model::profile::{Profile, Rack};
 use crate::numeric::real::logarithm_near_one;
@@ -66,7 +66,7 @@ impl ContactSpring {
     ///
     /// # Formula
     /// ```text
-    /// a = √(4 (F/b) ρS/(π E')),   1/E' = (1 − ν1²)/E1 + (1 − ν2²)/E2
+    /// a = √(4 (F/b) ρS/(cos β_b π E')),   1/E' = (1 − ν1²)/E1 + (1 − ν2²)/E2
     /// ```
     ///
     /// # Source
@@ -147,7 +147,9 @@ impl Elasticity {
         geometry: &Geometry,
         place: &ContactPlace,
     ) -> Result<ContactSpring, Refusal> {
-        let law = (self.contact.model().law)(self, geometry, place)?;
+        let ContactLaw { offset, slope } = (self.contact.model().law)(self, geometry, place)?;
+        let oblique = self.driver.oblique;
+        let law = ContactLaw { offset: oblique * offset, slope: oblique * slope };
         Ok(self.spring(place, 0.0, law))
     }
 
@@ -169,7 +171,8 @@ impl Elasticity {
     }
 
     fn width_per_root_force(&self, place: &ContactPlace) -> f64 {
-        (4.0 * place.curvature_radius * self.give() / (PI * self.width)).sqrt()
+        let curvature_radius = self.driver.oblique * place.curvature_radius;
+        (4.0 * curvature_radius * self.give() / (PI * self.width)).sqrt()
     }
 }
 
@@ -356,11 +359,12 @@ fn weber(
             slope: 2.0 * scale,
         }
     };
-    let driver =
-        depth(&Profile::of_flank(&elasticity.driver.rack, &geometry.driver), place.radius_driver)?;
-    let driven =
-        depth(&Profile::of_flank(&elasticity.driven.rack, &geometry.driven), place.radius_driven)
-            .map_err(Refusal::at_driven)?;
+    let depth = |gear: &ElasticGear, circles: &Circles, radius: f64| {
+        depth(&Profile::of_flank(&gear.rack, &gear.circles(circles)?), radius + gear.rise)
+    };
+    let driver = depth(&elasticity.driver, &geometry.driver, place.radius_driver)?;
+    let driven = depth(&elasticity.driven, &geometry.driven, place.radius_driven)
+        .map_err(Refusal::at_driven)?;
     Ok(of(&elasticity.driver, driver) + of(&elasticity.driven, driven))
 }
 

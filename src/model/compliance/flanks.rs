@@ -2,6 +2,7 @@
 //! evaluate.
 
 use super::contact::ContactLaw;
+use super::given::GivenCompliance;
 use super::tooth::Tooth;
 use super::{ContactPlace, Elasticity, Teeth};
 use crate::model::Refusal;
@@ -17,8 +18,8 @@ const REST: f64 = 3e-14;
 /// of the load point from N₁ and N₂.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flanks {
-    driver: Flank,
-    driven: Flank,
+    /// Those of driver and driven gear; `None` if the case gives the compliance.
+    series: Option<[Flank; 2]>,
     /// Decrease of q_H per unit of ln a if the tooth model includes the contact.
     slope: Option<f64>,
 }
@@ -105,7 +106,10 @@ impl Flanks {
     /// # Errors
     /// Those of the teeth, see [`Teeth`].
     pub fn new(teeth: &Teeth) -> Result<Flanks, Refusal> {
-        let Teeth { geometry, driver, driven, .. } = teeth;
+        let Teeth { geometry, driver, driven, elasticity } = teeth;
+        if elasticity.given.is_some() {
+            return Ok(Flanks { series: None, slope: None });
+        }
         let contacts = [
             driver.contact(geometry.driver.tip)?,
             driven.contact(geometry.driven.tip).map_err(Refusal::at_driven)?,
@@ -115,8 +119,10 @@ impl Flanks {
         let ends =
             [(geometry.start, highest(&geometry.driver)), (lowest, highest(&geometry.driven))];
         Ok(Flanks {
-            driver: Flank::of(driver, &geometry.driver, ends[0])?,
-            driven: Flank::of(driven, &geometry.driven, ends[1]).map_err(Refusal::at_driven)?,
+            series: Some([
+                Flank::of(driver, &geometry.driver, ends[0])?,
+                Flank::of(driven, &geometry.driven, ends[1]).map_err(Refusal::at_driven)?,
+            ]),
             slope: match contacts {
                 [Some(driver), Some(driven)] => Some(driver.slope + driven.slope),
                 _ => None,
@@ -128,11 +134,14 @@ impl Flanks {
     /// `load` gives the distances of the load points from N₁ and N₂ and the half-width of the
     /// contact.
     pub fn bends(&self, ends: (f64, f64), load: impl Fn(f64) -> ((f64, f64), f64)) -> Vec<f64> {
-        let mut bends = self.driver.bends(ends, |at| {
+        let Some([driver, driven]) = &self.series else {
+            return Vec::new();
+        };
+        let mut bends = driver.bends(ends, |at| {
             let ((driver, _), half_width) = load(at);
             (driver, half_width)
         });
-        bends.extend(self.driven.bends(ends, |at| {
+        bends.extend(driven.bends(ends, |at| {
             let ((_, driven), half_width) = load(at);
             (driven, half_width)
         }));
@@ -141,11 +150,43 @@ impl Flanks {
 
     /// The flanks with the gears swapped.
     pub fn swapped(&self) -> Flanks {
-        Flanks { driver: self.driven.clone(), driven: self.driver.clone(), slope: self.slope }
+        let swapped = |[driver, driven]: [Flank; 2]| [driven, driver];
+        Flanks { series: self.series.clone().map(swapped), slope: self.slope }
     }
 
-    /// Compliance of a pair under a given force, in m²/N. The load points are at the distances
-    /// `driver` from N₁ and `driven` from N₂.
+    /// Compliances of a pair under a given force, in m²/N: of driver and driven gear without the
+    /// contact, and of the contact. The load points are at the distances `arms` from N₁ and N₂.
+    ///
+    /// # Errors
+    /// Those of the contact.
+    pub fn parts_at_load(
+        &self,
+        elasticity: &Elasticity,
+        geometry: &Geometry,
+        place: &ContactPlace,
+        arms: (f64, f64),
+        force: f64,
+    ) -> Result<([f64; 2], f64), Refusal> {
+        if let Some(given) = elasticity.given {
+            let part = GivenCompliance::part(geometry, arms);
+            return Ok((given.teeth(part), given.contact.at(part)));
+        }
+        let half_width = elasticity.half_width(place, force);
+        let [driver, driven] = [(0, arms.0), (1, arms.1)].map(|(gear, curvature)| {
+            self.series.as_ref().map_or([0.0; 2], |both| both[gear].at(curvature, half_width))
+        });
+        let spring = match self.slope {
+            Some(slope) => {
+                let offset = driver[OFFSET] + driven[OFFSET];
+                let teeth = driver[TOOTH] + driven[TOOTH];
+                elasticity.spring(place, teeth, ContactLaw { offset, slope })
+            }
+            None => elasticity.contact_spring(geometry, place)?,
+        };
+        Ok(([driver[TOOTH], driven[TOOTH]], spring.compliance(force)?))
+    }
+
+    /// Compliance of a pair under a given force, in m²/N, see [`Flanks::parts_at_load`].
     ///
     /// # Errors
     /// Those of the contact.
@@ -154,21 +195,12 @@ impl Flanks {
         elasticity: &Elasticity,
         geometry: &Geometry,
         place: &ContactPlace,
-        (driver, driven): (f64, f64),
+        arms: (f64, f64),
         force: f64,
     ) -> Result<f64, Refusal> {
-        let half_width = elasticity.half_width(place, force);
-        let driver = self.driver.at(driver, half_width);
-        let driven = self.driven.at(driven, half_width);
-        let teeth = driver[TOOTH] + driven[TOOTH];
-        let spring = match self.slope {
-            Some(slope) => {
-                let offset = driver[OFFSET] + driven[OFFSET];
-                elasticity.spring(place, teeth, ContactLaw { offset, slope })
-            }
-            None => elasticity.contact_spring(geometry, place)?,
-        };
-        Ok(teeth + spring.compliance(force)?)
+        let ([driver, driven], contact) =
+            self.parts_at_load(elasticity, geometry, place, arms, force)?;
+        Ok(driver + driven + contact)
     }
 }
 

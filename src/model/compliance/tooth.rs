@@ -7,8 +7,8 @@ pub mod kuang_yang;
 
 use std::sync::Arc;
 
-use super::ElasticGear;
 use super::contact::ContactLaw;
+use super::{ElasticGear, given};
 use crate::model::Refusal;
 use crate::model::explanation::{Context, Finding, Step};
 use crate::model::field::Field;
@@ -18,7 +18,8 @@ use crate::numeric::chebyshev::TERMS;
 use crate::numeric::real::Lanes;
 
 /// Every model.
-pub const MODELS: [&ToothModel; 3] = [&kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL];
+pub const MODELS: [&ToothModel; 4] =
+    [&kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL, &given::MODEL];
 
 /// A model of the compliance of one tooth.
 #[derive(Debug)]
@@ -61,6 +62,8 @@ pub enum Kind {
     Beam(Circles),
     /// The elastic field of the gear.
     Field(Arc<Field>),
+    /// The table of the case, which [`Teeth`](super::Teeth) reads by the place of the pair.
+    Given,
 }
 
 /// N/(µm mm) in Pa.
@@ -113,7 +116,7 @@ impl Tooth {
         gear: &ElasticGear,
         circles: &Circles,
     ) -> Result<Tooth, Refusal> {
-        Ok(Tooth { gear: *gear, kind: (model.model().tooth)(gear, circles)? })
+        Ok(Tooth { gear: *gear, kind: (model.model().tooth)(gear, &gear.circles(circles)?)? })
     }
 
     /// Compliance of the tooth loaded at a radius, contact excluded, in m²/N.
@@ -121,14 +124,17 @@ impl Tooth {
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
     pub fn at(&self, radius: f64) -> Result<f64, Refusal> {
-        match &self.kind {
-            Kind::Line(line) => line.compliance(radius),
-            Kind::Beam(circles) => beam::tooth(&self.gear, circles, radius),
+        let radius = radius + self.gear.rise;
+        let normal = match &self.kind {
+            Kind::Line(line) => line.compliance(radius)?,
+            Kind::Beam(circles) => beam::tooth(&self.gear, circles, radius)?,
             Kind::Field(field) => {
-                check_radius(field, radius)?;
-                Ok(field.depth(radius, 0.0) / self.gear.young)
+                self.check_radius(field, radius)?;
+                field.depth(radius, 0.0) / self.gear.young
             }
-        }
+            Kind::Given => 0.0,
+        };
+        Ok(self.gear.oblique * normal)
     }
 
     /// The contact law of the tooth loaded at a radius. `None` for a model without contact.
@@ -139,8 +145,9 @@ impl Tooth {
         let Some(field) = self.field() else {
             return Ok(None);
         };
-        check_radius(field, radius)?;
-        let (module, young) = (self.gear.rack.module, self.gear.young);
+        let radius = radius + self.gear.rise;
+        self.check_radius(field, radius)?;
+        let (module, young) = (self.gear.rack.module, self.gear.young / self.gear.oblique);
         let contact = field.surface(radius, module) - field.depth(radius, 0.0);
         let slope = field.surface_slope();
         let offset = (contact + slope * module.ln()) / young;
@@ -161,9 +168,10 @@ impl Tooth {
         let Some(field) = self.field() else {
             return Ok(0.0);
         };
-        check_radius(field, loaded)?;
-        check_radius(field, measured)?;
-        Ok(field.cross(loaded, measured, pitches) / self.gear.young)
+        let [loaded, measured] = [loaded, measured].map(|radius| radius + self.gear.rise);
+        self.check_radius(field, loaded)?;
+        self.check_radius(field, measured)?;
+        Ok(self.gear.oblique * field.cross(loaded, measured, pitches) / self.gear.young)
     }
 
     /// Whether the model has the corner of the tip, so that [`Tooth::last_radius`] can be finite.
@@ -179,43 +187,46 @@ impl Tooth {
         let Some(field) = self.field() else {
             return Ok(radius);
         };
-        check_radius(field, radius)?;
+        let radius = radius + self.gear.rise;
+        self.check_radius(field, radius)?;
         Ok(field.abscissa(radius))
     }
 
     /// The same as [`Tooth::neighbour`] at several pairs of [places](Tooth::abscissa) at once:
     /// those of the loads and those of the displacements.
     pub fn neighbours(&self, places: [Lanes<TERMS>; 2], pitches: i32) -> Lanes<TERMS> {
-        let per_young = self.gear.young.recip();
+        let per_young = self.gear.oblique / self.gear.young;
         self.field().map_or(Lanes::all(0.0), |field| field.cross_at(places, pitches) * per_young)
     }
 
     /// Radius in m of the load whose pressure over ± `half_width` ends at the corner of the tip. A
     /// load farther out acts at this radius. Infinite for a model without a corner.
     pub fn last_radius(&self, half_width: f64) -> f64 {
-        self.field().map_or(f64::INFINITY, |field| field.last_radius(half_width))
+        let last = |field: &Field| field.last_radius(half_width) - self.gear.rise;
+        self.field().map_or(f64::INFINITY, last)
     }
 
     fn field(&self) -> Option<&Field> {
         if let Kind::Field(field) = &self.kind { Some(field) } else { None }
     }
-}
 
-/// Refuses a load below the form circle.
-fn check_radius(field: &Field, radius: f64) -> Result<(), Refusal> {
-    let [form, _] = field.radii();
-    if radius < form {
-        return Err(Refusal::BelowFormCircle { gear: GearSide::Driver, radius, form });
+    /// Refuses a load below the form circle.
+    fn check_radius(&self, field: &Field, radius: f64) -> Result<(), Refusal> {
+        let [form, _] = field.radii();
+        if radius < form {
+            let [radius, form] = [radius, form].map(|radius| radius - self.gear.rise);
+            return Err(Refusal::BelowFormCircle { gear: GearSide::Driver, radius, form });
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// The models in order of preference if the case names none.
 pub fn preferences(inputs: &Inputs) -> [&'static ToothModel; MODELS.len()] {
     if inputs.method == Method::Paper {
-        [&kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL]
+        [&given::MODEL, &kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL]
     } else {
-        [&finite_element::MODEL, &beam::MODEL, &kuang_yang::MODEL]
+        [&given::MODEL, &finite_element::MODEL, &beam::MODEL, &kuang_yang::MODEL]
     }
 }
 
@@ -242,17 +253,26 @@ pub fn contact_of(inputs: &Inputs) -> Option<ContactCompliance> {
 }
 
 impl ToothCompliance {
-    /// Every model, in the order of the list.
-    pub const ALL: [ToothCompliance; MODELS.len()] =
+    /// Every model that computes the compliance, in the order of the list.
+    pub const ALL: [ToothCompliance; 3] =
         [ToothCompliance::KUANG_YANG, ToothCompliance::BEAM, ToothCompliance::FINITE_ELEMENT];
+    /// Every model, in the order of the list.
+    pub const CHOICES: [ToothCompliance; MODELS.len()] = [
+        ToothCompliance::KUANG_YANG,
+        ToothCompliance::BEAM,
+        ToothCompliance::FINITE_ELEMENT,
+        ToothCompliance::GIVEN,
+    ];
 
     /// The names in a case file.
-    pub const NAMES: [&str; MODELS.len()] = [MODELS[0].name, MODELS[1].name, MODELS[2].name];
+    pub const NAMES: [&str; MODELS.len()] =
+        [MODELS[0].name, MODELS[1].name, MODELS[2].name, MODELS[3].name];
 
     /// One sentence for each model, for the form.
     pub const HELP: &str = "kuang-yang: Eq. 56, for z 12..100, |x| <= 0.6, 20 deg full-depth steel. \
         beam: potential energy on the true profile, in plane strain. finite-element: plane strain of \
-        the whole gear with its contact, the default except in method paper.";
+        the whole gear with its contact, the default except in method paper. given: the table \
+        [compliance] of the case, the default with this table.";
 
     /// The entry of the list.
     pub fn model(self) -> &'static ToothModel {

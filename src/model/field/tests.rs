@@ -14,6 +14,7 @@ fn gear(teeth: u32, shift: f64, degrees: f64, heights: [f64; 2], rounding: f64) 
         teeth,
         profile_shift: shift,
         dedendum: heights[1],
+        rounding,
     };
     FieldInput {
         profile: Profile::cut_by(&rack, &circles(&rack, heights[0]), rounding),

@@ -2,7 +2,7 @@
 //! the back flanks.
 
 use super::sharing::{Couplings, Neighbours, Way};
-use super::zones::{End, LEVER, Zone, line_zones};
+use super::zones::{End, LEVER, Zone, line_zones, teeth_on_line};
 use super::{Mesh, MeshInputs};
 use crate::model::budget::PAIRS;
 use crate::model::compliance::flanks::Flanks;
@@ -10,6 +10,7 @@ use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::geometry::{Geometry, PairShape};
 use crate::model::relief::Relief;
 use crate::model::{Refusal, Solution};
+use crate::numeric::chebyshev::Series;
 use std::sync::Arc;
 
 /// The flanks, and what is known of the influence of neighbouring teeth: how to compute it, or the
@@ -159,6 +160,30 @@ impl Mesh {
         };
         mesh.check_couplings()?;
         Ok(mesh)
+    }
+
+    /// Compliance of the driver's and of the driven tooth without the contact, per unit width, in
+    /// m²/N, in each zone.
+    ///
+    /// # Errors
+    /// Those of the compliances.
+    pub(in crate::model) fn teeth(&self, geometry: &Geometry) -> Result<Vec<Series<2>>, Refusal> {
+        /// Of the compliance in the middle of the path.
+        const REST: f64 = 1e-12;
+        let (inputs, force, flanks) = (&self.inputs, self.force, Flanks::clone(&self.flanks));
+        let run_in = End { inputs: *inputs, geometry: *geometry, flanks, side: -1.0 };
+        let run_out = run_in.swapped()?;
+        let at = |s: f64| match s {
+            s if s < 0.0 => run_in.teeth(force, -s / geometry.driven.base),
+            s if s > self.length => {
+                let angle = (s - self.length) / geometry.driver.base;
+                run_out.teeth(force, angle).map(|[driven, driver]| [driver, driven])
+            }
+            s => teeth_on_line(inputs, geometry, &self.flanks, force, s),
+        };
+        let rest = at(0.5 * self.length)?.map(|size| REST * size);
+        let series = |zone: &Zone| Series::of(zone.from, zone.to, &|_, _| rest, &at);
+        self.zones.iter().map(series).collect()
     }
 
     /// The mesh without coupling.

@@ -134,7 +134,32 @@ pub(super) fn line_zones(
     Ok(bends)
 }
 
+/// Compliance of both teeth without the contact at a place on the line of action, in m²/N.
+pub(super) fn teeth_on_line(
+    inputs: &MeshInputs,
+    geometry: &Geometry,
+    flanks: &Flanks,
+    force: f64,
+    s: f64,
+) -> Result<[f64; 2], Refusal> {
+    let along = geometry.start + s;
+    let (place, arms) = (
+        ContactPlace::on_line_of_action(geometry, along),
+        (along, geometry.tangent_length - along),
+    );
+    Ok(flanks.parts_at_load(&inputs.elasticity, geometry, &place, arms, force)?.0)
+}
+
 impl End {
+    /// Compliance of both teeth without the contact at an angle from the end of the path of contact,
+    /// in m²/N.
+    pub(super) fn teeth(&self, force: f64, angle: f64) -> Result<[f64; 2], Refusal> {
+        let tip = tip_at(&self.geometry, angle);
+        let (place, arms) = (self.place_of(&tip), self.arms(&tip));
+        let elasticity = &self.inputs.elasticity;
+        Ok(self.flanks.parts_at_load(elasticity, &self.geometry, &place, arms, force)?.0)
+    }
+
     /// The other end, with the gears swapped: the driver's tip touches the driven flank.
     pub(super) fn swapped(&self) -> Result<End, Refusal> {
         let inputs = self.inputs.swapped();

@@ -126,7 +126,7 @@ fn covers(inputs: &Inputs) -> bool {
     let covered = |gear: &Gear| {
         (TEETH.0..=TEETH.1).contains(&gear.teeth)
             && gear.profile_shift.abs() <= SHIFT
-            && ADDENDUM.contains(&gear.addendum_coefficient(inputs.module))
+            && ADDENDUM.contains(&inputs.addendum_of(gear))
             && YOUNG.contains(&gear.young)
     };
     let standard_angle = (inputs.pressure_angle.to_degrees() - PRESSURE_ANGLE_DEGREES).abs() < 1e-6;
@@ -143,8 +143,8 @@ fn check(context: &Context) -> Option<Finding> {
         driver.profile_shift,
         driven.profile_shift,
         four(degrees),
-        four(driver.addendum_coefficient(inputs.module)),
-        four(driven.addendum_coefficient(inputs.module)),
+        four(inputs.addendum_of(driver)),
+        four(inputs.addendum_of(driven)),
         four(driver.young * 1e-9),
         four(driven.young * 1e-9)
     );

@@ -53,7 +53,7 @@ impl RangeOf<'_> {
     pub(crate) fn axis(self, field: usize, steps: Steps) -> Result<Axis, String> {
         let known = &FIELDS[field];
         match known.kind {
-            Kind::Text => {
+            Kind::Text | Kind::List(_) => {
                 Err(format!("{} is a text: go to a field with a value.", known.full_label()))
             }
             Kind::Choice(names, _) => {

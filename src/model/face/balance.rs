@@ -1,0 +1,447 @@
+//! The balance of a face width: the line load of every pair at every slice.
+
+use super::Face;
+use crate::model::Refusal;
+use crate::model::pair_forces::PITCHES;
+
+/// The line loads of all pairs at a position of the mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loads {
+    /// Path of the incoming pair since E in the middle of the face, in m.
+    pub s: f64,
+    /// Base pitches by which the first pair is ahead of the incoming one.
+    pub first: i32,
+    /// Number of pairs.
+    pub pairs: usize,
+    /// Displacement of the driver ahead x, in m.
+    pub displacement: f64,
+    /// Line load of each pair at each slice, slice by slice, in N/m.
+    pub line_loads: Vec<f64>,
+    /// Displacement under the loads minus the gap, in m, above 0 where a pair carries.
+    pub leads: Vec<f64>,
+    /// Change of the force with the displacement, in N/m.
+    pub stiffness: f64,
+}
+
+impl Loads {
+    /// The line load of a pair at a slice, in N/m.
+    pub fn at(&self, ahead: i32, slice: usize) -> f64 {
+        self.index(ahead).map_or(0.0, |pair| self.line_loads[slice * self.pairs + pair])
+    }
+
+    /// The greatest lead of a pair over the face, in m, with the number of its slice.
+    pub fn lead(&self, ahead: i32) -> (f64, usize) {
+        let Some(pair) = self.index(ahead) else {
+            return (f64::NEG_INFINITY, 0);
+        };
+        let of_pair = self.leads.iter().skip(pair).step_by(self.pairs).enumerate();
+        of_pair.fold(
+            (f64::NEG_INFINITY, 0),
+            |best, (slice, &lead)| {
+                if lead > best.0 { (lead, slice) } else { best }
+            },
+        )
+    }
+
+    /// The lead of a pair at a slice, in m.
+    pub fn lead_at(&self, ahead: i32, slice: usize) -> f64 {
+        self.index(ahead).map_or(f64::NEG_INFINITY, |pair| self.leads[slice * self.pairs + pair])
+    }
+
+    fn index(&self, ahead: i32) -> Option<usize> {
+        usize::try_from(ahead - self.first).ok().filter(|pair| *pair < self.pairs)
+    }
+
+    /// The pairs as base pitches ahead of the incoming pair.
+    pub fn pairs(&self) -> impl Iterator<Item = i32> + use<> {
+        (self.first..).take(self.pairs)
+    }
+}
+
+/// What ends the search for a balance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Until {
+    /// The force that turns the driver, in N.
+    Force(f64),
+    /// The displacement of the driver ahead, in m.
+    Displacement(f64),
+}
+
+/// A pair at a slice.
+#[derive(Debug, Clone, Copy)]
+struct Contact {
+    /// Gap, infinite beyond the computed range.
+    gap: f64,
+    /// Whether the pair can carry here.
+    can_carry: bool,
+    /// Compliance of the contact, q_c.
+    contact: f64,
+    /// √q_t of the teeth.
+    root: f64,
+    /// The part of the load that turns the driver.
+    weight: f64,
+}
+
+impl Face {
+    /// The loads with the incoming pair at `s` in the middle of the face and with the deviation
+    /// `error`, in m. A pair in `without` does not touch.
+    ///
+    /// # Formula
+    /// ```text
+    /// x − gap_k = q_c p_k + √q_tk Σ_j κ_kj u_j  where p_k > 0,   at most that elsewhere
+    /// u_j − L² u_j'' = √q_tj p_j,   u_j' = 0 at the ends of the face,   ∫ Σ w_k p_k dz = F0
+    /// ```
+    /// κ_kj is the displacement of pair k by a load on pair j over the geometric mean of those of
+    /// the loaded pairs. The known touching slices give linear equations, symmetric and positive
+    /// definite in the coordinates Cᵀ u with C Cᵀ = κ; the slices are corrected until no load and no
+    /// overlap contradicts them.
+    ///
+    /// # Source
+    /// The decay along the tooth over L by own finite elements in three dimensions. Active sets:
+    /// Hintermüller, Ito & Kunisch 2003, "The primal-dual active set strategy as a semismooth Newton
+    /// method".
+    ///
+    /// # Errors
+    /// [`Refusal::BeyondReach`] if a pair beyond the computed gaps may touch.
+    pub fn loads(
+        &self,
+        s: f64,
+        error: f64,
+        until: Until,
+        without: Option<i32>,
+    ) -> Result<Loads, Refusal> {
+        let mesh = &self.mesh;
+        let (from, to) = mesh.ends();
+        let first = ((from - s - self.reach) / mesh.base_pitch).ceil() as i32;
+        let last = ((to - s + self.reach) / mesh.base_pitch).floor() as i32;
+        let pairs = (last - first + 1).max(0) as usize;
+        let contacts = self.contacts((s, error), first, pairs, without);
+        let factors = self.factors(s, first, pairs)?;
+        let mut system = System::new(self, &contacts, &factors, pairs);
+        let loads = system.balanced(until);
+        let lead = loads.displacement - self.least_gap + error.max(0.0);
+        mesh.check_reach(lead)?;
+        Ok(Loads { s, first, ..loads })
+    }
+
+    fn contacts(
+        &self,
+        (s, error): (f64, f64),
+        first: i32,
+        pairs: usize,
+        without: Option<i32>,
+    ) -> Vec<Contact> {
+        /// Least part of the compliance of a pair that is in its contact.
+        const LEAST: f64 = 1e-3;
+        let mesh = &self.mesh;
+        let friction = mesh.friction() * self.inputs.oblique;
+        let mut contacts = Vec::with_capacity(self.slices.len() * pairs);
+        for slice in &self.slices {
+            for ahead in (first..).take(pairs) {
+                let place = s + f64::from(ahead) * mesh.base_pitch + slice.ahead;
+                let (zone, kept) = mesh.zone_at(place);
+                let [stiffness, gap, lever, sliding] = mesh.values(zone, kept);
+                let [driver, driven] = self.teeth[zone].at(kept);
+                let compliance = self.inputs.width / stiffness;
+                let contact = (compliance - driver - driven).max(LEAST * compliance);
+                let teeth = (compliance - contact)
+                    * (driver * slice.ends[0] + driven * slice.ends[1])
+                    / (driver + driven);
+                let is_here = kept == place;
+                let error = if ahead == 0 { error } else { 0.0 };
+                contacts.push(Contact {
+                    gap: if is_here { gap + slice.gap - error } else { f64::INFINITY },
+                    can_carry: is_here && without != Some(ahead),
+                    contact,
+                    root: teeth.max(0.0).sqrt(),
+                    weight: 1.0 - friction * sliding.signum() * lever,
+                });
+            }
+        }
+        contacts
+    }
+
+    /// The lower factor C of κ = C Cᵀ, row by row.
+    fn factors(&self, s: f64, first: i32, pairs: usize) -> Result<Vec<f64>, Refusal> {
+        let mesh = &self.mesh;
+        let mut kappa = vec![0.0; pairs * pairs];
+        for rear in 0..pairs {
+            kappa[rear * pairs + rear] = 1.0;
+            for apart in 1..=PITCHES.min(pairs - 1 - rear) {
+                let way = apart as f64 * mesh.base_pitch;
+                // Both pairs are as near the middle of the path as on the face.
+                let place = s + f64::from(first + rear as i32) * mesh.base_pitch;
+                let to_middle = 0.5 * (mesh.length - way) - place;
+                let place = place + to_middle.clamp(-self.reach, self.reach);
+                kappa[(rear + apart) * pairs + rear] = self.neighbour(place, apart);
+            }
+        }
+        for row in 0..pairs {
+            for column in 0..=row {
+                let before =
+                    (0..column).map(|at| kappa[row * pairs + at] * kappa[column * pairs + at]);
+                let rest = kappa[row * pairs + column] - before.sum::<f64>();
+                kappa[row * pairs + column] = if column < row {
+                    rest / kappa[column * pairs + column]
+                } else if rest > 0.0 {
+                    rest.sqrt()
+                } else {
+                    return Err(Refusal::IndefiniteCompliance);
+                };
+            }
+        }
+        Ok(kappa)
+    }
+
+    /// κ of a pair at a place and of the pair `apart` pitches ahead.
+    fn neighbour(&self, place: f64, apart: usize) -> f64 {
+        let mesh = &self.mesh;
+        let ((from, to), way) = (mesh.ends(), apart as f64 * mesh.base_pitch);
+        if !mesh.is_coupled() || place < from || place + way > to {
+            return 0.0;
+        }
+        let teeth = |place: f64| {
+            let (zone, kept) = mesh.zone_at(place);
+            self.teeth[zone].at::<2>(kept).iter().sum::<f64>()
+        };
+        let mean = (teeth(place) * teeth(place + way)).sqrt();
+        mesh.coupling(apart, place) * self.inputs.width / mean
+    }
+}
+
+/// The linear equations of a balance, in the coordinates y = Cᵀ u.
+struct System<'a> {
+    face: &'a Face,
+    contacts: &'a [Contact],
+    factors: &'a [f64],
+    pairs: usize,
+    touching: Vec<bool>,
+    /// Rows of the lower half of the matrix: the diagonal, then the entries before it.
+    rows: Vec<f64>,
+    /// The right sides, and then the solutions, of the displacement and of the gaps.
+    sides: Vec<[f64; 2]>,
+}
+
+impl<'a> System<'a> {
+    fn new(
+        face: &'a Face,
+        contacts: &'a [Contact],
+        factors: &'a [f64],
+        pairs: usize,
+    ) -> System<'a> {
+        System {
+            face,
+            contacts,
+            factors,
+            pairs,
+            touching: vec![false; contacts.len()],
+            rows: vec![0.0; contacts.len() * (pairs + 1)],
+            sides: vec![[0.0; 2]; contacts.len()],
+        }
+    }
+
+    /// The loads at the end of the search.
+    fn balanced(&mut self, until: Until) -> Loads {
+        const CORRECTIONS: usize = 40;
+        const ONE_BY_ONE: usize = 400;
+        let mut displacement = match until {
+            Until::Force(force) => self.of_springs(force),
+            Until::Displacement(displacement) => displacement,
+        };
+        for (touching, contact) in self.touching.iter_mut().zip(self.contacts) {
+            *touching = contact.can_carry && contact.gap < displacement;
+        }
+        let (mut leads, mut stiffness) = (vec![f64::INFINITY; self.contacts.len()], 0.0);
+        let rounds = if displacement.is_finite() { CORRECTIONS + ONE_BY_ONE } else { 0 };
+        for round in 0..rounds {
+            self.solve();
+            let sums = self.sums();
+            stiffness = sums[0];
+            if let Until::Force(force) = until {
+                displacement = (force + sums[1]) / sums[0];
+            }
+            leads = self.leads(displacement);
+            let carries =
+                leads.iter().zip(self.contacts).map(|(lead, of)| of.can_carry && *lead > 0.0);
+            let pairs = carries.zip(&self.touching).enumerate();
+            let mut wrong = pairs.filter(|(_, (carries, touching))| carries != *touching);
+            if round < CORRECTIONS {
+                let wrong: Vec<usize> = wrong.map(|(at, _)| at).collect();
+                if wrong.is_empty() {
+                    break;
+                }
+                for at in wrong {
+                    self.touching[at] = !self.touching[at];
+                }
+                if !self.touching.contains(&true) {
+                    let all = (0..leads.len()).filter(|&at| self.contacts[at].can_carry);
+                    let nearest = all.max_by(|&one, &other| leads[one].total_cmp(&leads[other]));
+                    nearest.into_iter().for_each(|at| self.touching[at] = true);
+                }
+            } else if let Some((at, _)) = wrong.next() {
+                self.touching[at] = !self.touching[at];
+            } else {
+                break;
+            }
+        }
+        let line_loads = leads.iter().zip(self.contacts);
+        let line_loads =
+            line_loads.map(
+                |(lead, contact)| {
+                    if contact.can_carry { lead.max(0.0) / contact.contact } else { 0.0 }
+                },
+            );
+        Loads {
+            s: 0.0,
+            first: 0,
+            pairs: self.pairs,
+            displacement,
+            line_loads: line_loads.collect(),
+            leads,
+            stiffness,
+        }
+    }
+
+    /// The displacement at which independent slices balance a force.
+    fn of_springs(&self, force: f64) -> f64 {
+        let width = |at: usize| self.face.slices[at / self.pairs].width;
+        let spring = |at: usize| {
+            let contact = &self.contacts[at];
+            contact.weight * width(at) / (contact.contact + contact.root * contact.root)
+        };
+        let all = 0..self.contacts.len();
+        let mut order: Vec<usize> = all.filter(|&at| self.contacts[at].can_carry).collect();
+        order.sort_by(|&one, &other| self.contacts[one].gap.total_cmp(&self.contacts[other].gap));
+        let (mut stiffness, mut preload, mut displacement) = (0.0, force, f64::INFINITY);
+        for at in order {
+            let gap = self.contacts[at].gap;
+            if gap >= displacement {
+                break;
+            }
+            stiffness += spring(at);
+            preload += spring(at) * gap;
+            displacement = preload / stiffness;
+        }
+        displacement
+    }
+
+    /// L²/step: what a difference of u between two slices takes from one to the other.
+    fn exchange(&self) -> f64 {
+        let (length, slices) = (self.face.inputs.coupling_length, self.face.slices.len());
+        length * length * (slices - 1) as f64 / self.face.inputs.width
+    }
+
+    /// Solves the equations of the touching slices.
+    fn solve(&mut self) {
+        let (pairs, exchange, last) = (self.pairs, self.exchange(), self.face.slices.len() - 1);
+        let row_length = pairs + 1;
+        for (number, slice) in self.face.slices.iter().enumerate() {
+            let beside = if number == 0 || number == last { 1.0 } else { 2.0 };
+            let of_slice = number * pairs..(number + 1) * pairs;
+            let contacts = &self.contacts[of_slice.clone()];
+            let touching = &self.touching[of_slice.clone()];
+            for row in 0..pairs {
+                let at = number * pairs + row;
+                let entries = &mut self.rows[at * row_length..(at + 1) * row_length];
+                entries.fill(0.0);
+                entries[0] = slice.width + beside * exchange;
+                if number > 0 {
+                    entries[pairs] = -exchange;
+                }
+                self.sides[at] = [0.0; 2];
+            }
+            for pair in (0..pairs).filter(|pair| touching[*pair]) {
+                let Contact { gap, contact, root, .. } = contacts[pair];
+                let factors = &self.factors[pair * pairs..=pair * pairs + pair];
+                let push = slice.width * root / contact;
+                for (row, factor) in
+                    factors.iter().enumerate().filter(|(_, factor)| **factor != 0.0)
+                {
+                    let at = number * pairs + row;
+                    self.sides[at][0] += push * factor;
+                    self.sides[at][1] += push * factor * gap;
+                    for (column, other) in factors[..=row].iter().enumerate() {
+                        self.rows[at * row_length + row - column] += push * root * factor * other;
+                    }
+                }
+            }
+        }
+        factor(&mut self.rows, row_length);
+        solve(&self.rows, row_length, &mut self.sides);
+    }
+
+    /// √q_t (C y)_k of the displacement and of the gaps.
+    fn pushed(&self, at: usize) -> [f64; 2] {
+        let (pairs, slice, pair) = (self.pairs, at / self.pairs, at % self.pairs);
+        let factors = &self.factors[pair * pairs..=pair * pairs + pair];
+        let sides = &self.sides[slice * pairs..];
+        let sum = factors.iter().zip(sides).fold([0.0; 2], |[one, other], (factor, side)| {
+            [one + factor * side[0], other + factor * side[1]]
+        });
+        sum.map(|sum| self.contacts[at].root * sum)
+    }
+
+    /// Change of the force that turns the driver with the displacement, and the force that the gaps
+    /// take.
+    fn sums(&self) -> [f64; 2] {
+        let touching = (0..self.contacts.len()).filter(|&at| self.touching[at]);
+        touching.fold([0.0; 2], |[slope, offset], at| {
+            let ([moved, kept], contact) = (self.pushed(at), &self.contacts[at]);
+            let width = self.face.slices[at / self.pairs].width;
+            let spring = contact.weight * width / contact.contact;
+            [slope + spring * (1.0 - moved), offset + spring * (contact.gap - kept)]
+        })
+    }
+
+    /// Displacement under the loads minus the gap, of every pair at every slice.
+    fn leads(&self, displacement: f64) -> Vec<f64> {
+        let lead = |at: usize| {
+            let [moved, kept] = self.pushed(at);
+            displacement * (1.0 - moved) - (self.contacts[at].gap - kept)
+        };
+        (0..self.contacts.len()).map(lead).collect()
+    }
+}
+
+/// Replaces the rows of a symmetric positive definite band matrix by its factors L D Lᵀ. A row has the
+/// diagonal entry and then the entries before it.
+///
+/// # Source
+/// Golub & Van Loan 2013, "Matrix Computations", section 4.3.6.
+fn factor(rows: &mut [f64], length: usize) {
+    for at in 0..rows.len() / length {
+        let (known, rest) = rows.split_at_mut(at * length);
+        let (row, reach) = (&mut rest[..length], length.min(at + 1));
+        for distance in (1..reach).rev() {
+            let start = (at - distance) * length;
+            let other = &known[start..start + length];
+            let inner: f64 =
+                (distance + 1..reach).map(|far| row[far] * other[far - distance]).sum();
+            row[distance] -= inner;
+        }
+        for distance in 1..reach {
+            let share = row[distance] / known[(at - distance) * length];
+            row[0] -= share * row[distance];
+            row[distance] = share;
+        }
+    }
+}
+
+/// Solves for two right sides, in place.
+fn solve(rows: &[f64], length: usize, sides: &mut [[f64; 2]]) {
+    for at in 0..sides.len() {
+        let (known, rest) = sides.split_at_mut(at);
+        let row = &rows[at * length..(at + 1) * length];
+        for (side, factor) in known.iter().rev().zip(&row[1..]) {
+            rest[0] = [rest[0][0] - factor * side[0], rest[0][1] - factor * side[1]];
+        }
+    }
+    for at in (0..sides.len()).rev() {
+        sides[at] = sides[at].map(|side| side / rows[at * length]);
+        for distance in 1..length.min(sides.len() - at) {
+            let factor = rows[(at + distance) * length + distance];
+            let later = sides[at + distance];
+            sides[at] = [sides[at][0] - factor * later[0], sides[at][1] - factor * later[1]];
+        }
+    }
+}
