@@ -2,6 +2,7 @@
 
 use super::Face;
 use crate::model::Refusal;
+use crate::model::budget::PAIRS;
 use crate::model::pair_forces::PITCHES;
 
 /// The line loads of all pairs at a position of the mesh.
@@ -117,8 +118,17 @@ impl Face {
         let pairs = (last - first + 1).max(0) as usize;
         let contacts = self.contacts((s, error), first, pairs, without);
         let factors = self.factors(s, first, pairs)?;
-        let mut system = System::new(self, &contacts, &factors, pairs);
-        let loads = system.balanced(until);
+        let system = (self, &contacts[..], &factors[..], pairs);
+        // The length of a matrix row is known to the compiler.
+        let loads = match pairs {
+            ..3 => balanced::<3>(system, until),
+            3 => balanced::<4>(system, until),
+            4 => balanced::<5>(system, until),
+            5 => balanced::<6>(system, until),
+            6..8 => balanced::<8>(system, until),
+            8..16 => balanced::<16>(system, until),
+            _ => balanced::<{ PAIRS + 1 }>(system, until),
+        };
         let lead = loads.displacement - self.least_gap + error.max(0.0);
         mesh.check_reach(lead)?;
         Ok(Loads { s, first, ..loads })
@@ -210,36 +220,36 @@ impl Face {
 }
 
 /// The linear equations of a balance, in the coordinates y = Cᵀ u.
-struct System<'a> {
+struct System<'a, const ROW: usize> {
     face: &'a Face,
     contacts: &'a [Contact],
     factors: &'a [f64],
     pairs: usize,
     touching: Vec<bool>,
     /// Rows of the lower half of the matrix: the diagonal, then the entries before it.
-    rows: Vec<f64>,
+    rows: Vec<[f64; ROW]>,
     /// The right sides, and then the solutions, of the displacement and of the gaps.
     sides: Vec<[f64; 2]>,
 }
 
-impl<'a> System<'a> {
-    fn new(
-        face: &'a Face,
-        contacts: &'a [Contact],
-        factors: &'a [f64],
-        pairs: usize,
-    ) -> System<'a> {
-        System {
-            face,
-            contacts,
-            factors,
-            pairs,
-            touching: vec![false; contacts.len()],
-            rows: vec![0.0; contacts.len() * (pairs + 1)],
-            sides: vec![[0.0; 2]; contacts.len()],
-        }
-    }
+/// The loads of a face with contacts, factors and number of pairs.
+fn balanced<const ROW: usize>(
+    (face, contacts, factors, pairs): (&Face, &[Contact], &[f64], usize),
+    until: Until,
+) -> Loads {
+    let mut system = System::<ROW> {
+        face,
+        contacts,
+        factors,
+        pairs,
+        touching: vec![false; contacts.len()],
+        rows: vec![[0.0; ROW]; contacts.len()],
+        sides: vec![[0.0; 2]; contacts.len()],
+    };
+    system.balanced(until)
+}
 
+impl<const ROW: usize> System<'_, ROW> {
     /// The loads at the end of the search.
     fn balanced(&mut self, until: Until) -> Loads {
         const CORRECTIONS: usize = 40;
@@ -302,27 +312,26 @@ impl<'a> System<'a> {
         }
     }
 
-    /// The displacement at which independent slices balance a force.
+    /// The displacement at which independent slices balance a force. Begins with all slices, so that
+    /// the displacement falls to that of the touching ones.
     fn of_springs(&self, force: f64) -> f64 {
-        let width = |at: usize| self.face.slices[at / self.pairs].width;
-        let spring = |at: usize| {
-            let contact = &self.contacts[at];
-            contact.weight * width(at) / (contact.contact + contact.root * contact.root)
-        };
-        let all = 0..self.contacts.len();
-        let mut order: Vec<usize> = all.filter(|&at| self.contacts[at].can_carry).collect();
-        order.sort_by(|&one, &other| self.contacts[one].gap.total_cmp(&self.contacts[other].gap));
-        let (mut stiffness, mut preload, mut displacement) = (0.0, force, f64::INFINITY);
-        for at in order {
-            let gap = self.contacts[at].gap;
-            if gap >= displacement {
-                break;
+        let springs = self.contacts.iter().enumerate().filter(|(_, contact)| contact.can_carry);
+        let mut displacement = f64::INFINITY;
+        loop {
+            let touching = springs.clone().filter(|(_, contact)| contact.gap < displacement);
+            let (stiffness, preload) =
+                touching.fold((0.0, force), |(stiffness, preload), (at, contact)| {
+                    let width = self.face.slices[at / self.pairs].width;
+                    let compliance = contact.contact + contact.root * contact.root;
+                    let spring = contact.weight * width / compliance;
+                    (stiffness + spring, preload + spring * contact.gap)
+                });
+            let next = preload / stiffness;
+            if stiffness <= 0.0 || next >= displacement {
+                return displacement;
             }
-            stiffness += spring(at);
-            preload += spring(at) * gap;
-            displacement = preload / stiffness;
+            displacement = next;
         }
-        displacement
     }
 
     /// L²/step: what a difference of u between two slices takes from one to the other.
@@ -334,7 +343,6 @@ impl<'a> System<'a> {
     /// Solves the equations of the touching slices.
     fn solve(&mut self) {
         let (pairs, exchange, last) = (self.pairs, self.exchange(), self.face.slices.len() - 1);
-        let row_length = pairs + 1;
         for (number, slice) in self.face.slices.iter().enumerate() {
             let beside = if number == 0 || number == last { 1.0 } else { 2.0 };
             let of_slice = number * pairs..(number + 1) * pairs;
@@ -342,8 +350,8 @@ impl<'a> System<'a> {
             let touching = &self.touching[of_slice.clone()];
             for row in 0..pairs {
                 let at = number * pairs + row;
-                let entries = &mut self.rows[at * row_length..(at + 1) * row_length];
-                entries.fill(0.0);
+                let entries = &mut self.rows[at];
+                *entries = [0.0; ROW];
                 entries[0] = slice.width + beside * exchange;
                 if number > 0 {
                     entries[pairs] = -exchange;
@@ -361,13 +369,13 @@ impl<'a> System<'a> {
                     self.sides[at][0] += push * factor;
                     self.sides[at][1] += push * factor * gap;
                     for (column, other) in factors[..=row].iter().enumerate() {
-                        self.rows[at * row_length + row - column] += push * root * factor * other;
+                        self.rows[at][row - column] += push * root * factor * other;
                     }
                 }
             }
         }
-        factor(&mut self.rows, row_length);
-        solve(&self.rows, row_length, &mut self.sides);
+        factor(&mut self.rows);
+        solve(&self.rows, &mut self.sides);
     }
 
     /// √q_t (C y)_k of the displacement and of the gaps.
@@ -408,19 +416,18 @@ impl<'a> System<'a> {
 ///
 /// # Source
 /// Golub & Van Loan 2013, "Matrix Computations", section 4.3.6.
-fn factor(rows: &mut [f64], length: usize) {
-    for at in 0..rows.len() / length {
-        let (known, rest) = rows.split_at_mut(at * length);
-        let (row, reach) = (&mut rest[..length], length.min(at + 1));
+fn factor<const ROW: usize>(rows: &mut [[f64; ROW]]) {
+    for at in 0..rows.len() {
+        let (known, rest) = rows.split_at_mut(at);
+        let (row, reach) = (&mut rest[0], ROW.min(at + 1));
         for distance in (1..reach).rev() {
-            let start = (at - distance) * length;
-            let other = &known[start..start + length];
-            let inner: f64 =
-                (distance + 1..reach).map(|far| row[far] * other[far - distance]).sum();
-            row[distance] -= inner;
+            let other = &known[at - distance];
+            for far in distance + 1..reach {
+                row[distance] -= row[far] * other[far - distance];
+            }
         }
         for distance in 1..reach {
-            let share = row[distance] / known[(at - distance) * length];
+            let share = row[distance] / known[at - distance][0];
             row[0] -= share * row[distance];
             row[distance] = share;
         }
@@ -428,20 +435,19 @@ fn factor(rows: &mut [f64], length: usize) {
 }
 
 /// Solves for two right sides, in place.
-fn solve(rows: &[f64], length: usize, sides: &mut [[f64; 2]]) {
+fn solve<const ROW: usize>(rows: &[[f64; ROW]], sides: &mut [[f64; 2]]) {
     for at in 0..sides.len() {
         let (known, rest) = sides.split_at_mut(at);
-        let row = &rows[at * length..(at + 1) * length];
-        for (side, factor) in known.iter().rev().zip(&row[1..]) {
+        for (side, factor) in known.iter().rev().zip(&rows[at][1..]) {
             rest[0] = [rest[0][0] - factor * side[0], rest[0][1] - factor * side[1]];
         }
     }
     for at in (0..sides.len()).rev() {
-        sides[at] = sides[at].map(|side| side / rows[at * length]);
-        for distance in 1..length.min(sides.len() - at) {
-            let factor = rows[(at + distance) * length + distance];
-            let later = sides[at + distance];
-            sides[at] = [sides[at][0] - factor * later[0], sides[at][1] - factor * later[1]];
+        let mut side = sides[at].map(|side| side / rows[at][0]);
+        for distance in 1..ROW.min(sides.len() - at) {
+            let (factor, later) = (rows[at + distance][distance], sides[at + distance]);
+            side = [side[0] - factor * later[0], side[1] - factor * later[1]];
         }
+        sides[at] = side;
     }
 }

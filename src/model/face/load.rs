@@ -12,9 +12,6 @@ use std::cell::Cell;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Places in a base pitch.
-const PLACES: usize = 64;
-
 /// A place of contact on the face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FacePlace {
@@ -80,6 +77,15 @@ enum Part {
 impl Part {
     const ALL: [Part; 3] = [Part::All, Part::BeforeStart, Part::AfterEnd];
 
+    /// The end of the path of contact that limits the part, in m.
+    fn border(self, length: f64) -> Option<f64> {
+        match self {
+            Part::All => None,
+            Part::BeforeStart => Some(0.0),
+            Part::AfterEnd => Some(length),
+        }
+    }
+
     fn has(self, path: f64, length: f64) -> bool {
         match self {
             Part::All => true,
@@ -90,24 +96,58 @@ impl Part {
 }
 
 impl Face {
+    /// Number of places in a base pitch at which the load is solved; more for narrow slices.
+    fn steps(&self) -> usize {
+        const LEAST: usize = 64;
+        const SLICES: usize = 4;
+        LEAST.max(self.slices.len() / SLICES)
+    }
+
     /// The path of a pair at a slice, in m.
     fn path(&self, loads: &Loads, ahead: i32, slice: usize) -> f64 {
         loads.s + f64::from(ahead) * self.mesh.base_pitch + self.slices[slice].ahead
     }
 
-    /// The greatest line load of some pairs in a part of the path.
+    /// The greatest line load of some pairs in a part of the path. At the border of the part the load
+    /// is that between the two slices on its sides.
     fn line_peak(&self, loads: &Loads, pairs: impl Iterator<Item = i32>, part: Part) -> LinePeak {
         let place = FacePlace { z: 0.0, path: 0.0 };
         let mut best = LinePeak { line_load: 0.0, place };
+        let mut include = |line_load: f64, place: FacePlace| {
+            if line_load > best.line_load {
+                best = LinePeak { line_load, place };
+            }
+        };
         for ahead in pairs {
-            for (number, slice) in self.slices.iter().enumerate() {
-                let (line_load, path) = (loads.at(ahead, number), self.path(loads, ahead, number));
-                if line_load > best.line_load && part.has(path, self.mesh.length) {
-                    best = LinePeak { line_load, place: FacePlace { z: slice.z, path } };
+            let at = |number: usize| {
+                let path = self.path(loads, ahead, number);
+                (loads.at(ahead, number), FacePlace { z: self.slices[number].z, path })
+            };
+            for number in 0..self.slices.len() {
+                let (line_load, place) = at(number);
+                if part.has(place.path, self.mesh.length) {
+                    include(line_load, place);
+                }
+                let Some(border) = part.border(self.mesh.length).filter(|_| number > 0) else {
+                    continue;
+                };
+                let (other_load, other) = at(number - 1);
+                let (beyond, before) = (place.path - border, border - other.path);
+                if beyond * before > 0.0 {
+                    let share = before / (beyond + before);
+                    let between = |one: f64, two: f64| one + share * (two - one);
+                    let z = between(other.z, place.z);
+                    include(between(other_load, line_load), FacePlace { z, path: border });
                 }
             }
         }
         best
+    }
+
+    /// How far before E the incoming tooth touches, in the plane where this is farthest, in m.
+    fn deepest(&self, loads: &Loads) -> f64 {
+        let touching = (0..self.slices.len()).filter(|&at| loads.at(0, at) > 0.0);
+        touching.map(|at| -self.path(loads, 0, at)).fold(0.0, f64::max)
     }
 
     /// The force of a pair in a part of the path, in N.
@@ -149,22 +189,22 @@ impl Face {
     /// # Errors
     /// Those of [`Face::loads`].
     pub fn cycle(&self) -> Result<(FaceCycle, StaticSpectrum), Refusal> {
-        let pitch = self.mesh.base_pitch;
-        let place = |number: usize| pitch * number as f64 / PLACES as f64;
+        let (pitch, steps) = (self.mesh.base_pitch, self.steps());
+        let place = |number: usize| pitch * number as f64 / steps as f64;
         let all: Vec<Loads> =
-            (0..PLACES).map(|number| self.balance(place(number), 0.0)).collect::<Result<_, _>>()?;
-        let mean = |of: &dyn Fn(&Loads) -> f64| all.iter().map(of).sum::<f64>() / PLACES as f64;
+            (0..steps).map(|number| self.balance(place(number), 0.0)).collect::<Result<_, _>>()?;
+        let mean = |of: &dyn Fn(&Loads) -> f64| all.iter().map(of).sum::<f64>() / steps as f64;
         let mut line_loads = vec![0.0; self.slices.len()];
         for loads in &all {
             for (sum, line_load) in line_loads.iter_mut().zip(self.line_loads(loads)) {
-                *sum += line_load / PLACES as f64;
+                *sum += line_load / steps as f64;
             }
         }
         let mut sums = [[0.0; 2]; HARMONICS];
         for (number, loads) in all.iter().enumerate() {
             for (order, sum) in (1..).zip(&mut sums) {
                 let (sine, cosine) =
-                    (TAU * f64::from(order) * number as f64 / PLACES as f64).sin_cos();
+                    (TAU * f64::from(order) * number as f64 / steps as f64).sin_cos();
                 *sum = [sum[0] + loads.displacement * cosine, sum[1] + loads.displacement * sine];
             }
         }
@@ -196,7 +236,7 @@ impl Face {
             line_loads,
         };
         let spectrum = Spectrum {
-            amplitudes: sums.map(|[cosine, sine]| 2.0 * cosine.hypot(sine) / PLACES as f64),
+            amplitudes: sums.map(|[cosine, sine]| 2.0 * cosine.hypot(sine) / steps as f64),
             peak_to_peak: extreme(&|loads| loads.displacement)
                 + extreme(&|loads| -loads.displacement),
         };
@@ -212,7 +252,7 @@ impl Face {
     /// # Errors
     /// Those of [`Face::loads`].
     pub fn lead_before_start(&self) -> Result<f64, Refusal> {
-        let (mesh, step) = (&self.mesh, self.mesh.base_pitch / PLACES as f64);
+        let (mesh, step) = (&self.mesh, self.mesh.base_pitch / self.steps() as f64);
         let (from, to) = (mesh.ends().0 - self.reach, self.reach);
         let lead = |s: f64| -> Result<f64, Refusal> {
             let loads = self.loads(s, mesh.error, Until::Force(mesh.force), Some(0))?;
@@ -269,8 +309,9 @@ impl Face {
         let (mesh, error) = (&self.mesh, self.mesh.error);
         let (from, to) = mesh.ends();
         let (from, to) = (from - self.reach, to + self.reach);
-        let step = mesh.base_pitch / PLACES as f64;
-        let count = ((to - from) / step).ceil() as usize;
+        /// Looks for the ends of the contact in a base pitch.
+        const LOOKS: f64 = 16.0;
+        let count = (LOOKS * (to - from) / mesh.base_pitch).ceil() as usize;
         let place = |number: usize| from + (to - from) * number as f64 / count as f64;
         let lead = |s: f64| -> Result<(f64, usize), Refusal> {
             let loads = self.loads(s, error, Until::Force(mesh.force), Some(0))?;
@@ -303,8 +344,9 @@ impl Face {
             Ok(FacePlace { z, path: s + ahead })
         };
         let (first_place, last_place) = (face_place(first)?, face_place(last)?);
-        let inner = (0..=count).map(place).filter(|s| *s > first && *s < last);
-        let places: Vec<f64> = [first].into_iter().chain(inner).chain([last]).collect();
+        let steps = (0.5 * self.steps() as f64 * (last - first) / mesh.base_pitch).ceil().max(2.0);
+        let place = |step: u32| first + (last - first) * f64::from(step) / steps;
+        let places: Vec<f64> = (0..=steps as u32).map(place).collect();
         let all: Vec<Loads> =
             places.iter().map(|&s| self.balance(s, error)).collect::<Result<_, _>>()?;
         let extreme = |of: &dyn Fn(&Loads) -> f64| {
@@ -339,8 +381,13 @@ impl Face {
         }
         let ahead = |place: &FacePlace| -place.path / mesh.base_radii.1;
         let behind = |place: &FacePlace| (place.path - mesh.length) / mesh.base_radii.0;
+        let before_start = line_peak(Part::BeforeStart);
+        // Reliefs can let the tooth touch after E at its end and before E farther inside.
+        let (_, deepest) = extreme(&|loads| self.deepest(loads));
+        let strikes = before_start.is_some().then_some(deepest / mesh.base_radii.1);
+        let first_angle = Some(ahead(&first_place)).filter(|angle| *angle > 0.0).or(strikes);
         let load = StaticLoad {
-            first_contact_angle: Some(ahead(&first_place)).filter(|angle| *angle > 0.0),
+            first_contact_angle: first_angle,
             last_contact_angle: Some(behind(&last_place)).filter(|angle| *angle > 0.0),
             force_at_end: extreme(&|loads| self.force(loads, 0, Part::AfterEnd)).1,
             force_at_start: extreme(&|loads| self.force(loads, 0, Part::BeforeStart)).1,
@@ -356,7 +403,7 @@ impl Face {
             first: first_place,
             last: last_place,
             peak: line_peak(Part::All).ok_or(Refusal::BeyondReach)?,
-            before_start: line_peak(Part::BeforeStart),
+            before_start,
             after_end: line_peak(Part::AfterEnd),
             pattern: all.iter().map(at_slices).collect(),
             paths: places,
