@@ -168,6 +168,31 @@ impl FaceInputs {
         1.0 + part(self.ends[0], acute) - part(self.ends[1], obtuse)
     }
 
+    /// z of about `count` slices: both ends of the face, the places where an end relief begins, and
+    /// even steps between them.
+    fn places(&self, count: usize) -> Vec<f64> {
+        let (first, last) = (-0.5 * self.width, 0.5 * self.width);
+        let begins = self.flanks.iter().flat_map(|flank| {
+            let inner = 0.5 * flank.width - flank.end_relief_length;
+            let [minus, plus] = flank.end_reliefs.map(|relief| relief > 0.0);
+            let places = [(minus, flank.middle - inner), (plus, flank.middle + inner)];
+            places.into_iter().filter(|(is_given, _)| *is_given).map(|(_, z)| z)
+        });
+        let mut borders: Vec<f64> =
+            begins.filter(|z| *z > first && *z < last).chain([first, last]).collect();
+        borders.sort_by(f64::total_cmp);
+        borders.dedup_by(|one, other| *one - *other <= 1e-9 * self.width);
+        let step = self.width / (count - 1) as f64;
+        let mut places = vec![first];
+        for ends in borders.windows(2) {
+            let steps = ((ends[1] - ends[0]) / step - 1e-9).ceil().max(1.0);
+            let inner = (1..=steps as u32)
+                .map(|part| ends[0] + (ends[1] - ends[0]) * f64::from(part) / steps);
+            places.extend(inner);
+        }
+        places
+    }
+
     /// Number of slices: that of the case, or so many that the shares of the load are within 0.1 %,
     /// with two slices in a coupling length.
     fn count(&self, base_pitch: f64) -> usize {
@@ -192,6 +217,8 @@ struct Slice {
     z: f64,
     /// Width that the slice stands for, in m.
     width: f64,
+    /// Distance of the next slice; 0 at the last, in m.
+    step: f64,
     /// Path ahead of the middle of the face, in m.
     ahead: f64,
     /// Gap by misalignment and flank lines, in m.
@@ -235,20 +262,21 @@ impl Face {
         geometry: &Geometry,
         mesh: &Arc<Mesh>,
     ) -> Result<Face, Refusal> {
-        let count = inputs.count(mesh.base_pitch);
-        let step = inputs.width / (count - 1) as f64;
+        let places = inputs.places(inputs.count(mesh.base_pitch));
         let slice = |number: usize| {
-            let is_end = number == 0 || number + 1 == count;
-            let z = inputs.width * (number as f64 / (count - 1) as f64 - 0.5);
+            let z = places[number];
+            let before = number.checked_sub(1).map_or(z, |before| places[before]);
+            let after = places.get(number + 1).copied().unwrap_or(z);
             Slice {
                 z,
-                width: if is_end { 0.5 * step } else { step },
+                width: 0.5 * (after - before),
+                step: after - z,
                 ahead: inputs.lead * z,
                 gap: inputs.gap(z),
                 ends: [0, 1].map(|gear| inputs.end_factor(gear, z)),
             }
         };
-        let slices: Vec<Slice> = (0..count).map(slice).collect();
+        let slices: Vec<Slice> = (0..places.len()).map(slice).collect();
         Ok(Face {
             inputs: *inputs,
             mesh: Arc::clone(mesh),

@@ -334,17 +334,17 @@ impl<const ROW: usize> System<'_, ROW> {
         }
     }
 
-    /// L²/step: what a difference of u between two slices takes from one to the other.
-    fn exchange(&self) -> f64 {
-        let (length, slices) = (self.face.inputs.coupling_length, self.face.slices.len());
-        length * length * (slices - 1) as f64 / self.face.inputs.width
+    /// L²/step: what a difference of u between a slice and the next takes from one to the other.
+    fn exchange(&self, number: usize) -> f64 {
+        let (length, step) = (self.face.inputs.coupling_length, self.face.slices[number].step);
+        if step > 0.0 { length * length / step } else { 0.0 }
     }
 
     /// Solves the equations of the touching slices.
     fn solve(&mut self) {
-        let (pairs, exchange, last) = (self.pairs, self.exchange(), self.face.slices.len() - 1);
+        let (pairs, mut before) = (self.pairs, 0.0);
         for (number, slice) in self.face.slices.iter().enumerate() {
-            let beside = if number == 0 || number == last { 1.0 } else { 2.0 };
+            let after = self.exchange(number);
             let of_slice = number * pairs..(number + 1) * pairs;
             let contacts = &self.contacts[of_slice.clone()];
             let touching = &self.touching[of_slice.clone()];
@@ -352,9 +352,9 @@ impl<const ROW: usize> System<'_, ROW> {
                 let at = number * pairs + row;
                 let entries = &mut self.rows[at];
                 *entries = [0.0; ROW];
-                entries[0] = slice.width + beside * exchange;
+                entries[0] = slice.width + before + after;
                 if number > 0 {
-                    entries[pairs] = -exchange;
+                    entries[pairs] = -before;
                 }
                 self.sides[at] = [0.0; 2];
             }
@@ -373,6 +373,7 @@ impl<const ROW: usize> System<'_, ROW> {
                     }
                 }
             }
+            before = after;
         }
         factor(&mut self.rows);
         solve(&self.rows, &mut self.sides);
