@@ -30,6 +30,7 @@ mod budget;
 mod clearing;
 mod coupling;
 mod deviations;
+mod helical;
 mod mesh;
 mod motion;
 mod one_value;

@@ -1,0 +1,215 @@
+//! The face width: independent answers for pairs in slices, and what must hold for every pair.
+use crate::support::standard_pair;
+
+use serde_json::Value;
+use tipstrike::case::file::Document;
+use tipstrike::model::inputs::{Drive, Hand, Method};
+use tipstrike::model::{Inputs, Outcome, Solution, Stage, Stages, solve};
+
+const STATIC: Stages = Stages::of(Stage::Static).and(Stages::of(Stage::StaticSpectrum));
+
+/// The case and the answers of a file of the references.
+fn reference(name: &str) -> (Inputs, Value) {
+    let path = format!("{}/tests/reference/helical/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("the reference");
+    let all: Value = serde_json::from_str(&text).expect("JSON");
+    let case = all["case"].as_str().expect("a case");
+    let document = Document::parse(name, case).unwrap_or_else(|faults| panic!("{}", faults[0]));
+    let inputs = document.case.inputs().unwrap_or_else(|faults| panic!("{}", faults[0].cause));
+    (Inputs { method: Method::Static, ..inputs }, all["results"].clone())
+}
+
+/// The names of the references, and whether their slices are coupled.
+const REFERENCES: [(&str, bool); 8] = [
+    ("01-spur", false),
+    ("02-beta8", false),
+    ("03-iso-tr-6336-30-example-1", false),
+    ("04-beta20-relief-crowning", false),
+    ("05-spur-misaligned-crowned", false),
+    ("06-beta25-left-offset", false),
+    ("07-beta30-coupled", true),
+    ("08-beta33-rounded", true),
+];
+
+#[track_caller]
+fn close(name: &str, found: f64, expected: &Value, tolerance: f64) {
+    let expected = expected.as_f64().unwrap_or_else(|| panic!("{name} has no answer"));
+    let off = if expected == 0.0 { found.abs() } else { (found / expected - 1.0).abs() };
+    assert!(off <= tolerance, "{name}: {found:e} for {expected:e}, off by {off:.1e}");
+}
+
+#[test]
+fn geometry_agrees_to_1e_12() {
+    for (name, _) in REFERENCES {
+        let (inputs, answers) = reference(name);
+        let solution = solve(&inputs, Stages::of(Stage::Load)).expect(name);
+        let (geometry, answers) = (&solution.geometry, &answers["geometry"]);
+        let pairs = [
+            ("transverse_module", inputs.transverse_module()),
+            ("transverse_pressure_angle", inputs.transverse_pressure_angle()),
+            ("base_helix_angle", inputs.base_helix_angle()),
+            ("working_pressure_angle", geometry.working_pressure_angle),
+            ("centre_distance", geometry.centre_distance),
+            ("base_pitch", geometry.base_pitch),
+            ("path_start", geometry.start),
+            ("path_end", geometry.end),
+            ("common_face_width", inputs.common_width()),
+            ("transverse_contact_ratio", geometry.contact_ratio),
+            ("mesh_force", solution.mesh_force),
+        ];
+        for (key, found) in pairs {
+            close(&format!("{name}: {key}"), found, &answers[key], 1e-12);
+        }
+        for (at, circles) in [&geometry.driver, &geometry.driven].into_iter().enumerate() {
+            for (key, found) in [
+                ("reference_radius", circles.reference),
+                ("base_radius", circles.base),
+                ("tip_radius", circles.tip),
+                ("root_radius", circles.root),
+            ] {
+                close(&format!("{name}: {key}"), found, &answers[key][at], 1e-12);
+            }
+        }
+        if let Some(helix) = solution.helix {
+            close(name, helix.overlap_ratio, &answers["overlap_ratio"], 1e-12);
+            close(name, helix.axial_force.abs(), &answers["axial_force"], 1e-12);
+            close(name, helix.axial_pitch, &answers["axial_pitch"], 1e-12);
+            for (at, found) in helix.virtual_teeth.into_iter().enumerate() {
+                close(name, found, &answers["virtual_teeth"][at], 1e-12);
+            }
+        }
+    }
+}
+
+/// The load at rest with many slices: the answers have an error of about 1e-6 themselves.
+#[test]
+fn first_contact_and_loads_agree_with_an_independent_solution() {
+    for (name, is_coupled) in REFERENCES {
+        let (mut inputs, answers) = reference(name);
+        inputs.slices = Some(if is_coupled { 513 } else { 1025 });
+        let tolerance = if is_coupled { 1e-4 } else { 1e-5 };
+        let solution = solve(&inputs, STATIC).expect(name);
+        let load = solution.static_load.as_ref().expect(name);
+        let passage = &answers["passage"];
+        let within = |key: &str, found: f64, expected: &Value| {
+            close(&format!("{name}: {key}"), found, expected, tolerance);
+        };
+        within("peak force", load.peak_force, &passage["peak_force"]);
+        let spectrum = solution.static_spectrum.expect(name).expect(name).spectrum;
+        let te = &answers["cycle"]["transmission_error"];
+        close(&format!("{name}: TE"), spectrum.peak_to_peak, te, 3.0 * tolerance);
+        let Some(face) = &solution.face_load else {
+            within("first contact", load.first_contact_angle.unwrap(), &passage["first_contact_angle"]);
+            continue;
+        };
+        let cycle = solution.face_cycle.as_ref().expect(name);
+        within("first contact", face.first.path, &passage["first_transverse_place"]);
+        within("first z", face.first.z, &passage["first_z"]);
+        within("last z", face.last.z, &passage["last_z"]);
+        within("mean x", cycle.mean_displacement, &answers["cycle"]["x_mean"]);
+        for (peak, key) in cycle.peaks.iter().zip(["peak", "peak_before_E", "peak_after_B"]) {
+            match peak {
+                Some(peak) => within(key, peak.line_load, &answers[key]["line_load"]),
+                None => assert!(answers[key].is_null(), "{name}: {key}"),
+            }
+        }
+    }
+}
+
+fn helical() -> Inputs {
+    let mut inputs = standard_pair(23, 41, 3e-3);
+    for gear in [&mut inputs.driver, &mut inputs.driven] {
+        gear.face_width = 25e-3;
+    }
+    inputs.method = Method::Static;
+    inputs.drive = Drive::Torque(250.0);
+    inputs.base_pitch_deviation = 6e-6;
+    inputs.helix_angle = 18f64.to_radians();
+    inputs
+}
+
+fn values(solution: &Solution) -> [f64; 5] {
+    let load = solution.static_load.as_ref().expect("a load");
+    let spectrum = solution.static_spectrum.expect("a spectrum").expect("a spectrum").spectrum;
+    [
+        load.first_contact_angle.unwrap_or(0.0),
+        load.force_at_start,
+        load.peak_force,
+        load.transmission_error,
+        spectrum.peak_to_peak,
+    ]
+}
+
+/// Nothing jumps between a spur pair and one that is almost spur.
+#[test]
+fn a_small_helix_angle_or_misalignment_changes_nothing() {
+    let spur = Inputs { helix_angle: 0.0, ..helical() };
+    let expected = values(&solve(&spur, STATIC).expect("a spur pair"));
+    let almost = [
+        ("helix angle", Inputs { helix_angle: 1e-6f64.to_radians(), ..spur.clone() }),
+        ("misalignment", Inputs { misalignment: 1e-12, ..spur.clone() }),
+    ];
+    for (name, inputs) in almost {
+        let solution = solve(&inputs, STATIC).expect(name);
+        assert!(solution.face_load.is_some(), "{name} has no slices");
+        for (found, expected) in values(&solution).into_iter().zip(expected) {
+            let off = (found / expected - 1.0).abs();
+            assert!(off < 1e-6, "{name}: {found:e} for {expected:e}");
+        }
+    }
+}
+
+/// A pair of the other hand and with the opposite misalignment is the mirror image.
+#[test]
+fn the_other_hand_and_misalignment_mirror_the_load() {
+    let one = Inputs { misalignment: 7e-6, ..helical() };
+    let other = Inputs { misalignment: -7e-6, driver_hand: Hand::Left, ..helical() };
+    let [one, other] = [one, other].map(|inputs| solve(&inputs, STATIC).expect("a load"));
+    let [this, that] = [&one, &other].map(|solution| solution.face_load.as_ref().expect("slices"));
+    assert_eq!(this.first.z.to_bits(), (-that.first.z).to_bits());
+    for (one, other) in values(&one).into_iter().zip(values(&other)) {
+        assert!((one / other - 1.0).abs() < 1e-9, "{one:e} {other:e}");
+    }
+    let row = this.pattern.len() / 2;
+    let mirrored = that.pattern[row].iter().rev();
+    let most = this.peak.line_load;
+    for (one, other) in this.pattern[row].iter().zip(mirrored) {
+        assert!((one - other).abs() < 1e-6 * most, "{one:e} {other:e}");
+    }
+}
+
+#[test]
+fn a_corner_contact_is_found_and_relief_removes_it() {
+    let inputs = helical();
+    let wanted = STATIC.and(Stages::of(Stage::Clearing));
+    let solution = solve(&inputs, wanted).expect("a load");
+    assert_eq!(solution.outcome, Outcome::CornerContact);
+    let face = solution.face_load.as_ref().expect("slices");
+    assert!(face.before_start.is_some_and(|peak| peak.line_load < face.peak.line_load * 1.001));
+    let more = solution.clearing.expect("a relief").relief.expect("a relief");
+    let mut relieved = inputs;
+    relieved.driven.tip_relief += 1.001 * more;
+    let outcome = solve(&relieved, STATIC).expect("a load").outcome;
+    assert_eq!(outcome, Outcome::NoCornerContact);
+}
+
+#[test]
+fn what_slices_cannot_answer_is_refused_by_name() {
+    let code = |inputs: Inputs| solve(&inputs, STATIC).expect_err("a refusal").code();
+    let few = Inputs { slices: Some(3), ..helical() };
+    assert_eq!(code(few), "too-few-slices");
+    let mut short = helical();
+    (short.driver.addendum, short.driven.addendum) = (0.45, 0.45);
+    for gear in [&mut short.driver, &mut short.driven] {
+        gear.face_width = 2e-3;
+    }
+    assert_eq!(code(short), "total-contact-ratio-below-1");
+    let mut long = helical();
+    (long.driven.end_reliefs, long.driven.end_relief_length) = ([5e-6; 2], Some(15e-3));
+    assert_eq!(code(long), "end-reliefs-overlap");
+    assert_eq!(code(Inputs { method: Method::Paper, ..helical() }), "not-over-face");
+    let exact = Inputs { method: Method::Exact, ..helical() };
+    let exact = solve(&exact, Stages::CLOSED_FORM).expect("a place");
+    assert!(exact.position.is_some() && exact.impact.is_none());
+    assert_eq!(exact.withheld.map(|refusal| refusal.code()), Some("not-over-face"));
+}
