@@ -550,6 +550,7 @@ fn valid_text(field: usize) -> BoxedStrategy<String> {
     let known = &FIELDS[field];
     match known.kind {
         Kind::Text => "[^\\p{C}]{1,20}".boxed(),
+        Kind::List(_) => Just(known.example().to_owned()).boxed(),
         Kind::Count(from, to, _) => (from..=to).prop_map(|count| count.to_string()).boxed(),
         Kind::Choice(names, _) => prop::sample::select(names).prop_map(str::to_owned).boxed(),
         Kind::Number(_, range, _) => (0.0..=1.0)

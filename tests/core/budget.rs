@@ -63,7 +63,10 @@ fn attempt(random: &mut Random, number: u64) -> Case {
     let mut case = ordinary();
     let is_choice = |field: &usize| matches!(FIELDS[*field].kind, Kind::Choice(..));
     let (choices, mut others): (Vec<usize>, Vec<usize>) = (0..FIELDS.len())
-        .filter(|&field| !matches!(FIELDS[field].kind, Kind::Text))
+        .filter(|&field| {
+            let known = &FIELDS[field];
+            !matches!(known.kind, Kind::Text) && known.table() != "compliance"
+        })
         .partition(is_choice);
     for _ in 0..random.one_of(&MOVED).min(others.len()) {
         let at = random.even(0.0, others.len() as f64) as usize;

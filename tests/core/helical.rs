@@ -99,7 +99,11 @@ fn first_contact_and_loads_agree_with_an_independent_solution() {
         let te = &answers["cycle"]["transmission_error"];
         close(&format!("{name}: TE"), spectrum.peak_to_peak, te, 3.0 * tolerance);
         let Some(face) = &solution.face_load else {
-            within("first contact", load.first_contact_angle.unwrap(), &passage["first_contact_angle"]);
+            within(
+                "first contact",
+                load.first_contact_angle.unwrap(),
+                &passage["first_contact_angle"],
+            );
             continue;
         };
         let cycle = solution.face_cycle.as_ref().expect(name);

@@ -52,6 +52,7 @@ fn samples() -> Vec<Case> {
 fn others(field: &Field, index: usize, case: &Case) -> Vec<String> {
     match field.kind {
         Kind::Text => vec!["other words".to_owned()],
+        Kind::List(_) => vec!["0.1, 0.2".to_owned()],
         Kind::Choice(names, _) => names.iter().map(|name| (*name).to_owned()).collect(),
         Kind::Count(from, to, _) if case.effective(index).is_none_or(|now| now == "none") => {
             [from, to].map(|count| count.to_string()).into()

@@ -34,6 +34,7 @@ fn sound(field: usize) -> BoxedStrategy<String> {
     let known = &FIELDS[field];
     match known.kind {
         Kind::Text => prop_oneof![".{0,12}", select(&HOSTILE[..]).prop_map(str::to_owned)].boxed(),
+        Kind::List(_) => Just(known.example().to_owned()).boxed(),
         Kind::Choice(names, _) => select(names).prop_map(str::to_owned).boxed(),
         Kind::Count(from, to, _) => {
             let usual: u32 = known.example().parse().unwrap_or(from);
