@@ -12,7 +12,8 @@ use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, St
 use crate::numeric::decimal::significant;
 
 /// The stages of the verdict, apart from the relief; a method ignores those that it lacks.
-pub const STAGES: Stages = Stages::CLOSED_FORM.with(Stage::Static).with(Stage::Dynamic);
+pub const STAGES: Stages =
+    Stages::CLOSED_FORM.and(Stages::of(Stage::Static)).and(Stages::of(Stage::Dynamic));
 
 /// A summary of a case, sanitized for a terminal.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -91,13 +92,12 @@ fn text(case: &Case, key: &str) -> String {
 pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> String {
     let most = match solution.method {
         Method::Static => printed("static_peak_force", solution, system),
-        Method::Dynamic => printed("dynamic_peak_force", solution, system).map(|most| {
-            let ratio = times(solution, "dynamic_peak_force", "static_peak_force");
-            most + &ratio.map(|ratio| ratio + "the force at rest)").unwrap_or_default()
-        }),
+        Method::Dynamic => printed("dynamic_peak_force", solution, system),
         Method::Paper | Method::Exact | Method::Auto => None,
     };
-    let most = most.map(|most| format!("{most} on a tooth"));
+    let ratio = times(solution, "dynamic_peak_force", "static_peak_force");
+    let ratio = ratio.map(|ratio| ratio + "the force at rest)").unwrap_or_default();
+    let most = most.map(|most| format!("{most} on a tooth{ratio}"));
     if solution.outcome == Outcome::NoCornerContact {
         let why = without_contact_in_full(solution, system);
         let most = most.map(|most| format!("; up to {most}")).unwrap_or_default();
@@ -107,12 +107,12 @@ pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> St
     let angle = angle.and_then(|own| printed(own.key, solution, system));
     let angle = angle.map(|angle| format!(" {angle} before E")).unwrap_or_default();
     let tip = own("impact_force", solution).and_then(|own| {
-        let ratio = times(solution, own.key, "mesh_force")? + "the mesh force)";
-        Some(printed(own.key, solution, system)? + &ratio)
+        let ratio = times(solution, own.key, "mesh_force")?;
+        Some((printed(own.key, solution, system)?, ratio + "the mesh force)"))
     });
     let forces = match (tip, most) {
-        (Some(tip), Some(most)) => format!(": up to {tip} on the tip, {most}"),
-        (Some(tip), None) => format!(": impact force {tip}"),
+        (Some((tip, ratio)), Some(most)) => format!(": up to {tip} on the tip{ratio}, {most}"),
+        (Some((tip, ratio)), None) => format!(": impact force {tip}{ratio}"),
         _ => String::new(),
     };
     let relief = relief(solution, system, pending).map(|relief| format!("; {relief}"));
@@ -169,8 +169,8 @@ pub fn free_impact(
     system: System,
 ) -> Option<String> {
     let what = match governing.method.shares_load() {
-        true if is_deflection_given => "Estimate of a free impact with the given deflection",
-        true => "Estimate of a free impact",
+        true if is_deflection_given => "Free-impact estimate with the given deflection",
+        true => "Free-impact estimate",
         false => "Method exact",
     };
     let found = match exact.outcome {
@@ -289,12 +289,12 @@ mod tests {
                 47.4 um of tip relief on the driven gear prevents it."
         );
         assert!(verdict(&[("model.method", "static")]).starts_with(
-            "Corner contact 1.252 deg before E: up to 1466.2 N (0.96 times the mesh force) on the \
-                tip, 1524.3 N on a tooth; "
+            "Corner contact 1.252 deg before E: up to 1466.2 N on the tip (0.96 times the mesh \
+                force), 1524.3 N on a tooth; "
         ));
         assert!(verdict(&[("model.method", "dynamic")]).starts_with(
-            "Corner contact 1.279 deg before E: up to 1410.8 N (0.93 times the mesh force) on the \
-                tip, 2003.0 N (1.31 times the force at rest) on a tooth; "
+            "Corner contact 1.279 deg before E: up to 1410.8 N on the tip (0.93 times the mesh \
+                force), 2003.0 N on a tooth (1.31 times the force at rest); "
         ));
         let relieved = [("driven.tip_relief", "80 um"), ("model.method", "exact")];
         assert!(

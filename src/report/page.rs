@@ -291,7 +291,8 @@ fn inputs(cases: &[PageCase]) -> Table {
             || DEFINING.contains(&field.name()) && all.any(|(text, _)| text.is_some());
         let values = texts.iter().map(|texts| {
             let words = texts.iter().map(|(text, _)| text.as_deref().unwrap_or("–"));
-            let words: Vec<&str> = words.collect();
+            let mut words: Vec<&str> = words.collect();
+            words.dedup();
             let is_default = texts.iter().all(|(_, is_default)| *is_default);
             let text = words.join(" / ");
             if is_default { Cell::Default(text) } else { Cell::Text(text) }

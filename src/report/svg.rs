@@ -137,7 +137,7 @@ fn grid(text: &mut String, chart: &Chart, (across, up): (Span, Span)) {
         let _ = writeln!(text, "<path d=\"M{x:.1} {top}V{bottom}\" class=\"mark\"/>");
         if let Some(row) = (0..ends.len()).find(|&row| x - half > ends[row]) {
             ends[row] = x + half + LETTER;
-            let above = top - 5.0 - 15.0 * row as f64;
+            let above = top - 9.0 - 14.0 * row as f64;
             let _ = writeln!(
                 text,
                 "<text x=\"{x:.1}\" y=\"{above}\" text-anchor=\"middle\">{name}</text>"
@@ -310,7 +310,7 @@ mod tests {
         assert!(text.contains("a &lt; b") && text.contains("exact &amp; &lt;co&gt;"), "{text}");
         let row = |name: &str| text.lines().find(|line| line.contains(name)).unwrap();
         assert!(
-            row(">E</text>").contains("y=\"53\"") && row(">D</text>").contains("y=\"38\""),
+            row(">E</text>").contains("y=\"49\"") && row(">D</text>").contains("y=\"35\""),
             "{text}"
         );
         assert_eq!(text.matches("<polyline").count(), 1);

@@ -659,9 +659,9 @@ fn one_method_governs_and_the_others_follow_in_a_line() {
     };
     let page = solve(&[]);
     for line in [
-        "up to 1410.8 N (0.93 times the mesh force) on the tip, 2003.0 N (1.31 times the force at \
-            rest) on a tooth; 38.9 um of tip relief on the driven gear prevents it.",
-        "Estimate of a free impact with the given deflection: 2191.0 N, 1.366 deg before E.",
+        "up to 1410.8 N on the tip (0.93 times the mesh force), 2003.0 N on a tooth (1.31 times the \
+            force at rest); 38.9 um of tip relief on the driven gear prevents it.",
+        "Free-impact estimate with the given deflection: 2191.0 N, 1.366 deg before E.",
     ] {
         assert!(page.contains(line), "{line}: {page}");
     }

@@ -153,7 +153,7 @@ fn check(opened: &Opened, format: Format, out: &mut dyn Write) -> Done {
 /// the contact.
 fn solve_limited(case: &Case, inputs: &Inputs) -> Result<(Solution, Option<String>), Refusal> {
     let needed = stages(case);
-    match model::solve(inputs, needed.and(STAGES).with(Stage::Clearing)) {
+    match model::solve(inputs, needed.and(STAGES).and(Stages::of(Stage::Clearing))) {
         Ok(solution) => {
             let outcome = sentence(&solution, System::Metric, None);
             Ok((solution, Some(outcome)))

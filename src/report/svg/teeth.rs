@@ -12,7 +12,7 @@ use crate::model::{ContactState, Inputs, Solution};
 use crate::report::teeth::{Ink, Scene, Window, scale_bar};
 
 const WIDTH: f64 = 560.0;
-const HEIGHT: f64 = 380.0;
+const HEIGHT: f64 = 388.0;
 /// Left, top, width and height of the window.
 const WINDOW: (f64, f64, f64, f64) = (10.0, 34.0, 540.0, 296.0);
 /// Additional height of the window, relative to the length of the path of contact.
