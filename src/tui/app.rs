@@ -330,11 +330,7 @@ impl App {
             inputs: &tab.inputs_so_far,
             problems: &tab.problems,
             refused: tab.refused_row(),
-            solution: tab
-                .answer
-                .as_ref()
-                .filter(|_| !tab.is_stale())
-                .and_then(|answer| answer.of(answer.active)),
+            solution: tab.present(),
             state: &tab.form,
             is_editing: self.has_line(),
             ending: self.ending(),
@@ -390,12 +386,9 @@ impl App {
     #[must_use]
     pub(crate) fn study(&self) -> StudyPane<'_> {
         let tab = &self.tab;
-        let answer = tab.answer.as_ref().filter(|_| !tab.is_stale());
-        let shown = tab.study.shown.as_ref();
-        let present = shown
-            .and_then(StudyResults::quantity)
-            .zip(answer)
-            .and_then(|(quantity, answer)| report::value(quantity, answer.of(answer.active)?));
+        let quantity = tab.study.shown.as_ref().and_then(StudyResults::quantity);
+        let present = quantity.zip(tab.present());
+        let present = present.and_then(|(quantity, solution)| report::value(quantity, solution));
         StudyPane {
             state: &self.study,
             study: &tab.study,
@@ -434,7 +427,7 @@ impl App {
         let answer = self.tab.answer.as_ref()?;
         Some(Picture {
             inputs: &answer.inputs,
-            solution: answer.of(answer.active)?,
+            solution: self.tab.solution()?,
             cursor: self.cursor,
             view: &self.teeth,
             look: self.look,

@@ -11,7 +11,7 @@ use super::session::save::{Access, OpenCase};
 use super::solver::{Answer, Values, Variants};
 use super::study::Study;
 use crate::case::{Case, Document, FIELDS, Limit, Problem, Spread, Variant, fields};
-use crate::model::{Inputs, Refusal, Stages};
+use crate::model::{Inputs, Refusal, Solution, Stages};
 
 /// An open case.
 #[derive(Debug, Clone)]
@@ -164,6 +164,16 @@ impl Tab {
     /// Whether the visible results belong to an earlier state of the form.
     pub(crate) fn shows_last_valid(&self) -> bool {
         self.is_stale() && self.answer.is_some()
+    }
+
+    /// The shown results of the active method.
+    pub(crate) fn solution(&self) -> Option<&Solution> {
+        self.answer.as_ref().and_then(|answer| answer.of(answer.active))
+    }
+
+    /// The results of the active method, if they are those of the form.
+    pub(crate) fn present(&self) -> Option<&Solution> {
+        self.solution().filter(|_| !self.is_stale())
     }
 
     /// The row that the fix of the model's refusal names first; of two fields that exclude each

@@ -227,8 +227,7 @@ fn material(app: &App, field: &Field) -> Option<String> {
 
 fn about_limit(app: &App, limit: &Limit) -> String {
     let (tab, name) = (&app.tab, rows::label(&app.tab.case, app.tab.form.focus));
-    let answer = tab.answer.as_ref().filter(|_| !tab.is_stale() && !limit.text.is_empty());
-    let solution = answer.and_then(|answer| answer.of(answer.active));
+    let solution = tab.present().filter(|_| !limit.text.is_empty());
     let verdicts = solution.map_or_else(Vec::new, |solution| verdicts(&tab.case, solution));
     let verdict = verdicts.iter().find(|verdict| verdict.limit.quantity == limit.quantity);
     let sentence = verdict.map(|verdict| {

@@ -142,9 +142,11 @@ pub(super) fn set(app: &mut App, field: usize, name: &str) {
     checked(app);
 }
 
-/// The end of the message about an edit that replaces the case of the form.
-pub(super) fn undone_by(app: &App, case: &Case) -> &'static str {
-    if *case == app.tab.case { ", unchanged" } else { "; Ctrl-Z undoes" }
+/// Replaces the case of the form as one edit, and says what it did.
+pub(super) fn replace_saying(app: &mut App, case: Case, words: &str) {
+    let outcome = if case == app.tab.case { ", unchanged" } else { "; Ctrl-Z undoes" };
+    replace(app, case);
+    app.say(format!("{words}{outcome}"));
 }
 
 /// Replaces the case of the form as one edit.
@@ -268,9 +270,7 @@ pub(super) fn set_spread(app: &mut App, text: &str) {
     if let Err(problem) = case.apply(&key, Some(text).filter(|text| *text != "none")) {
         return app.complain(problem.for_form().to_string());
     }
-    let outcome = undone_by(app, &case);
-    replace(app, case);
-    app.say(format!("spread of {}: {text}{outcome}", FIELDS[field].full_label()));
+    replace_saying(app, case, &format!("spread of {}: {text}", FIELDS[field].full_label()));
 }
 
 /// Opens the dialog and starts the search with the default demand.
@@ -286,17 +286,21 @@ pub(super) fn ask_relief(app: &mut App) {
 /// Writes the relief into the form as one edit.
 fn take_relief(app: &mut App, values: &[(&'static str, String)]) {
     app.prompts.pop();
-    let mut case = app.tab.case.clone();
-    for (key, text) in values {
-        if let Err(problem) = case.set(key, text) {
-            return app.complain(problem.to_string());
-        }
-    }
-    replace(app, case);
     let amounts = values.iter().filter(|(key, _)| key.ends_with(".tip_relief"));
     let words: Vec<String> =
         amounts.map(|(key, text)| format!("{} {text}", key.replace(['.', '_'], " "))).collect();
-    app.say(format!("{}; Ctrl-Z undoes", words.join(", ")));
+    set_values(app, values, &words.join(", "));
+}
+
+/// Writes values of fields into the form as one edit, and says what it did.
+pub(super) fn set_values(app: &mut App, values: &[(&'static str, String)], words: &str) {
+    let mut case = app.tab.case.clone();
+    for (key, text) in values {
+        if let Err(problem) = case.set(key, text) {
+            return app.complain(problem.for_form().to_string());
+        }
+    }
+    replace_saying(app, case, words);
 }
 
 // Reports the effect of a digit, because outside a field the same digit shows a pane.
@@ -406,11 +410,7 @@ fn assignments(app: &App, material: &Material) -> String {
 
 // The printed value of the quantity, rounded up so that the limit is met.
 fn beginning_of_limit(app: &App, quantity: &'static Quantity) -> String {
-    let value = app
-        .tab
-        .answer
-        .as_ref()
-        .and_then(|answer| report::value(quantity, answer.of(answer.active)?));
+    let value = app.tab.solution().and_then(|solution| report::value(quantity, solution));
     let Some(value) = value else {
         return String::new();
     };

@@ -209,11 +209,7 @@ pub(super) fn copy_value(app: &mut App) {
     let Some(quantity) = app.results().marked() else {
         return app.complain("there are no results to copy");
     };
-    let value = app
-        .tab
-        .answer
-        .as_ref()
-        .and_then(|answer| report::value(quantity, answer.of(answer.active)?));
+    let value = app.tab.solution().and_then(|solution| report::value(quantity, solution));
     let text = value
         .map(|value| report::shown_in(quantity, value, app.settings.units).to_string())
         .unwrap_or_default();
@@ -223,9 +219,7 @@ pub(super) fn copy_value(app: &mut App) {
 /// Requests the report of the active method as Markdown: title, verdict, inputs, and results with
 /// their units.
 pub(super) fn copy_results(app: &mut App) {
-    let answer = app.tab.answer.as_ref().filter(|_| !app.tab.is_stale());
-    let solved = answer.and_then(|answer| Some((answer, answer.of(answer.active)?)));
-    let Some((answer, solution)) = solved else {
+    let Some((answer, solution)) = app.tab.answer.as_ref().zip(app.tab.present()) else {
         return app.complain("there are no valid results to copy");
     };
     let report = Report::of(

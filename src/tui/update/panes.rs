@@ -93,8 +93,7 @@ pub(super) fn explain(app: &mut App) {
             "these are the last valid results: fix the fields marked with ! to explain a result",
         );
     };
-    let solution = app.tab.answer.as_ref().and_then(|answer| answer.of(answer.active));
-    let value = solution.and_then(|solution| report::value(quantity, solution));
+    let value = app.tab.solution().and_then(|solution| report::value(quantity, solution));
     let value = value.and_then(|value| {
         let [own, metric] = [app.settings.units, System::Metric]
             .map(|system| report::shown_in(quantity, value, system));

@@ -336,20 +336,14 @@ pub(super) fn take(app: &mut App) {
     if app.tab.study.cursor.is_none() {
         return app.say("the cursor is at the present value: move it to another one");
     }
-    let mut case = app.tab.case.clone();
-    for (field, text) in &values {
-        if let Err(problem) = case.set(FIELDS[*field].key, text) {
-            return app.complain(problem.for_form().to_string());
-        }
-    }
     let worded: Vec<String> = values
         .iter()
         .map(|(field, text)| format!("{} = {text}", FIELDS[*field].full_label()))
         .collect();
     app.tab.study.cursor = None;
-    let outcome = edit::undone_by(app, &case);
-    edit::replace(app, case);
-    app.say(format!("{}{outcome}", worded.join(", ")));
+    let values: Vec<_> =
+        values.into_iter().map(|(field, text)| (FIELDS[field].key, text)).collect();
+    edit::set_values(app, &values, &worded.join(", "));
 }
 
 /// What `tipstrike sweep` or `tipstrike tolerance` writes for the shown study, or its picture.
@@ -659,9 +653,7 @@ pub(super) fn take_setting(app: &mut App) {
     };
     let mut case = app.tab.case.clone();
     setting.apply(&mut case);
-    let outcome = edit::undone_by(app, &case);
-    edit::replace(app, case);
-    app.say(format!("method {setting}{outcome}"));
+    edit::replace_saying(app, case, &format!("method {setting}"));
 }
 
 fn traded_of(app: &mut App, tab: usize) -> Option<&mut Traded> {
@@ -832,9 +824,7 @@ fn recall(app: &mut App, name: &str) {
         return;
     };
     let case = app.tab.case.with(&variant);
-    let outcome = edit::undone_by(app, &case);
-    edit::replace(app, case);
-    app.say(format!("the form shows variant {name}{outcome}"));
+    edit::replace_saying(app, case, &format!("the form shows variant {name}"));
 }
 
 fn variant_inputs(case: &Case, variant: &Variant) -> Result<Inputs, String> {
