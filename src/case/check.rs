@@ -29,7 +29,7 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
             || problems.iter().any(|problem| problem.field == key)
     };
     let rules = rules(&inputs).filter(|(keys, _)| !keys.iter().any(|key| is_wrong(key)));
-    let rules: Vec<Problem> = rules.map(|(_, problem)| problem).collect();
+    let rules: Vec<Problem> = rules.map(|(_, problem)| problem.at_given(case)).collect();
     problems.extend(rules);
     problems.sort_by_key(|problem| index_of(&problem.field));
     // Valid limits are not read again.
@@ -449,7 +449,10 @@ impl Height<'_> {
                 "the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - \
                     hf* + x)"
             );
-            let fix = format!("write a radius (not a diameter) below {root} mm");
+            let fix = format!(
+                "write a radius (not a diameter) below {root} mm, or a diameter below {} mm",
+                2.0 * root
+            );
             Problem::new(key, cause, fix).coded("bore-through-root")
         })
     }

@@ -7,6 +7,11 @@ pub fn shortest(value: f64) -> String {
     if is_plain { format!("{value}") } else { format!("{value:e}") }
 }
 
+/// The number with 15 digits, so that a computed 0.5131 prints without rounding errors.
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.14e}").parse().unwrap_or(value)
+}
+
 /// A number with `digits` significant digits: plain from 1e-3 to 1e6, otherwise with an exponent.
 /// Never NaN or minus zero.
 pub fn significant(value: f64, digits: usize) -> String {

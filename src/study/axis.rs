@@ -4,7 +4,7 @@ use crate::case::fields::{AUTO, FIELDS, Field, Kind, Value, index_of};
 use crate::case::units::{self, Dimension};
 use crate::case::{Problem, field_value, unknown_key};
 use crate::model::Inputs;
-use crate::numeric::decimal::shortest;
+use crate::numeric::decimal::{rounded, shortest};
 
 /// Default number of points of a range.
 pub const USUAL_POINTS: usize = 101;
@@ -221,11 +221,6 @@ impl AxisRange {
 
 /// The sign between the ends of a range.
 const TO: &str = "..";
-
-/// Rounds to 15 digits, so that steps of 0.1 print without rounding errors.
-fn rounded(number: f64) -> f64 {
-    format!("{number:.14e}").parse().unwrap_or(number)
-}
 
 /// A number and its unit, in the syntax of a case file.
 pub fn with_unit(number: &str, unit: &str) -> String {

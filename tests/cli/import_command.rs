@@ -60,7 +60,7 @@ fn units_signs_and_load_cases_of_a_model_become_si_values() {
         // In the model, gear_2 is the driver.
         ("driver.teeth", 20.0),
         ("driven.teeth", 40.0),
-        ("driver.bore_radius", 0.02),
+        ("driver.bore_diameter", 0.04),
         ("driver.tip_diameter", 0.11),
         ("driver.root_diameter", 0.0875),
         ("driver.young", 205e9),

@@ -295,6 +295,24 @@ macro_rules! gear {
                 |inputs, value| inputs.$gear.bore_radius = value,
                 "Radius of the bore: a radius, not a diameter."
             )
+            .instead_of(concat!($table, ".bore_diameter"), |inputs| Some(inputs.$gear.bore_radius))
+            .reasons(&BORE),
+            number!(
+                concat!($table, ".bore_diameter"),
+                concat!("dh", $i),
+                "bore diameter",
+                Length,
+                0.0,
+                50000.0,
+                "mm",
+                Without("from the radius"),
+                |inputs, value| inputs.$gear.bore_radius = value / 2.0,
+                "Bore diameter from the drawing; replaces the bore radius."
+            )
+            .with_example("40 mm")
+            .instead_of(concat!($table, ".bore_radius"), |inputs| {
+                Some(2.0 * inputs.$gear.bore_radius)
+            })
             .reasons(&BORE),
             number!(
                 concat!($table, ".young"),

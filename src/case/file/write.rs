@@ -322,9 +322,26 @@ fn take_out(text: &mut String, entry: &Entry) {
     text.replace_range(cut, "");
 }
 
+/// The line of the table that has the example of a field of the case as a comment, as in a new file.
+fn example_of(text: &str, layout: &Layout, new: &Written) -> Option<Range<usize>> {
+    let comment = format!("# {}", check::assignment(&FIELDS[index_of(&new.key())?]));
+    let header = layout.headers().find(|header| header.path == new.table)?.span.end;
+    let next = layout.headers().map(|header| header.start).find(|&start| start > header);
+    let lines = text[header..next.unwrap_or(text.len())].split_inclusive('\n');
+    let starts =
+        lines.scan(header, |at, line| Some((std::mem::replace(at, *at + line.len()), line)));
+    let is_inside =
+        |at: usize| layout.values().any(|own| (own.span.start..own.span.end).contains(&at));
+    let found = starts.into_iter().find(|(at, line)| line.trim_end() == comment && !is_inside(*at));
+    found.map(|(at, _)| at..at + comment.len())
+}
+
 /// Inserts an entry after the last entry of its table. A new table is at the end of the text.
 fn insert(text: &mut String, layout: &Layout, new: &Written) {
     let table = new.table.as_slice();
+    if let Some(example) = example_of(text, layout, new) {
+        return text.replace_range(example, &new.line());
+    }
     let shared = |path: &[String]| path.iter().zip(table).take_while(|(a, b)| a == b).count();
     // The number of shared keys, and whether the place is after an entry, not in an empty table. At
     // the top level, other entries can be of other tables.

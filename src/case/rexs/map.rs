@@ -4,6 +4,7 @@ use super::model::{Index, Node};
 use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::{cut, quoted};
 use crate::case::units::{self, Dimension};
+use crate::numeric::decimal::rounded;
 use Place::{EitherGear, Flanks, Gear, Linked, Relief, Stage};
 
 /// A value for a field, as written in the case file.
@@ -103,7 +104,6 @@ const MATERIAL: Place = Linked("material");
 const RACK: Place = Linked("rack_shaped_tool");
 const TIP_RELIEF: Place = Relief("tip_relief");
 const ROOT_RELIEF: Place = Relief("root_relief");
-const HALF: Convert = |_, _, diameter| Some(diameter.derived(0.5, "mm", "half of ", ""));
 /// The unit of a text.
 const TEXT: &str = "text";
 
@@ -119,7 +119,7 @@ const ROWS: &[Row] = &[
         from(Flanks, "addendum_modification_coefficient_after_finishing", ""),
     ]),
     row("face_width", Usual, &[from(Gear, "face_width", "mm")]),
-    row("bore_radius", Usual, &[from(Gear, "inner_diameter", "mm").by(HALF)]),
+    row("bore_diameter", Usual, &[from(Gear, "inner_diameter", "mm")]),
     row("young", Usual, &[from(MATERIAL, "elastic_modulus", "MPa")]),
     row("poisson", Usual, &[from(MATERIAL, "poisson_ratio", "")]),
     row("density", Usual, &[from(MATERIAL, "density", "kg/dm3")]),
@@ -478,7 +478,8 @@ impl<'m> Pair<'m> {
 /// The profile shift coefficient from the shift.
 fn coefficient(pair: &Pair, _: usize, shift: &Reading) -> Option<Reading> {
     let module = pair.shared(MODULE).ok()??;
-    Some(shift.derived(1.0 / module.value, "", "the module and ", ""))
+    let own = shift.derived(1.0 / module.value, "", "");
+    Some(Reading { source: format!("the module and {}", own.source), ..own })
 }
 
 /// The length of a tip relief along the path of contact from its start diameter.
@@ -498,13 +499,14 @@ fn length_from_diameter(pair: &Pair, gear: usize, start: &Reading) -> Option<Rea
 }
 
 impl Reading {
-    /// The reading times a factor, with words around its source.
-    fn derived(&self, factor: f64, unit: &str, before: &str, after: &str) -> Reading {
+    /// The reading times a factor, with words after its source.
+    fn derived(&self, factor: f64, unit: &str, after: &str) -> Reading {
         let value = self.value * factor;
+        let number = rounded(value / units::factor(unit).unwrap_or(1.0));
         Reading {
-            text: units::text(value, unit),
+            text: format!("{} {unit}", units::text(number, "")).trim_end().to_owned(),
             value,
-            source: format!("{before}{} = {}{after}", self.source, self.text),
+            source: format!("{} = {}{after}", self.source, self.text),
         }
     }
 
@@ -515,7 +517,7 @@ impl Reading {
         if (factor - 1.0).abs() < f64::EPSILON {
             return Reading { text, ..own };
         }
-        own.derived(factor, unit, "", " and the ratio")
+        own.derived(factor, unit, " and the ratio")
     }
 }
 
