@@ -188,8 +188,8 @@ pub(super) const TABLE: &[Quantity] = &[
         ),
         ..AT_REST
     },
-    figures::STATIC_PEAK,
-    figures::STATIC_CORNER,
+    figures::STATIC[0],
+    figures::STATIC[1],
     Quantity {
         key: "static_transmission_error",
         symbol: "TE_st",

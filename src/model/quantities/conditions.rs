@@ -1,7 +1,7 @@
 //! Conditions on the inputs that select formulas and texts of rows.
 
 use crate::model::deviation::Origin;
-use crate::model::inputs::{Combination, Drive, InertiaModel, Inputs, Method};
+use crate::model::inputs::{Combination, Drive, Gear, Inputs, Method};
 
 /// Always true.
 pub const fn always(_: &Inputs) -> bool {
@@ -83,42 +83,22 @@ pub fn any_coarse(inputs: &Inputs) -> bool {
     !inputs.counts_relief()
 }
 
-/// The driver's flank tolerance class gives its base pitch deviation.
-pub fn driver_graded(inputs: &Inputs) -> bool {
-    inputs.base_pitch_of(&inputs.driver).1 == Origin::Grade
+/// The gears of a pair: driver 0, driven gear 1.
+fn gear<const GEAR: usize>(inputs: &Inputs) -> &Gear {
+    [&inputs.driver, &inputs.driven][GEAR]
 }
 
-/// The case gives the driver's own base pitch deviation.
-pub fn driver_pitch_given(inputs: &Inputs) -> bool {
-    inputs.driver.base_pitch.is_some()
+/// The flank tolerance class of the gear gives its base pitch deviation.
+pub fn graded<const GEAR: usize>(inputs: &Inputs) -> bool {
+    inputs.base_pitch_of(gear::<GEAR>(inputs)).1 == Origin::Grade
 }
 
-/// The case gives the driver's moment of inertia.
-pub fn driver_inertia_given(inputs: &Inputs) -> bool {
-    inputs.driver.inertia.is_some()
+/// The case gives the own base pitch deviation of the gear.
+pub fn pitch_given<const GEAR: usize>(inputs: &Inputs) -> bool {
+    gear::<GEAR>(inputs).base_pitch.is_some()
 }
 
-/// The driver's moment of inertia comes from its outline.
-pub fn driver_outline(inputs: &Inputs) -> bool {
-    !driver_inertia_given(inputs) && inputs.inertia_model() == InertiaModel::Outline
-}
-
-/// The driven gear's flank tolerance class gives its base pitch deviation.
-pub fn driven_graded(inputs: &Inputs) -> bool {
-    inputs.base_pitch_of(&inputs.driven).1 == Origin::Grade
-}
-
-/// The case gives the driven gear's own base pitch deviation.
-pub fn driven_pitch_given(inputs: &Inputs) -> bool {
-    inputs.driven.base_pitch.is_some()
-}
-
-/// The case gives the driven gear's moment of inertia.
-pub fn driven_inertia_given(inputs: &Inputs) -> bool {
-    inputs.driven.inertia.is_some()
-}
-
-/// The driven gear's moment of inertia comes from its outline.
-pub fn driven_outline(inputs: &Inputs) -> bool {
-    !driven_inertia_given(inputs) && inputs.inertia_model() == InertiaModel::Outline
+/// The case gives the moment of inertia of the gear.
+pub fn inertia_given<const GEAR: usize>(inputs: &Inputs) -> bool {
+    gear::<GEAR>(inputs).inertia.is_some()
 }

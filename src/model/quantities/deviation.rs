@@ -1,8 +1,8 @@
 //! Rows of the deviations that make a tooth early, and the steps of the deflection.
 
 use super::conditions::{
-    always, any_base_pitch, at_rest, deflection_used, driven_graded, driven_pitch_given,
-    driver_graded, driver_pitch_given, in_motion, paper, shared_load,
+    always, any_base_pitch, at_rest, deflection_used, graded, in_motion, paper, pitch_given,
+    shared_load,
 };
 use super::{PLAIN, Quantity, Variant, checks};
 use crate::model::Context;
@@ -307,10 +307,10 @@ fn contact_ahead(k: &Context) -> Option<f64> {
     teeth.spring(&place).ok()?.compliance(k.solution.mesh_force).ok()
 }
 
-/// The tolerance and the deviation of a gear: its number, its member of the inputs, its name, and the
-/// conditions and the key of its own deviation.
+/// The tolerance and the deviation of a gear: its place and number, its member of the inputs, its
+/// name, and the key of its own deviation.
 macro_rules! pitches {
-    ($n:literal, $gear:ident, $of:literal, $name:literal, $given:ident, $graded:ident, $key:literal) => {
+    ($at:literal, $n:literal, $gear:ident, $of:literal, $name:literal, $key:literal) => {
         [
             step(
                 concat!("f_pT", $n),
@@ -328,8 +328,8 @@ macro_rules! pitches {
                 concat!("base pitch deviation of the ", $name),
                 "um",
                 Cases(&[
-                    ($given, Given($key)),
-                    ($graded, Text(concat!("f_pT", $n, " cos α"))),
+                    (pitch_given::<$at>, Given($key)),
+                    (graded::<$at>, Text(concat!("f_pT", $n, " cos α"))),
                     (always, Text("f_pb")),
                 ]),
                 |k| Some(k.inputs.base_pitch_of(&k.inputs.$gear).0),
@@ -338,24 +338,9 @@ macro_rules! pitches {
     };
 }
 
-const DRIVER: [Step; 2] = pitches!(
-    "1",
-    driver,
-    "driver's",
-    "driver",
-    driver_pitch_given,
-    driver_graded,
-    "driver.base_pitch"
-);
-const DRIVEN: [Step; 2] = pitches!(
-    "2",
-    driven,
-    "driven gear's",
-    "driven gear",
-    driven_pitch_given,
-    driven_graded,
-    "driven.base_pitch"
-);
+const DRIVER: [Step; 2] = pitches!(0, "1", driver, "driver's", "driver", "driver.base_pitch");
+const DRIVEN: [Step; 2] =
+    pitches!(1, "2", driven, "driven gear's", "driven gear", "driven.base_pitch");
 
 /// The compliance of a pair farther ahead.
 macro_rules! ahead {

@@ -1,7 +1,7 @@
 //! Rows of the figures of ISO 21771 and ISO 6336-1, with their steps.
 
 use super::conditions::{always, any_class, any_coarse, driver_larger};
-use super::{PLAIN, Quantity, checks};
+use super::{Need, PLAIN, Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{self, Figures};
 use crate::model::explanation::Formula::{Cases, Difference, Made, Text, Words};
@@ -75,65 +75,46 @@ pub(super) const PRESSURE: Quantity = Quantity {
     ..PLAIN
 };
 
-/// The row of the greatest pressure of a method: key, symbol, label, stage, member of the solution,
-/// and whether it is at the corner.
-macro_rules! peak {
-    ($key:literal, $symbol:literal, $label:literal, $stage:ident, $load:ident, $corner:literal, $meaning:literal) => {
-        Quantity {
-            key: $key,
-            symbol: $symbol,
-            label: $label,
-            stage: Stage::$stage,
-            value: |s| s.greatest_pressure(&s.$load.as_ref()?.stations, $corner),
-            meaning: $meaning,
-            formula: Words(STATIONS),
-            ..PRESSURE
-        }
+/// The rows of the greatest pressures of a method, on the line of action and at the corner: how keys,
+/// symbols, labels and sentences begin or end, the stage, and the member of the solution.
+macro_rules! peaks {
+    ($method:literal, $symbol:literal, $when:literal, $stage:ident, $load:ident) => {
+        [
+            Quantity {
+                key: concat!($method, "_peak_pressure"),
+                symbol: concat!($symbol, ",max"),
+                label: concat!($method, ": Hertz pressure"),
+                stage: Stage::$stage,
+                value: |s| s.greatest_pressure(&s.$load.as_ref()?.stations, false),
+                meaning: concat!(
+                    "The greatest Hertz pressure of the incoming tooth from E to B ",
+                    $when,
+                    "."
+                ),
+                formula: Words(STATIONS),
+                ..PRESSURE
+            },
+            Quantity {
+                key: concat!($method, "_corner_pressure"),
+                symbol: concat!($symbol, ",S"),
+                label: concat!($method, ": corner pressure"),
+                stage: Stage::$stage,
+                value: |s| s.greatest_pressure(&s.$load.as_ref()?.stations, true),
+                meaning: concat!(
+                    "The greatest Hertz pressure of a rounded tip edge before E or after B ",
+                    $when,
+                    "."
+                ),
+                formula: Words(STATIONS),
+                needs: Need::TipRadius,
+                ..PRESSURE
+            },
+        ]
     };
 }
 
-pub(super) const STATIC_PEAK: Quantity = peak!(
-    "static_peak_pressure",
-    "p_st,max",
-    "static: Hertz pressure",
-    Static,
-    static_load,
-    false,
-    "The greatest Hertz pressure of the incoming tooth at rest from E to B."
-);
-pub(super) const STATIC_CORNER: Quantity = Quantity {
-    needs: super::Need::TipRadius,
-    ..peak!(
-        "static_corner_pressure",
-        "p_st,S",
-        "static: corner pressure",
-        Static,
-        static_load,
-        true,
-        "The greatest Hertz pressure of a rounded tip edge at rest, before E or after B."
-    )
-};
-pub(super) const DYNAMIC_PEAK: Quantity = peak!(
-    "dynamic_peak_pressure",
-    "p_d,max",
-    "dynamic: Hertz pressure",
-    Dynamic,
-    dynamic,
-    false,
-    "The greatest Hertz pressure of the incoming tooth in motion from E to B."
-);
-pub(super) const DYNAMIC_CORNER: Quantity = Quantity {
-    needs: super::Need::TipRadius,
-    ..peak!(
-        "dynamic_corner_pressure",
-        "p_d,S",
-        "dynamic: corner pressure",
-        Dynamic,
-        dynamic,
-        true,
-        "The greatest Hertz pressure of a rounded tip edge in motion, before E or after B."
-    )
-};
+pub(super) const STATIC: [Quantity; 2] = peaks!("static", "p_st", "at rest", Static, static_load);
+pub(super) const DYNAMIC: [Quantity; 2] = peaks!("dynamic", "p_d", "in motion", Dynamic, dynamic);
 
 /// The rows of a gear: its place, its number, key and name, the other number and name, the distances
 /// from its tangent point to the ends of its active flank, tip first, and its specific sliding at E and

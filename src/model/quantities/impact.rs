@@ -1,8 +1,6 @@
 //! Rows of the impact: force, energy and duration, and the terms of the force, with their steps.
 
-use super::conditions::{
-    always, driven_inertia_given, driven_outline, driver_inertia_given, driver_outline, paper,
-};
+use super::conditions::{always, inertia_given, paper};
 use super::figures::PRESSURE;
 use super::{Need, PLAIN, Quantity, Variant, checks};
 use crate::model;
@@ -10,6 +8,7 @@ use crate::model::Stage::{Band, Impact, Masses};
 use crate::model::explanation::Formula::{Cases, Given, Made, Text, Words};
 use crate::model::explanation::{Context, Step, step};
 use crate::model::impact::{HERTZ_PREFACTOR, StiffnessModels};
+use crate::model::inputs::InertiaModel;
 use crate::model::{Inputs, Stages};
 
 const SPRING: &str = "The effective mass strikes the pair at D as a mass strikes a spring, without \
@@ -107,16 +106,19 @@ macro_rules! spread {
     };
 }
 
-/// The row of a moment of inertia.
+/// The row of a moment of inertia: key, symbol, place and name of the gear, and its field.
 macro_rules! inertia {
-    ($key:literal, $symbol:literal, $label:literal, $gear:literal, $name:literal, $given:ident, $field:literal) => {
+    ($key:literal, $symbol:literal, $gear:literal, $name:literal, $field:literal) => {
         Quantity {
             key: $key,
             symbol: $symbol,
-            label: $label,
+            label: concat!("inertia of ", $name),
             value: |s| Some(s.kept.masses.inertias[$gear].moment),
             meaning: concat!("The moment of inertia of the ", $name, " about its axis."),
-            formula: Cases(&[($given, Given($field)), (always, Made(|k| inertia(k, $gear)))]),
+            formula: Cases(&[
+                (inertia_given::<$gear>, Given($field)),
+                (always, Made(|k| inertia(k, $gear))),
+            ]),
             ..INERTIA
         }
     };
@@ -231,24 +233,8 @@ pub(super) const TABLE: &[Quantity] = &[
         checks: &[checks::within_approach, checks::teeth],
         ..DURATION
     },
-    inertia!(
-        "inertia_driver",
-        "J_1",
-        "inertia of driver",
-        0,
-        "driver",
-        driver_inertia_given,
-        "driver.inertia"
-    ),
-    inertia!(
-        "inertia_driven",
-        "J_2",
-        "inertia of driven gear",
-        1,
-        "driven gear",
-        driven_inertia_given,
-        "driven.inertia"
-    ),
+    inertia!("inertia_driver", "J_1", 0, "driver", "driver.inertia"),
+    inertia!("inertia_driven", "J_2", 1, "driven gear", "driven.inertia"),
     Quantity {
         key: "reduced_mass",
         symbol: "m_red",
@@ -377,7 +363,7 @@ pub fn spread_force(inputs: &Inputs, models: &StiffnessModels) -> Option<f64> {
 /// Formula of the moment of inertia of a gear without a given inertia.
 fn inertia(k: &Context, gear: usize) -> String {
     let n = gear + 1;
-    let is_outline = [driver_outline, driven_outline][gear](k.inputs);
+    let is_outline = k.inputs.inertia_model() == InertiaModel::Outline;
     if is_outline && !k.solution.kept.masses.inertias[gear].is_fallback {
         format!("ρ{n} b{n} I_p{n}")
     } else {

@@ -124,8 +124,8 @@ pub(super) const TABLE: &[Quantity] = &[
         )],
         ..IN_MOTION
     },
-    figures::DYNAMIC_PEAK,
-    figures::DYNAMIC_CORNER,
+    figures::DYNAMIC[0],
+    figures::DYNAMIC[1],
     Quantity {
         key: "dynamic_impact_duration",
         symbol: "T_d",

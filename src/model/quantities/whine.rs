@@ -40,11 +40,11 @@ const STEADY_MOTION: Quantity = Quantity {
     ..PLAIN
 };
 
-/// A harmonic at rest.
+/// A result of the transmission error at rest.
 const STATIC: Quantity = Quantity {
     unit: "m",
     shown: "um",
-    digits: 4,
+    digits: 5,
     stage: StaticSpectrum,
     source: SPECTRUM,
     assumptions: AT_REST,
@@ -52,93 +52,100 @@ const STATIC: Quantity = Quantity {
     ..PLAIN
 };
 
-/// The row of a harmonic of the static transmission error: its order, the order in words, and its
+/// The rows of a harmonic at rest and in the steady motion: its order, the order in words, and its
 /// frequency.
-macro_rules! at_rest {
+macro_rules! harmonic {
     ($order:literal, $word:literal, $frequency:literal) => {
-        Quantity {
-            key: concat!("static_te_harmonic_", $order),
-            symbol: concat!("TE_st,", $order),
-            label: concat!("static: TE harmonic ", $order),
-            equation: concat!("2 |c_", $order, "|"),
-            value: |s| Some(at_rest(s)?.spectrum.amplitudes[$order - 1]),
-            meaning: concat!(
-                "The amplitude of the ",
+        [
+            harmonic!(
+                $order,
                 $word,
-                " mesh harmonic of the transmission error at rest, at ",
                 $frequency,
-                "."
+                STATIC,
+                at_rest,
+                "static",
+                "TE_st,",
+                "at rest",
+                Found(
+                    concat!(
+                        "2 |∫ x exp(-2 π i ",
+                        $order,
+                        " s/p_b) ds|/p_b over a base pitch, x by Σ w_k F_k = F_0"
+                    ),
+                    &["F_0", "k_m"],
+                )
             ),
-            formula: Found(
-                concat!(
-                    "2 |∫ x exp(-2 π i ",
-                    $order,
-                    " s/p_b) ds|/p_b over a base pitch, x by Σ w_k F_k = F_0"
-                ),
-                &["F_0", "k_m"],
+            harmonic!(
+                $order,
+                $word,
+                $frequency,
+                STEADY_MOTION,
+                steady,
+                "dynamic",
+                "TE_d,",
+                "in the steady motion",
+                Found(
+                    concat!(
+                        "2 |∫ x exp(-2 π i ",
+                        $order,
+                        " f_z t) dt|/T over the period T of the steady motion"
+                    ),
+                    STEADY,
+                )
             ),
-            ..STATIC
-        }
+        ]
     };
-}
-
-/// The row of a harmonic in the steady motion.
-macro_rules! in_motion {
-    ($order:literal, $word:literal, $frequency:literal) => {
+    ($order:literal, $word:literal, $frequency:literal, $row:ident, $of:ident, $method:literal, $symbol:literal, $when:literal, $formula:expr) => {
         Quantity {
-            key: concat!("dynamic_te_harmonic_", $order),
-            symbol: concat!("TE_d,", $order),
-            label: concat!("dynamic: TE harmonic ", $order),
+            key: concat!($method, "_te_harmonic_", $order),
+            symbol: concat!($symbol, $order),
+            label: concat!($method, ": TE harmonic ", $order),
             unit: "m",
             shown: "um",
             digits: 4,
             equation: concat!("2 |c_", $order, "|"),
-            value: |s| Some(steady(s)?.spectrum.amplitudes[$order - 1]),
+            value: |s| Some($of(s)?.spectrum.amplitudes[$order - 1]),
             meaning: concat!(
                 "The amplitude of the ",
                 $word,
-                " mesh harmonic of the transmission error in the steady motion, at ",
+                " mesh harmonic of the transmission error ",
+                $when,
+                ", at ",
                 $frequency,
                 "."
             ),
-            formula: Found(
-                concat!(
-                    "2 |∫ x exp(-2 π i ",
-                    $order,
-                    " f_z t) dt|/T over the period T of the steady motion"
-                ),
-                STEADY,
-            ),
-            ..STEADY_MOTION
+            formula: $formula,
+            ..$row
         }
     };
 }
+
+const HARMONICS: [[Quantity; 2]; 5] = [
+    harmonic!(1, "first", "the mesh frequency"),
+    harmonic!(2, "second", "2 times the mesh frequency"),
+    harmonic!(3, "third", "3 times the mesh frequency"),
+    harmonic!(4, "fourth", "4 times the mesh frequency"),
+    harmonic!(5, "fifth", "5 times the mesh frequency"),
+];
 
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "static_te_peak_to_peak",
         symbol: "TE_st,pp",
         label: "static: TE peak to peak",
-        unit: "m",
-        shown: "um",
-        digits: 5,
         equation: "max x − min x",
-        stage: StaticSpectrum,
         value: |s| Some(at_rest(s)?.spectrum.peak_to_peak),
         meaning: "The difference between the largest and the smallest transmission error over one \
             base pitch at rest, of a pair in which no tooth deviates: the static excitation of \
             whine.",
         formula: PERIODIC_AT_REST,
-        source: SPECTRUM,
-        assumptions: AT_REST,
-        checks: &[checks::teeth],
-        ..PLAIN
+        ..STATIC
     },
-    at_rest!(1, "first", "the mesh frequency"),
-    at_rest!(2, "second", "2 times the mesh frequency"),
-    at_rest!(3, "third", "3 times the mesh frequency"),
-    at_rest!(4, "fourth", "4 times the mesh frequency"),
-    at_rest!(5, "fifth", "5 times the mesh frequency"),
+    HARMONICS[0][0],
+    HARMONICS[1][0],
+    HARMONICS[2][0],
+    HARMONICS[3][0],
+    HARMONICS[4][0],
     Quantity {
         key: "dynamic_te_peak_to_peak",
         symbol: "TE_d,pp",
@@ -152,11 +159,11 @@ pub(super) const TABLE: &[Quantity] = &[
         formula: PERIODIC,
         ..STEADY_MOTION
     },
-    in_motion!(1, "first", "the mesh frequency"),
-    in_motion!(2, "second", "2 times the mesh frequency"),
-    in_motion!(3, "third", "3 times the mesh frequency"),
-    in_motion!(4, "fourth", "4 times the mesh frequency"),
-    in_motion!(5, "fifth", "5 times the mesh frequency"),
+    HARMONICS[0][1],
+    HARMONICS[1][1],
+    HARMONICS[2][1],
+    HARMONICS[3][1],
+    HARMONICS[4][1],
     Quantity {
         key: "mesh_force_factor",
         symbol: "K_mesh",
