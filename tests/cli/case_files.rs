@@ -6,6 +6,7 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
+use crate::program::has;
 use proptest::prelude::*;
 use tipstrike::case::fields::{Kind, index_of};
 use tipstrike::case::file::{MOST_BYTES, ReadError, SaveError};
@@ -313,10 +314,9 @@ fn a_draft_gets_its_values_in_place_and_may_be_saved_incomplete() {
     write(&mut draft, "operation.torque", "70 N m");
     draft.save(&path).unwrap();
     let text = fs::read_to_string(&path).unwrap();
-    assert!(
-        text.contains("\nteeth = 40  # required, such as 20\n")
-            && text.contains("\nteeth = \"\"  # required, such as 20\n"),
-        "{text}"
+    has(
+        &text,
+        &["\nteeth = 40  # required, such as 20\n", "\nteeth = \"\"  # required, such as 20\n"],
     );
     let mut again = Document::read_draft(&path).unwrap();
     assert_eq!((&again.case, again.render()), (&draft.case, text));

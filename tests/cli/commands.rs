@@ -1,6 +1,6 @@
 //! The built program as scripts use it: input, output and exit codes.
 
-use crate::program::{output as run, program, stdout_of};
+use crate::program::{has, output as run, program, stdout_of};
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -124,18 +124,16 @@ fn an_absent_value_is_omitted_and_the_outcome_gives_the_reason() {
 #[test]
 fn a_selected_quantity_without_a_value_gives_the_reason() {
     let without_motion = stdout_of(&["solve", TABLE_1, "--only", "F_d,max,F_S"]);
-    assert!(
-        without_motion.contains("  F_S impact force 2191.0 N")
-            && without_motion
-                .contains("  F_d,max has no value: method exact does not compute this quantity"),
-        "{without_motion}"
+    has(
+        &without_motion,
+        &[
+            "  F_S impact force 2191.0 N",
+            "  F_d,max has no value: method exact does not compute this quantity",
+        ],
     );
     let relief = "driven.tip_relief=80 um";
     let without_contact = stdout_of(&["solve", TABLE_1, "--only", "F_S", "--set", relief]);
-    assert!(
-        without_contact.contains("  F_S has no value: no corner contact: "),
-        "{without_contact}"
-    );
+    has(&without_contact, &["  F_S has no value: no corner contact: "]);
 }
 
 #[test]
@@ -474,12 +472,10 @@ fn the_page_of_a_result_by_auto_shows_the_chosen_tolerance() {
     let page = stdout_of(&["explain", "dynamic_peak_force", TABLE_1, "--method", "auto"]);
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(page.contains("method dynamic, chosen by auto"), "{page}");
-    assert!(
-        page.contains(
-            "at most 1e-3 (chosen by auto for model.within = 0.05; model.tolerance = 1e-6 is not \
-                used)"
-        ),
-        "{page}"
+    has(
+        &page,
+        &["at most 1e-3 (chosen by auto for model.within = 0.05; model.tolerance = 1e-6 is not \
+                used)"],
     );
     assert!(
         page.contains("model.within = ") && !page.contains("model.tolerance = 1e-6,"),
@@ -698,10 +694,7 @@ fn a_new_case_starts_from_an_example_in_every_folder() {
         assert_eq!(out(&elsewhere(&["new", "--from", example.name])), text, "the very file");
         assert!(listed.contains(example.name));
     }
-    assert!(
-        listed.contains("impact force 2191.0 N") && listed.contains("ok impact_force"),
-        "{listed}"
-    );
+    has(&listed, &["impact force 2191.0 N", "ok impact_force"]);
     assert_eq!(code(&elsewhere(&["new", "--from", "fzg-type-c", path])), 0);
     assert!(stdout_of(&["solve", path]).contains("FZG type C"));
     let again = elsewhere(&["new", "--from", "fzg-type-c", path]);
@@ -780,10 +773,7 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
 #[test]
 fn a_trade_recommends_a_setting_within_the_tolerance() {
     let page = stdout_of(&["trade", TABLE_1]);
-    assert!(
-        page.contains("Reference: dynamic with finite-element, 4096 stations and tolerance 1e-12"),
-        "{page}"
-    );
+    has(&page, &["Reference: dynamic with finite-element, 4096 stations and tolerance 1e-12"]);
     assert!(page.contains("\nWithin 5.0 %: dynamic with"), "{page}");
     let traded = json(&["trade", TABLE_1, "--within", "40%", "--format", "json"]);
     assert_eq!((&traded["case"], &traded["within"]), (&TABLE_1.into(), &0.4.into()));

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
+use crate::program::has;
 use tipstrike::case::rexs::{import, read_document};
 use tipstrike::case::sanitize::is_hidden;
 use tipstrike::case::{Document, fields};
@@ -125,10 +126,7 @@ fn unequal_flanks_and_load_cases_are_named_and_no_value_is_guessed() {
             unit=\"°\">25.0",
     );
     let message = refusal_of(&unequal);
-    assert!(
-        message.contains("of flank_geometry 361 is 20 deg") && message.contains("362 is 25 deg"),
-        "{message}"
-    );
+    has(&message, &["of flank_geometry 361 is 20 deg", "362 is 25 deg"]);
     let cases = edited(
         "spur-2.0.rexsj",
         "\"load_cases\": [",

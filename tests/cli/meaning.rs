@@ -1,6 +1,6 @@
 //! A result, a verdict or a hint has one meaning in a method, and the text says so where another
 //! method differs.
-use crate::program::{output as run, run as texts_of};
+use crate::program::{has, output as run, run as texts_of};
 use serde_json::Value;
 use tipstrike::case::fields::{Kind, index_of};
 use tipstrike::case::{Acting, Case, EXAMPLES, FIELDS, partial_relevance, relevance};
@@ -109,16 +109,11 @@ fn a_limit_on_an_absent_value_is_not_met_and_has_a_reason() {
     let output = run(&["check", TABLE_1, "--set", "limits.dynamic_peak_force=2 kN"]);
     let page = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(1));
-    assert!(
-        page.contains(
-            "unknown cases/zhou-chen-2014.toml: dynamic_peak_force has no value (limit 2 kN): "
-        ),
-        "{page}"
+    has(
+        &page,
+        &["unknown cases/zhou-chen-2014.toml: dynamic_peak_force has no value (limit 2 kN): "],
     );
-    assert!(
-        page.contains("method exact does not compute this quantity; dynamic and auto do"),
-        "{page}"
-    );
+    has(&page, &["method exact does not compute this quantity; dynamic and auto do"]);
     // Without corner contact, a limit on the impact is met, and one on the motion is unknown.
     let relieved = ["check", TABLE_1, "--set", "driven.tip_relief=80 um"];
     assert_eq!(run(&relieved).status.code(), Some(0));
@@ -142,11 +137,9 @@ fn a_verdict_names_what_to_limit_for_the_force_of_the_method() {
     assert!((line["own"]["value"].as_f64().unwrap() - 1410.76).abs() < 0.1);
     let both =
         stdout_of(&[&limit[..], &["--set", "limits.dynamic_peak_approach_force=1400 N"]].concat());
-    assert!(
-        both.contains(
-            "EXCEEDED cases/zhou-chen-2014.toml: dynamic_peak_approach_force 1410.8 N > 1400 N"
-        ),
-        "{both}"
+    has(
+        &both,
+        &["EXCEEDED cases/zhou-chen-2014.toml: dynamic_peak_approach_force 1410.8 N > 1400 N"],
     );
     assert!(!both.contains("has no limit"), "{both}");
 }
@@ -264,20 +257,15 @@ fn the_printed_equations_have_a_note_on_their_error() {
         "{page}"
     );
     let page = notes("cases/turbo-fine-fast.toml", "paper");
-    assert!(
-        page.contains("the friction ratio is not computed: the triangle of Eq. 34 does not close"),
-        "{page}"
-    );
+    has(&page, &["the friction ratio is not computed: the triangle of Eq. 34 does not close"]);
     // 60 um of relief count as 42 um as printed: only by the printed equations the tooth strikes.
     let page =
         stdout_of(&["solve", TABLE_1, "--method", "paper", "--set", "driven.tip_relief=60 um"]);
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(
-        page.contains(
-            "exact finds no corner contact; paper governs: the case selects it. Method exact: no \
-                corner contact, Δ = -12.673 um."
-        ),
-        "{page}"
+    has(
+        &page,
+        &["exact finds no corner contact; paper governs: the case selects it. Method exact: no \
+                corner contact, Δ = -12.673 um."],
     );
     assert!(page.contains(" um more tip relief on the driven gear, "), "{page}");
 }

@@ -32,3 +32,11 @@ pub(crate) fn stdout_of(arguments: &[&str]) -> String {
     assert_eq!((code, errors.as_str()), (0, ""), "{arguments:?}");
     text
 }
+
+/// Checks that a text has every part.
+#[track_caller]
+pub(crate) fn has(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part:?} is missing: {text}");
+    }
+}

@@ -1,6 +1,6 @@
 //! Shards of a study: together they give the whole study, and other files are refused.
 
-use crate::program::run;
+use crate::program::{has, run};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -102,10 +102,7 @@ fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
     for broken in [without_end, without_row, half_line, other_case] {
         fs::write(&copy, broken).unwrap();
         let message = refusal(&[copy.clone(), files[1].clone(), files[2].clone()]);
-        assert!(
-            message.contains("copy.shard: shard 3/3 is incomplete or changed: run it"),
-            "{message}"
-        );
+        has(&message, &["copy.shard: shard 3/3 is incomplete or changed: run it"]);
     }
     // A changed first line: other parts of the study, a part that does not exist, fewer parts.
     let renumbered = |file: &Path, part: &str| {
