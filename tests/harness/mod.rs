@@ -228,6 +228,12 @@ impl Desk {
         self.keys(&["Ctrl-U", text])
     }
 
+    /// The text of a field of the case; empty without a value.
+    pub(crate) fn text(&self, key: &str) -> &str {
+        let field = tipstrike::case::fields::index_of(key).expect("a field of that key");
+        self.app.tab.case.text(field).unwrap_or_default()
+    }
+
     pub(crate) fn screen(&self) -> String {
         self.screen_at(self.app.layout.size())
     }

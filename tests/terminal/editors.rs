@@ -138,19 +138,10 @@ fn after(editor: &Editor, fault: impl Fn(&mut Tty)) -> Left {
 fn killed_at_its_write(editor: &Editor) -> Left {
     let folder = Launch::on_table_1();
     fs::write(folder.case(), old_text()).expect("room on the disk");
-    let case = folder.case().display().to_string();
-    let strace = [
-        "strace",
-        "-f",
-        "-qq",
-        "-o",
-        "/dev/null",
-        "-P",
-        &case,
-        "-e",
-        "inject=write,pwrite64,writev:signal=KILL:when=1",
-    ];
-    let mut tty = launch(editor, folder, &[&strace[..], &["--"]].concat()).start();
+    let case = folder.case();
+    let fault = "signal=KILL:when=1";
+    let launch = launch(editor, folder, &[]);
+    let mut tty = launch.under_fault("write,pwrite64,writev", fault, Some(&case)).start();
     assert!(type_in(&mut tty, editor), "{}", editor.name);
     tty.type_in(editor.save);
     tty.wait_for_end();

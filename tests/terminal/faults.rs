@@ -424,21 +424,7 @@ fn a_failed_save_of_the_workbench_is_reported_and_the_edits_stay() {
     }
     for call in ["fsync", "fchmod", "rename,renameat,renameat2"] {
         for fault in ["error=ENOSPC", "error=EIO"] {
-            let inject = format!("inject={call}:{fault}");
-            let trace = format!("trace={call}");
-            let launch = Launch::on_table_1().through(&[
-                "strace",
-                "-f",
-                "-qq",
-                "-o",
-                "/dev/null",
-                "-e",
-                &trace,
-                "-e",
-                &inject,
-                "--",
-            ]);
-            let mut tty = launch.start();
+            let mut tty = Launch::on_table_1().under_fault(call, fault, None).start();
             tty.wait_for("Corner contact");
             tty.type_in("\x156 mm\x13");
             tty.wait_for("not saved: ");
@@ -467,23 +453,8 @@ fn a_read_error_during_a_save_is_named_and_is_no_change_on_disk() {
     for (call, step) in [("openat", 2), ("openat", 3), ("read", 9), ("read", 14)] {
         let launch = Launch::on_table_1();
         let case = launch.case();
-        let (trace, inject) =
-            (format!("trace={call}"), format!("inject={call}:error=EIO:when={step}"));
-        let launch = launch.through(&[
-            "strace",
-            "-f",
-            "-qq",
-            "-o",
-            "/dev/null",
-            "-P",
-            case.to_str().expect("UTF-8"),
-            "-e",
-            &trace,
-            "-e",
-            &inject,
-            "--",
-        ]);
-        let mut tty = launch.start();
+        let fault = format!("error=EIO:when={step}");
+        let mut tty = launch.under_fault(call, &fault, Some(&case)).start();
         tty.wait_for("Corner contact");
         tty.type_in("\x156 mm\x13");
         tty.wait_for("not saved: ");

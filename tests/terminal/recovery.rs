@@ -214,22 +214,7 @@ fn a_folder_or_file_system_without_locks_is_reported() {
     ] {
         let launch = Launch::on_table_1().size(24, 200);
         let lock = launch.folder.path().join(".case.toml.tipstrike");
-        let (trace, inject) = (format!("trace={call}"), format!("inject={call}:error={error}"));
-        let launch = launch.through(&[
-            "strace",
-            "-f",
-            "-qq",
-            "-o",
-            "/dev/null",
-            "-P",
-            lock.to_str().expect("UTF-8"),
-            "-e",
-            &trace,
-            "-e",
-            &inject,
-            "--",
-        ]);
-        let mut tty = launch.start();
+        let mut tty = launch.under_fault(call, &format!("error={error}"), Some(&lock)).start();
         tty.wait_for(cause);
         tty.type_in("\x156 mm\x13");
         tty.wait_for("saved ");

@@ -99,6 +99,15 @@ impl Launch {
         self
     }
 
+    /// Makes system calls fail, optionally those on one file only.
+    pub(crate) fn under_fault(self, calls: &str, fault: &str, file: Option<&Path>) -> Launch {
+        let file = file.map(|file| file.to_str().expect("a name in UTF-8"));
+        let (trace, inject) = (format!("trace={calls}"), format!("inject={calls}:{fault}"));
+        let start = ["strace", "-f", "-qq", "-o", "/dev/null"];
+        let only = file.map_or(Vec::new(), |file| vec!["-P", file]);
+        self.through(&[&start[..], &only, &["-e", &trace, "-e", &inject, "--"]].concat())
+    }
+
     /// Runs another program.
     pub(crate) fn instead(mut self, program: &str) -> Launch {
         self.command[0] = program.into();

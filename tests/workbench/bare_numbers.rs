@@ -2,12 +2,7 @@
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
-use tipstrike::case::fields::index_of;
 use tipstrike::case::units::System;
-
-fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
-    desk.app.tab.case.text(index_of(key).unwrap()).unwrap_or_default()
-}
 
 #[test]
 fn a_bare_number_gets_its_unit_during_typing() {
@@ -16,7 +11,7 @@ fn a_bare_number_gets_its_unit_during_typing() {
     desk.assert(desk.shows("Unit added: um.") && desk.shows("base pitch deviation 48 um"));
     assert!(!desk.shows("LAST VALID") && !desk.shows("2191.0"), "the results are those of 48 um");
     assert_eq!(
-        (desk.app.tab.form.input.value(), text(&desk, "deviations.base_pitch")),
+        (desk.app.tab.form.input.value(), desk.text("deviations.base_pitch")),
         ("48", "48 um")
     );
     desk.keys(&["Down"]);
@@ -60,17 +55,17 @@ fn on_the_way_to_a_value_no_error_flickers() {
 fn the_unit_is_the_written_one_or_else_the_displayed_one() {
     let mut desk = Desk::on(LARGE, "case.toml", &TABLE_1.replace("15 kW", "20 hp"));
     desk.fill("operation.power", "25");
-    assert_eq!(text(&desk, "operation.power"), "25 hp");
+    assert_eq!(desk.text("operation.power"), "25 hp");
     desk.keys(&["Backspace", "Backspace", "3"]);
-    assert_eq!(text(&desk, "operation.power"), "3 hp");
+    assert_eq!(desk.text("operation.power"), "3 hp");
     desk.fill("driver.tip_radius", "0.2");
-    assert_eq!(text(&desk, "driver.tip_radius"), "0.2 mm");
+    assert_eq!(desk.text("driver.tip_radius"), "0.2 mm");
     desk.app.settings.units = System::Inch;
     desk.fill("driven.tip_radius", "0.02");
     assert!(desk.shows("Unit added: in."));
-    assert_eq!(text(&desk, "driven.tip_radius"), "0.02 in");
+    assert_eq!(desk.text("driven.tip_radius"), "0.02 in");
     desk.fill("pair.module", "4");
-    assert_eq!(text(&desk, "pair.module"), "4 mm", "it was written in mm");
+    assert_eq!(desk.text("pair.module"), "4 mm", "it was written in mm");
 }
 
 #[test]
@@ -78,7 +73,7 @@ fn a_typed_unit_is_never_replaced() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("deviations.base_pitch", "48 m");
     desk.assert_shows("Not yet: 48 m is above the limit of");
-    assert_eq!(text(&desk, "deviations.base_pitch"), "48 m");
+    assert_eq!(desk.text("deviations.base_pitch"), "48 m");
     desk.keys(&["Down"]);
     desk.assert_at(
         "after the user leaves the field the value is invalid:",
@@ -87,7 +82,7 @@ fn a_typed_unit_is_never_replaced() {
     desk.keys(&["Ctrl-S"]);
     assert!(desk.shows("not saved"));
     desk.fill("driver.young", "200 M");
-    assert_eq!(text(&desk, "driver.young"), "200 M", "MPa or Mpsi");
+    assert_eq!(desk.text("driver.young"), "200 M", "MPa or Mpsi");
     desk.assert_shows("Not yet: unknown unit M");
     desk.fill("driver.poisson", "0.9");
     desk.assert_at("no digit fixes it:", desk.shows("! 0.9 is above the limit of 0.499"));
@@ -108,7 +103,7 @@ fn steps_copies_and_limits_know_the_unit_of_a_bare_number() {
     let mut desk = Desk::new(SMALL);
     desk.fill("deviations.base_pitch", "48").keys(&["Shift-Up"]);
     assert_eq!(
-        (desk.app.tab.form.input.value(), text(&desk, "deviations.base_pitch")),
+        (desk.app.tab.form.input.value(), desk.text("deviations.base_pitch")),
         ("49 um", "49 um")
     );
     desk.keys(&["Ctrl-U", "50", "Esc", "y"]);

@@ -4,10 +4,6 @@ use crate::harness;
 use harness::{Desk, LARGE, SMALL, TABLE_1};
 use tipstrike::case::fields::index_of;
 
-fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
-    desk.app.tab.case.text(index_of(key).unwrap()).unwrap_or_default()
-}
-
 /// A line of the screen with this text.
 fn line(desk: &Desk, text: &str) -> String {
     let screen = desk.screen();
@@ -23,22 +19,22 @@ fn a_value_steps_inside_a_field_and_outside() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("deviations.base_pitch");
     desk.keys(&["Shift-Up"]);
-    assert_eq!(text(&desk, "deviations.base_pitch"), "17 um");
+    assert_eq!(desk.text("deviations.base_pitch"), "17 um");
     desk.keys(&["Alt-Down"]);
-    assert_eq!(text(&desk, "deviations.base_pitch"), "7 um");
+    assert_eq!(desk.text("deviations.base_pitch"), "7 um");
     desk.keys(&["Esc", "+", "=", "-", ">", "<"]);
     assert_eq!(
-        text(&desk, "deviations.base_pitch"),
+        desk.text("deviations.base_pitch"),
         "7 um",
         "a letter that is typed unseen changes no value"
     );
     desk.assert_shows("< is not a command in Form");
     desk.keys(&["Alt-Up", "Shift-Down"]);
-    assert_eq!(text(&desk, "deviations.base_pitch"), "16 um");
+    assert_eq!(desk.text("deviations.base_pitch"), "16 um");
     desk.keys(&["Shift-Up"]);
-    assert_eq!(text(&desk, "deviations.base_pitch"), "17 um");
+    assert_eq!(desk.text("deviations.base_pitch"), "17 um");
     desk.keys(&["u"]);
-    assert_ne!(text(&desk, "deviations.base_pitch"), "17 um");
+    assert_ne!(desk.text("deviations.base_pitch"), "17 um");
 }
 
 #[test]
@@ -48,15 +44,15 @@ fn the_form_shows_the_given_size_and_the_value_of_its_alternative() {
     assert!(line(&desk, "tip diameter").contains("(110 mm)"));
     assert!(line(&desk, "root diameter").contains("(87.5 mm)"));
     desk.go_to("driver.tip_diameter").type_in("109");
-    assert_eq!(text(&desk, "driver.tip_diameter"), "109 mm");
-    assert_eq!(text(&desk, "driver.addendum"), "");
+    assert_eq!(desk.text("driver.tip_diameter"), "109 mm");
+    assert_eq!(desk.text("driver.addendum"), "");
     desk.assert(line(&desk, "addendum").contains("(0.9)"));
     assert!(desk.shows("addendum 1.0 replaced by the tip diameter"));
     desk.go_to("pair.diametral_pitch").type_in("8");
-    assert_eq!(text(&desk, "pair.diametral_pitch"), "8 1/in");
+    assert_eq!(desk.text("pair.diametral_pitch"), "8 1/in");
     desk.assert(line(&desk, "module").contains("(3.175 mm)"));
     desk.keys(&["Ctrl-U"]);
-    assert_eq!(text(&desk, "pair.module"), "5 mm");
+    assert_eq!(desk.text("pair.module"), "5 mm");
 }
 
 #[test]
@@ -67,7 +63,7 @@ fn an_impossible_step_is_reported_and_changes_nothing() {
     assert!(desk.shows("combined deflection has no step here"));
     desk.go_to("title");
     desk.keys(&["Shift-Down"]);
-    assert_eq!(text(&desk, "title"), "Zhou & Chen 2014, Table 1");
+    assert_eq!(desk.text("title"), "Zhou & Chen 2014, Table 1");
 }
 
 #[test]
@@ -96,11 +92,8 @@ fn a_material_fills_three_fields_at_once_and_undo_reverts_it() {
     assert!(desk.shows("Material of the driven gear"));
     desk.keys(&["42cr", "Enter"]);
     desk.assert_shows("driven: E 210 GPa, ν 0.3, ρ 7720 kg/m3 from 42CrMo4");
-    assert_eq!(
-        (text(&desk, "driven.young"), text(&desk, "driven.density")),
-        ("210 GPa", "7720 kg/m3")
-    );
-    assert_eq!(text(&desk, "driver.young"), "205 GPa");
+    assert_eq!((desk.text("driven.young"), desk.text("driven.density")), ("210 GPa", "7720 kg/m3"));
+    assert_eq!(desk.text("driver.young"), "205 GPa");
     desk.assert_shows("Driven (gear 2), 42CrMo4");
     desk.go_to("driven.density");
     desk.assert(
@@ -114,7 +107,7 @@ fn a_material_fills_three_fields_at_once_and_undo_reverts_it() {
     desk.assert(!desk.shows(" *E2 "));
     desk.go_to("pair.module").keys(&["Alt-G", "PEEK", "Enter"]);
     desk.assert_shows("both gears: E 4 GPa");
-    assert_eq!((text(&desk, "driver.young"), text(&desk, "driven.young")), ("4 GPa", "4 GPa"));
+    assert_eq!((desk.text("driver.young"), desk.text("driven.young")), ("4 GPa", "4 GPa"));
 }
 
 #[test]

@@ -2,12 +2,6 @@
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
-use tipstrike::case::fields::index_of;
-
-fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
-    let field = index_of(key).unwrap();
-    desk.app.tab.case.text(field).unwrap_or_default()
-}
 
 #[test]
 fn the_relief_to_specify_is_written_into_the_case_as_one_edit() {
@@ -15,12 +9,12 @@ fn the_relief_to_specify_is_written_into_the_case_as_one_edit() {
     desk.keys(&["Esc", ":", "relief", "Enter"]);
     insta::assert_snapshot!("relief_140x45", desk.screen());
     desk.keys(&["Enter"]);
-    let amounts = [text(&desk, "driver.tip_relief"), text(&desk, "driven.tip_relief")];
+    let amounts = [desk.text("driver.tip_relief"), desk.text("driven.tip_relief")];
     assert!(
         amounts.iter().all(|amount| *amount != "0 um" && amount.ends_with(" um")),
         "{amounts:?}"
     );
-    assert!(text(&desk, "driven.tip_relief_length").ends_with(" mm"));
+    assert!(desk.text("driven.tip_relief_length").ends_with(" mm"));
     desk.assert_shows("Ctrl-Z undoes");
     desk.keys(&["Ctrl-Z"]);
     assert!(!desk.app.tab.is_unsaved(), "one edit");
@@ -47,11 +41,11 @@ fn any_relief_of_the_list_is_written_into_the_case() {
     desk.keys(&["Esc", ":", "relief", "Enter"]);
     desk.keys(&["Up"; 9]);
     desk.keys(&["Down", "Enter"]);
-    assert_eq!(text(&desk, "model.relief_shape"), "linear");
+    assert_eq!(desk.text("model.relief_shape"), "linear");
     desk.keys(&["Ctrl-Z", "Esc", ":", "relief", "Enter"]);
     desk.keys(&["Up"; 9]);
     desk.keys(&["Down", "Down", "Enter"]);
-    assert_eq!(text(&desk, "model.relief_shape"), "parabolic");
+    assert_eq!(desk.text("model.relief_shape"), "parabolic");
 }
 
 #[test]

@@ -6,7 +6,6 @@ use harness::{Desk, LARGE, SMALL, TABLE_1, requested, results};
 use insta::assert_snapshot;
 use ratatui::layout::{Position, Size};
 use tipstrike::case::Document;
-use tipstrike::case::fields::index_of;
 use tipstrike::tui::testing::actions::{Action, Effect};
 use tipstrike::tui::testing::jobs::Slot;
 use tipstrike::tui::testing::study::{End, StudyParameters};
@@ -20,11 +19,6 @@ fn study(size: Size, key: &str) -> Desk {
     let mut desk = Desk::on(size, "case.toml", TABLE_1);
     desk.go_to(key).keys(&["Esc", "6", "z"]);
     desk
-}
-
-fn written(desk: &Desk, key: &str) -> String {
-    let field = index_of(key).expect("a field");
-    desk.app.tab.case.text(field).unwrap_or_default().to_owned()
 }
 
 #[test]
@@ -79,10 +73,10 @@ fn the_curve_follows_every_edit_and_the_baseline_stays_behind_it() {
 fn enter_uses_the_value_at_the_cursor_and_undo_reverts_it() {
     let mut desk = study(SMALL, "operation.speed");
     desk.keys(&["l", "l", "h", "Enter"]);
-    assert_eq!(written(&desk, "operation.speed"), "2020 rpm");
+    assert_eq!(desk.text("operation.speed"), "2020 rpm");
     desk.assert_shows("speed = 2020 rpm; Ctrl-Z undoes");
     desk.keys(&["u"]);
-    assert_eq!(written(&desk, "operation.speed"), "2000 rpm");
+    assert_eq!(desk.text("operation.speed"), "2000 rpm");
 }
 
 #[test]
@@ -97,8 +91,8 @@ fn two_fields_make_a_map_with_a_limit_and_the_edge_of_contact() {
         }
         let cursor = desk.app.tab.study.cursor.expect("a cursor");
         desk.keys(&["Enter"]);
-        assert_ne!(written(&desk, "operation.speed"), "2000 rpm");
-        assert_ne!(written(&desk, "driven.tip_relief"), "0 um");
+        assert_ne!(desk.text("operation.speed"), "2000 rpm");
+        assert_ne!(desk.text("driven.tip_relief"), "0 um");
         assert_eq!((cursor.0, desk.app.tab.study.cursor), (1, None));
         desk.keys(&["s"]);
         desk.assert(!desk.shows("edge of contact"));
@@ -153,7 +147,7 @@ fn the_table_has_a_row_for_each_point_and_its_cursor_follows_them() {
     assert_snapshot!("table_80x24", desk.screen());
     assert_eq!(desk.app.tab.study.cursor, Some((5, 0)), "the present value is above the range");
     desk.keys(&["k", "Enter"]);
-    assert_eq!(written(&desk, "operation.speed"), "1400 rpm");
+    assert_eq!(desk.text("operation.speed"), "1400 rpm");
 }
 
 #[test]
@@ -242,13 +236,13 @@ fn variant_keeps_the_edits_and_without_edits_shows_them_again() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("driven.tip_relief", "48 um").keys(&["Esc", ":", "variant relieved", "Enter"]);
     desk.assert_shows("variant relieved now has 1 edit");
-    assert_eq!(written(&desk, "driven.tip_relief"), "0 um");
+    assert_eq!(desk.text("driven.tip_relief"), "0 um");
     desk.keys(&["Ctrl-S"]);
     let saved = desk.read("case.toml");
     let added = "\n[variants.relieved]\n\"driven.tip_relief\" = \"48 um\"\n";
     assert_eq!(saved, format!("{TABLE_1}{added}"));
     desk.keys(&[":", "variant relieved", "Enter"]);
-    assert_eq!(written(&desk, "driven.tip_relief"), "48 um");
+    assert_eq!(desk.text("driven.tip_relief"), "48 um");
     desk.keys(&["u", ":", "variant other", "Enter"]);
     desk.assert_shows("no edits since the last save");
 }
@@ -348,12 +342,12 @@ fn the_cursor_returns_to_the_present_value_on_other_axes_alone() {
     desk.keys(&["l", "l"]);
     assert!(desk.app.tab.study.cursor.is_some());
     desk.keys(&["Enter"]);
-    assert_eq!(written(&desk, "operation.speed"), "2040 rpm");
+    assert_eq!(desk.text("operation.speed"), "2040 rpm");
     desk.keys(&["l", "l", "+"]);
     assert_eq!(desk.app.tab.study.cursor, None);
     desk.keys(&["Enter"]);
     desk.assert_shows("the cursor is at the present value");
-    assert_eq!(written(&desk, "operation.speed"), "2040 rpm");
+    assert_eq!(desk.text("operation.speed"), "2040 rpm");
     desk.keys(&["l"]);
     let cursor = desk.app.tab.study.cursor;
     desk.keys(&["d", "d"]);
