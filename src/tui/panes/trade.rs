@@ -192,7 +192,8 @@ fn draw_chart(
     let errors = errors.chain([10.0 * within, within / 10.0]);
     let up = Axis::logarithmic("", errors.map(|error| plotted_error(error).log10()), in_percent);
     let (level, spans) = (plotted_error(within).log10(), (across.span(), up.span()));
-    let row = spans.1.length() / f64::from(area.height.saturating_sub(4).max(1));
+    // A little more than a row.
+    let row = 1.25 * spans.1.length() / f64::from(area.height.saturating_sub(4).max(1));
     let points = |is_drawn: &dyn Fn(&MeasuredSetting) -> bool| -> Vec<Point> {
         let drawn = found.iter().filter(|measured| is_drawn(measured));
         let point = |measured: &&MeasuredSetting| {
