@@ -83,7 +83,7 @@ fn a_small_screen_shows_twelve_quantities_and_counts_the_hidden_lines() {
         }
     }
     let mut desk = hydro(SMALL, "static");
-    desk.assert_shows("more notes (Esc n)");
+    desk.assert_shows("notes (Esc n)");
     desk.keys(&["Esc", "n"]);
     assert!(desk.shows("tip relief on the driven gear"));
 }

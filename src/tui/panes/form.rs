@@ -22,8 +22,8 @@ use crate::tui::{rows, text};
 const MARKS: u16 = 2;
 const SYMBOL: u16 = 6;
 const LABEL: u16 = 20;
-/// The least width of a value.
-const VALUE: u16 = 11;
+/// The least width of the value of a field.
+const VALUE: u16 = 14;
 
 /// The state of the pane, separate for each open case.
 #[derive(Debug, Clone)]
@@ -235,7 +235,11 @@ fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> 
     let width = |text: &str| text.width() as u16 + 1;
     let of_label = if label.is_empty() { 0 } else { width(label).max(LABEL + 1) };
     let (of_symbol, end) = (SYMBOL.max(width(symbol)), verdict.width() as u16);
-    let of_value = if is_typed { VALUE } else { VALUE.max(width(&value)) };
+    let of_value = match field {
+        _ if is_typed => VALUE,
+        Some(_) => VALUE.max(width(&value)),
+        None => width(&value),
+    };
     let of_value = of_value.min(line.width.saturating_sub(MARKS + of_symbol + end));
     let [marks, of_symbol, of_label, area, end] = Layout::horizontal([
         Constraint::Length(MARKS),

@@ -211,13 +211,13 @@ fn parts(pane: &Results<'_>) -> (Vec<Line<'static>>, usize) {
     }
     let notes = match hidden {
         0 => None,
-        1 => Some(format!("1 more note ({}n)", pane.leave)),
-        _ => Some(format!("{hidden} more notes ({}n)", pane.leave)),
+        1 => Some(format!("1 note ({}n)", pane.leave)),
+        _ => Some(format!("{hidden} notes ({}n)", pane.leave)),
     };
     let folded = pane.answer.and_then(|answer| folded(pane, answer));
     let last: Vec<String> = notes.into_iter().chain(folded).collect();
     if !last.is_empty() {
-        let last = text::cut(&last.join("; "), width);
+        let last = text::cut(&last.join(", "), width);
         head.push(Line::styled(last, pane.look.theme.note));
     }
     let rows = if pane.answer.is_some() { kept(head.len()) } else { 0 };
