@@ -108,6 +108,7 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
         Some(Pane::Chart) => panes::run_chart(app, ChartCommand::Zoom(nearer)),
         Some(Pane::Teeth) => panes::run_teeth(app, TeethCommand::Zoom(nearer)),
         Some(Pane::Study) if app.study.is_tolerance => studies::scroll(app, by),
+        Some(Pane::Study) if app.study.is_table => studies::move_cursor(app, by, 0),
         Some(Pane::Study) => studies::zoom(app, nearer),
         Some(Pane::Trade) | None => (),
     }

@@ -24,7 +24,7 @@ fn no_key_has_two_meanings_in_a_place() {
 }
 
 /// Letters with similar meanings in several panes: move, more or less, start again, other view.
-const ALIKE: &str = "hjklgG+=-0v";
+const ALIKE: &str = "hjklHLgG+=-0v";
 
 #[test]
 fn a_letter_has_one_meaning_in_all_panes() {
