@@ -158,10 +158,10 @@ fn other_values(field: usize, case: &Case, inputs: &Inputs) -> Vec<f64> {
     let now = case.value(field);
     match known.kind {
         Kind::Text | Kind::Choice(..) | Kind::List(_) => Vec::new(),
-        Kind::Count(from, ..) => {
-            let now = now.unwrap_or_default();
-            vec![f64::from(from), now + 1.0, now + (now / 2.0).floor(), 2.0 * now]
-        }
+        Kind::Count(from, to, _) => match now {
+            Some(now) => vec![f64::from(from), now + 1.0, now + (now / 2.0).floor(), 2.0 * now],
+            None => vec![f64::from(from), f64::from(to)],
+        },
         Kind::Number(dimension, range, _) => {
             let alike = || value_of(Quantity::find(known.name())?, inputs);
             if let Some(now) = now.or_else(alike) {

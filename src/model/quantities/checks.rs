@@ -254,8 +254,8 @@ pub(super) fn tips(k: &Context) -> Option<Finding> {
 pub(super) fn clearance(k: &Context) -> Option<Finding> {
     let [driver, driven] = k.solution.figures?.tip_clearance;
     Finding::new(
-        "c > 0: the tips clear the roots",
-        format!("c_1 = {}, c_2 = {}", mm(driver), mm(driven)),
+        "c_a > 0: the tips clear the roots",
+        format!("c_a1 = {}, c_a2 = {}", mm(driver), mm(driven)),
         driver.min(driven) > 0.0,
     )
 }

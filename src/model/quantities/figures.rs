@@ -142,7 +142,7 @@ macro_rules! gear {
             },
             Quantity {
                 key: concat!("tip_clearance_", $gear),
-                symbol: concat!("c_", $n),
+                symbol: concat!("c_a", $n),
                 label: concat!("tip clearance, ", $name),
                 value: |s| Some(s.figures?.tip_clearance[$at]),
                 meaning: concat!(

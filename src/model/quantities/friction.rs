@@ -67,14 +67,14 @@ pub(super) const TABLE: &[Quantity] = &[
         key: "impulse_ratio",
         symbol: "κ",
         label: "impulse ratio",
-        equation: "(2/π)F_S·T_S/(M·ΔV_n)",
+        equation: "half-sine",
         stage: Impact,
         value: |s| Some(s.impact?.impulse_ratio),
         meaning: "The ratio of the impulse of a half-sine force, with peak F_S and duration T_S, \
             to the approach momentum M ΔV_n. An elastic impact gives 2, an impact without rebound \
             gives 1. Outside 1 to 2, force and duration contradict each other.",
         formula: Text("(2/π) F_S T_S/(M ΔV_n)"),
-        source: "Balance of momentum over the impact, (2/π)F_S·T_S/(M·ΔV_n). It is a check and \
+        source: "Balance of momentum over the impact. It is a check and \
             not part of Zhou & Chen 2014.",
         corrections: &["Eq. 32"],
         assumptions: "The force follows half a sine over time.",
