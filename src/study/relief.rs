@@ -5,6 +5,7 @@ pub mod demand;
 mod search;
 
 use std::cell::Cell;
+use std::cmp::Ordering::Equal;
 use std::fmt;
 
 use crate::model::geometry::Geometry;
@@ -319,8 +320,14 @@ fn best(choices: &[Choice], criterion: Criterion) -> usize {
         let least = candidates.iter().map(figure).fold(f64::INFINITY, f64::min);
         candidates.retain(|at| figure(at) <= (1.0 + criterion.worth()) * least);
     }
-    let removed = |at: &usize| choices[*at].reliefs.removed();
-    candidates.into_iter().min_by(|one, other| removed(one).total_cmp(&removed(other))).unwrap_or(0)
+    // Of equal amounts the shorter relief.
+    let cost = |at: &usize| {
+        let reliefs = choices[*at].reliefs;
+        [reliefs.removed(), reliefs.lengths[0] + reliefs.lengths[1]]
+    };
+    let is_less = |one: &usize, other: &usize| cost(one).partial_cmp(&cost(other));
+    let least = candidates.into_iter().min_by(|one, other| is_less(one, other).unwrap_or(Equal));
+    least.unwrap_or(0)
 }
 
 /// The method that decides whether a tooth strikes: the closed forms do not share the load.
