@@ -72,7 +72,8 @@ impl TerminalChart<'_> {
         if !plot.cells.is_empty() {
             plot.draw_axes(across, up, self.theme, buffer);
             self.draw_series(&plot, buffer);
-            if spans.1.from < 0.0 && spans.1.to > 0.0 {
+            // The 0 of logarithms means nothing.
+            if up.labels.is_empty() && spans.1.from < 0.0 && spans.1.to > 0.0 {
                 plot.draw_level(0.0, "┄", self.theme.faint, buffer);
             }
             for (x, name) in marks {
