@@ -198,6 +198,11 @@ impl Choice {
         Choice(Arc::new(run))
     }
 
+    /// No change.
+    pub(crate) fn none() -> Choice {
+        Choice::of(|_| ())
+    }
+
     /// The choice as a change.
     pub(crate) fn change(&self) -> Change {
         let run = Arc::clone(&self.0);

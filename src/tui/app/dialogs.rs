@@ -167,6 +167,14 @@ impl App {
         Some(result)
     }
 
+    pub(crate) fn ask(&mut self, question: Question) {
+        self.prompts.push(Prompt::Ask(question));
+    }
+
+    pub(crate) fn pick(&mut self, picker: Picker) {
+        self.prompts.push(Prompt::Pick(picker));
+    }
+
     /// Enter in the topmost dialog.
     pub(crate) fn accept(&mut self) {
         if let Some(change) = self.with_dialog(|dialog, around| dialog.accept(around)).flatten() {

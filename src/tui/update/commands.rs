@@ -249,7 +249,8 @@ const TYPED: &[Typed] = &[
 ];
 
 fn search(app: &mut App) {
-    app.prompts.push(Prompt::Pick(Context::of(app).search()));
+    let picker = Context::of(app).search();
+    app.pick(picker);
 }
 
 fn palette(app: &mut App) {
@@ -260,7 +261,7 @@ fn palette(app: &mut App) {
 fn type_command(app: &mut App, typed: &str) {
     let mut picker = Context::of(app).palette(items(app));
     picker.input = typed.into();
-    app.prompts.push(Prompt::Pick(picker));
+    app.pick(picker);
 }
 
 /// The scope of a command; in the form, the focused row decides too.

@@ -7,8 +7,8 @@ use tui_input::InputRequest;
 
 use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::{Case, FIELDS, Field, Limit, changes};
+use crate::model::Quantity;
 use crate::model::inputs::Method;
-use crate::model::{QUANTITIES, Quantity};
 use crate::report;
 use crate::tui::app::App;
 use crate::tui::app::actions::Choice;
@@ -215,8 +215,7 @@ pub(super) fn ask_material(app: &mut App) {
         let choice = Choice::of(move |app| make_of_material(app, gears, material));
         Item::named(choice, name.clone(), about)
     };
-    let picker = Picker::new(title, materials::all().iter().map(item), &[]);
-    app.prompts.push(Prompt::Pick(picker));
+    app.pick(Picker::new(title, materials::all().iter().map(item), &[]));
 }
 
 /// Sets the material of the gears as one edit, which undo reverts.
@@ -239,12 +238,7 @@ pub(super) fn ask_limit(app: &mut App) {
     if let Some(quantity) = app.results().marked().filter(|_| app.layout.focus() == Pane::Results) {
         return hold_limit(app, quantity);
     }
-    let item = |quantity: &'static Quantity| {
-        let about = format!("{} {}", quantity.symbol, quantity.label.trim_start());
-        Item::result(Choice::of(move |app| hold_limit(app, quantity)), quantity, about)
-    };
-    let picker = Picker::new("Set a limit on a result", QUANTITIES.iter().map(item), &[]);
-    app.prompts.push(Prompt::Pick(picker));
+    app.pick(Picker::results("Set a limit on a result", hold_limit));
 }
 
 /// Goes to the limit of a quantity; a new limit starts with the present value of the quantity.

@@ -175,8 +175,8 @@ fn done(app: &mut App, path: &Path, subject: &str, result: Result<(), ExportFaul
             let own = path.to_owned();
             let over = Choice::of(move |app| begin(app, own.clone(), true));
             let text = format!("{} exists. Overwrite replaces it with the export.", path.display());
-            let buttons = [("Overwrite", over), ("Cancel", Choice::of(|_| ()))];
-            app.prompts.push(Prompt::Ask(Question::new("The file exists", text, buttons)));
+            let buttons = [("Overwrite", over), ("Cancel", Choice::none())];
+            app.ask(Question::new("The file exists", text, buttons));
         }
         Err(ExportFault::Failed(reason)) => app.complain(format!("not exported: {reason}")),
     }

@@ -42,7 +42,7 @@ pub(super) fn quit(app: &mut App) {
             let text = format!("{count} cases have unsaved edits: {names}.");
             let buttons =
                 [("Save all", going(Next::SaveRest)), ("Discard all", going(Next::Quit)), cancel()];
-            ask(app, Question::new(UNSAVED, text, buttons));
+            app.ask(Question::new(UNSAVED, text, buttons));
         }
     }
 }
@@ -65,7 +65,7 @@ fn ask_unsaved(app: &mut App, next: Next) {
     let text = format!("{} has unsaved edits.{reload}", app.tab.name());
     let after = next.clone();
     let saving = Choice::of(move |app| save(app, after.clone()));
-    ask(app, Question::new(UNSAVED, text, [("Save", saving), ("Discard", going(next)), cancel()]));
+    app.ask(Question::new(UNSAVED, text, [("Save", saving), ("Discard", going(next)), cancel()]));
 }
 
 fn going(next: Next) -> Choice {
@@ -73,7 +73,7 @@ fn going(next: Next) -> Choice {
 }
 
 fn cancel() -> (&'static str, Choice) {
-    ("Cancel", Choice::of(|_| ()))
+    ("Cancel", Choice::none())
 }
 
 /// Asks after a save that would overwrite a file or that has no lock.
@@ -117,7 +117,7 @@ fn ask_refused(app: &mut App, path: PathBuf, fault: SaveFault, next: &Next) {
         }
         SaveFault::Failed(reason) => return app.complain(format!("not saved: {reason}")),
     };
-    ask(app, question);
+    app.ask(question);
 }
 
 // Offers edits that an earlier session could not save.
@@ -131,10 +131,10 @@ fn ask_recovery(app: &mut App, name: &str, offer: Offer) {
     let buttons = [
         ("Discard", forgetting(vec![offer.journal.clone()])),
         ("Recover", Choice::of(move |app| recover(app, &offer))),
-        ("Later", Choice::of(|_| ())),
+        ("Later", Choice::none()),
     ];
     let question = Question::new("Unsaved edits found", text, buttons);
-    ask(app, Question { details, selected: 1, ..question });
+    app.ask(Question { details, selected: 1, ..question });
 }
 
 fn forgetting(journals: Vec<PathBuf>) -> Choice {
@@ -330,8 +330,7 @@ pub(super) fn ask_example(app: &mut App) {
         let choice = Choice::of(move |app| begin_example(app, example));
         Item::named(choice, example.name.to_owned(), title).previewing(Target::Example(example))
     };
-    let picker = Picker::new("New case from an example", EXAMPLES.iter().map(item), &[]);
-    app.prompts.push(Prompt::Pick(picker));
+    app.pick(Picker::new("New case from an example", EXAMPLES.iter().map(item), &[]));
 }
 
 /// Starts a case from an example in a new tab.
@@ -374,8 +373,8 @@ pub(super) fn list_journals(app: &mut App, journals: Vec<(PathBuf, String)>) {
     let (places, details) = journals.into_iter().unzip();
     let text =
         "Sessions ended with these unsaved edits. A case offers its edits when it is opened.";
-    let buttons = [("Delete all", forgetting(places)), ("Close", Choice::of(|_| ()))];
-    ask(app, Question { details, ..Question::new(UNSAVED, text.to_owned(), buttons) });
+    let buttons = [("Delete all", forgetting(places)), ("Close", Choice::none())];
+    app.ask(Question { details, ..Question::new(UNSAVED, text.to_owned(), buttons) });
 }
 
 /// Restores the kept edits into the form as one edit, which undo reverts.
@@ -450,8 +449,8 @@ fn leave(app: &mut App) {
     };
     let text = format!("The export to {} still runs.", path.display());
     let quit = ("Quit without the export", Choice::of(|app| app.want(Effect::Quit)));
-    let question = Question::new(export::EXPORT_RUNS, text, [("Wait", Choice::of(|_| ())), quit]);
-    ask(app, Question { selected: 0, ..question });
+    let question = Question::new(export::EXPORT_RUNS, text, [("Wait", Choice::none()), quit]);
+    app.ask(Question { selected: 0, ..question });
 }
 
 /// Carries out the step after a save.
@@ -514,10 +513,6 @@ fn write(app: &mut App, path: PathBuf, over: Over, next: Next) {
     let document = app.tab.as_edited();
     app.tab.saving = Some(app.tab.case.clone());
     app.want(Effect::Save(Box::new(Saving { document, path, over }), next));
-}
-
-fn ask(app: &mut App, question: Question) {
-    app.prompts.push(Prompt::Ask(question));
 }
 
 // The list of cases in a folder shows only names with the extension.

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use super::{edit, key_of, panes};
-use crate::case::fields::{self, FIELDS};
+use crate::case::fields::FIELDS;
 use crate::case::{Case, Evaluator, Problem, Variant};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
@@ -23,9 +23,9 @@ use crate::study::sweep::Grid;
 use crate::study::tolerance::{Samples, Size, Tolerance, USUAL_RANKED};
 use crate::study::trade::{Trade, trade};
 use crate::tui::app::App;
-use crate::tui::app::actions::{Choice, Content, Running, Slot, Work};
+use crate::tui::app::actions::{Content, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
-use crate::tui::app::dialogs::picker::{Item, Picker};
+use crate::tui::app::dialogs::picker::Picker;
 use crate::tui::app::dialogs::question::PathDialog;
 use crate::tui::jobs::Traded;
 use crate::tui::layout::{Pane, is_too_small};
@@ -275,44 +275,34 @@ fn show_grid(app: &mut App) {
 /// Chooses the field of the study, or follows the focused field again.
 pub(super) fn first(app: &mut App) {
     if app.study.field.take().is_none() {
-        list_fields(app, "Field of the study", |app, field| {
+        let picker = Picker::fields("Field of the study", |app, field| {
             (app.study.field, app.study.is_tolerance) = (Some(field), false);
             app.study.second = app.study.second.filter(|second| *second != field);
         });
+        app.pick(picker);
     }
 }
 
 /// Chooses a second field, or leaves the map.
 pub(super) fn second(app: &mut App) {
     if app.study.second.take().is_none() {
-        list_fields(app, "Second field of the map", |app, field| {
+        let picker = Picker::fields("Second field of the map", |app, field| {
             if self::field(app) == Some(field) {
                 return app.complain("the second field is the first one: choose another");
             }
             (app.study.second, app.study.is_tolerance) = (Some(field), false);
         });
+        app.pick(picker);
     }
-}
-
-fn list_fields(app: &mut App, title: &'static str, choose: fn(&mut App, usize)) {
-    let fields = FIELDS.iter().enumerate();
-    let numbers = fields.filter(|(_, field)| !matches!(field.kind, fields::Kind::Text));
-    let item = |(at, field)| Item::field(Choice::of(move |app| choose(app, at)), field);
-    app.prompts.push(Prompt::Pick(Picker::new(title, numbers.map(item), &[])));
 }
 
 /// Chooses the result of the study, or follows the selected result again.
 pub(super) fn result(app: &mut App) {
-    if app.study.quantity.take().is_some() {
-        return;
+    if app.study.quantity.take().is_none() {
+        app.pick(Picker::results("Result of the study", |app, quantity| {
+            app.study.quantity = Some(quantity.key);
+        }));
     }
-    let item = |quantity: &'static Quantity| {
-        let about = format!("{} {}", quantity.symbol, quantity.label.trim_start());
-        let choice = Choice::of(move |app| app.study.quantity = Some(quantity.key));
-        Item::result(choice, quantity, about)
-    };
-    let picker = Picker::new("Result of the study", QUANTITIES.iter().map(item), &[]);
-    app.prompts.push(Prompt::Pick(picker));
 }
 
 /// Shows the points as a table, or the curve or map again.

@@ -12,9 +12,9 @@ use unicode_width::UnicodeWidthStr;
 
 use super::boxes::{self, PreviewPane};
 use super::{Dialog, Surroundings, closing};
-use crate::case::fields::Field;
+use crate::case::fields::{FIELDS, Field, Kind};
 use crate::case::units::System;
-use crate::model::Quantity;
+use crate::model::{QUANTITIES, Quantity};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Choice, Work};
 use crate::tui::form_aids::{COMMAND, Entry, HELP, LABEL, query};
@@ -84,6 +84,23 @@ impl Picker {
         let has_preview = items.iter().any(|item| item.preview.is_some());
         let preview = has_preview.then(PreviewPane::default);
         Picker { title, items, typed, input: Line::default(), selected: 0, preview }
+    }
+
+    /// Every field with a value.
+    pub(crate) fn fields(title: &'static str, choose: fn(&mut App, usize)) -> Picker {
+        let fields = FIELDS.iter().enumerate();
+        let valued = fields.filter(|(_, field)| !matches!(field.kind, Kind::Text));
+        let item = |(at, field)| Item::field(Choice::of(move |app| choose(app, at)), field);
+        Picker::new(title, valued.map(item), &[])
+    }
+
+    /// Every result.
+    pub(crate) fn results(title: &'static str, choose: fn(&mut App, &'static Quantity)) -> Picker {
+        let item = |quantity: &'static Quantity| {
+            let about = format!("{} {}", quantity.symbol, quantity.label.trim_start());
+            Item::result(Choice::of(move |app| choose(app, quantity)), quantity, about)
+        };
+        Picker::new(title, QUANTITIES.iter().map(item), &[])
     }
 
     /// The lines that match every typed word, the best first.
