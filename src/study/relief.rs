@@ -257,16 +257,15 @@ pub fn specify(
         is_in_motion: method == Method::Dynamic,
         inputs: &at_rest,
         at_most: &at_most,
-        demand: &demand,
         grid: &grid,
         bench: &bench,
         go_on,
         part: Cell::new(SEARCH),
     };
     let peak = |reliefs: &TipReliefs| Ok(pair.figures(reliefs, pair.is_in_motion)?.peak);
-    let mut search = Search::new(&bench, &grid, &demand, go_on);
+    let mut search = Search::new(&bench, &grid, go_on);
     let peak = (demand.minimise == Criterion::Peak).then_some(&peak as search::Peak<'_>);
-    let found = search.best_of_each_kind(peak, demand.minimise == Criterion::Entry)?;
+    let found = search.best_of_each_kind(peak)?;
     let usual = solution.geometry.shared_length();
     let gears = [&at_rest.driver, &at_rest.driven];
     let present = TipReliefs {
@@ -422,7 +421,6 @@ struct WholeSolves<'a> {
     is_in_motion: bool,
     /// The case under the greatest load of the demand.
     at_most: &'a Inputs,
-    demand: &'a Demand,
     grid: &'a Grid,
     bench: &'a Bench<'a>,
     go_on: &'a dyn Fn(f64) -> bool,
@@ -445,7 +443,7 @@ impl WholeSolves<'_> {
             }
             (greatest, last) = (greater, worst.gap);
         }
-        if self.demand.minimise == Criterion::Entry {
+        if self.bench.demand.minimise == Criterion::Entry {
             return self.choice(name, reliefs);
         }
         let most = greatest.amounts[0].max(greatest.amounts[1]);
@@ -457,7 +455,7 @@ impl WholeSolves<'_> {
     }
 
     fn choice(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
-        let loads = self.demand.loads();
+        let loads = self.bench.demand.loads();
         let errors = loads.iter().map(|&(part, _)| {
             let inputs = reliefs.of(&loaded(self.inputs, part));
             let solution = self.solve(&inputs, Stage::StaticSpectrum)?;
@@ -473,7 +471,7 @@ impl WholeSolves<'_> {
         } else {
             None
         };
-        let error = self.demand.figure(errors.iter().copied());
+        let error = self.bench.demand.figure(errors.iter().copied());
         let nominal = Figures { error, factor, ..self.figures(&reliefs, self.is_in_motion)? };
         let worst = nominal.worst(self.worst(&reliefs)?);
         let greatest_load = self.greatest_load(&reliefs)?;
@@ -484,7 +482,7 @@ impl WholeSolves<'_> {
     /// both gears have equal deviations.
     fn worst(&self, reliefs: &TipReliefs) -> Result<Figures, NoRelief> {
         let none = Figures { gap: f64::INFINITY, ..Figures::default() };
-        self.demand.corners().into_iter().try_fold(none, |worst, off| {
+        self.bench.demand.corners().into_iter().try_fold(none, |worst, off| {
             let is_alike = off[..2] == [off[0]; 2] && off[2..] == [off[2]; 2];
             let found = self.figures(&reliefs.off(off), self.is_in_motion && is_alike)?;
             Ok(worst.worst(found))
@@ -555,7 +553,7 @@ impl WholeSolves<'_> {
                 high = middle;
             }
         }
-        Ok(Some(self.demand.greatest_load() * low))
+        Ok(Some(self.bench.demand.greatest_load() * low))
     }
 }
 

@@ -4,7 +4,7 @@ use std::array::from_fn;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 
-use super::{AMOUNT_STEP, Demand, MapPoint, NoRelief, Off, TipReliefs, decimal};
+use super::{AMOUNT_STEP, Criterion, Demand, MapPoint, NoRelief, Off, TipReliefs, decimal};
 use crate::model::geometry::{Geometry, PairShape, geometry};
 use crate::model::inputs::{Gear, ReliefShape};
 use crate::model::mesh::Mesh;
@@ -111,6 +111,7 @@ enum Figure {
 pub(super) struct Search<'a> {
     bench: &'a Bench<'a>,
     grid: &'a Grid,
+    /// The deviations at the limits of the tolerances.
     corners: Vec<Off>,
     go_on: &'a dyn Fn(f64) -> bool,
     /// The overlaps and errors of the evaluated reliefs, by shape, amounts and lengths in 0.1 nm.
@@ -121,10 +122,10 @@ impl<'a> Search<'a> {
     pub(super) fn new(
         bench: &'a Bench<'a>,
         grid: &'a Grid,
-        demand: &Demand,
         go_on: &'a dyn Fn(f64) -> bool,
     ) -> Search<'a> {
-        Search { bench, grid, corners: demand.corners(), go_on, known: Default::default() }
+        let corners = bench.demand.corners();
+        Search { bench, grid, corners, go_on, known: Default::default() }
     }
 
     /// The number of evaluated reliefs.
@@ -134,14 +135,13 @@ impl<'a> Search<'a> {
 
     /// The best relief of each kind without corner contact, then those with equal gears, and the
     /// least; by the transmission error, and then by the peak force if that is the criterion. If
-    /// there is none and contact is accepted, the relief with the least overlap.
+    /// there is none, the criterion `entry` accepts the relief with the least overlap.
     ///
     /// # Errors
     /// Returns an error if no kind has such a relief, or if the user stops the search.
     pub(super) fn best_of_each_kind(
         &mut self,
         peak: Option<Peak<'_>>,
-        accepts_contact: bool,
     ) -> Result<Vec<(&'static str, TipReliefs)>, NoRelief> {
         let (mut found, mut least) = (Vec::new(), None);
         for (shape, names) in KINDS {
@@ -166,7 +166,7 @@ impl<'a> Search<'a> {
             }
         }
         found.extend(least.map(|reliefs| (2, LEAST, reliefs)));
-        if found.is_empty() && accepts_contact {
+        if found.is_empty() && self.bench.demand.minimise == Criterion::Entry {
             found.push((2, LEAST_OVERLAP, self.least_overlap()?));
         }
         found.sort_by_key(|&(kind, ..)| kind);
@@ -410,7 +410,7 @@ pub(super) struct Bench<'a> {
     inputs: Inputs,
     /// The solution at the greatest load.
     pub(super) solution: &'a Solution,
-    demand: &'a Demand,
+    pub(super) demand: &'a Demand,
     /// The geometry with the gears exchanged.
     swapped: Geometry,
     loads: Vec<Pitch>,
