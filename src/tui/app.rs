@@ -356,17 +356,11 @@ impl App {
             case: &tab.case,
             shows_cost: self.shows_cost,
             shows_every_method: self.shows_every_method,
-            leave: self.leave(),
             units: self.settings.units,
             look: self.look,
             title: self.title(Pane::Results),
             area: self.layout.plan().area(Pane::Results),
         }
-    }
-
-    /// The prefix of a letter key: a field takes letters as text.
-    fn leave(&self) -> &'static str {
-        if self.has_line() { "Esc " } else { "" }
     }
 
     /// The trade pane with its benchmark.
@@ -411,7 +405,7 @@ impl App {
             baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
             cursor: self.cursor,
             is_stale: self.tab.shows_last_valid(),
-            leave: self.leave(),
+            leave: self.title(Pane::Chart).leave(),
             shows_every_method: self.shows_every_method,
             work: &self.tab.chart_work,
             units: self.settings.units,

@@ -80,10 +80,14 @@ impl Title {
     // form has no key while one of its fields is edited.
     fn key(&self) -> String {
         match (self.is_editing, self.pane) {
-            (false, pane) => format!("{} ", pane.number()),
             (true, Pane::Form) => String::new(),
-            (true, pane) => format!("Esc {} ", pane.number()),
+            (_, pane) => format!("{}{} ", self.leave(), pane.number()),
         }
+    }
+
+    /// The prefix of a letter key: a field takes letters as text.
+    pub(crate) fn leave(&self) -> &'static str {
+        if self.is_editing { "Esc " } else { "" }
     }
 
     // Keys and names of the hidden panes; only the keys beside a long title or in a pane alone.

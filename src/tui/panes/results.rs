@@ -67,8 +67,6 @@ pub struct Results<'a> {
     pub(crate) shows_every_method: bool,
     /// Whether the title shows the cost of the solve.
     pub(crate) shows_cost: bool,
-    /// The prefix of a letter key: a field takes letters as text.
-    pub(crate) leave: &'static str,
     pub(crate) units: System,
     pub(crate) look: Look,
     pub(crate) title: Title,
@@ -211,8 +209,8 @@ fn parts(pane: &Results<'_>) -> (Vec<Line<'static>>, usize) {
     }
     let notes = match hidden {
         0 => None,
-        1 => Some(format!("1 note ({}n)", pane.leave)),
-        _ => Some(format!("{hidden} notes ({}n)", pane.leave)),
+        1 => Some(format!("1 note ({}n)", pane.title.leave())),
+        _ => Some(format!("{hidden} notes ({}n)", pane.title.leave())),
     };
     let folded = pane.answer.and_then(|answer| folded(pane, answer));
     let last: Vec<String> = notes.into_iter().chain(folded).collect();
@@ -228,7 +226,7 @@ fn parts(pane: &Results<'_>) -> (Vec<Line<'static>>, usize) {
 fn folded(pane: &Results<'_>, answer: &Answer) -> Option<String> {
     let name = if answer.active.shares_load() { "free impact" } else { "other methods" };
     let is_folded = !pane.shows_every_method && pane.variants.is_none();
-    is_folded.then(|| format!("{name} ({}f)", pane.leave))
+    is_folded.then(|| format!("{name} ({}f)", pane.title.leave()))
 }
 
 /// Every sentence in full, one per line: the page of notes.
