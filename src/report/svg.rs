@@ -85,7 +85,7 @@ fn frame(chart: &Chart, height: f64) -> String {
     };
     let (title, across, up) = (escaped(&chart.title), label(&chart.across), label(&chart.up));
     // A long label has smaller letters.
-    let [size, small] = [(&title, 17.0, right - left), (&up, 15.0, bottom + 20.0)]
+    let [size, small] = [(&title, 17.0, right - left), (&up, 15.0, bottom + 40.0)]
         .map(|(text, size, room)| size * (room / (LETTER * text.chars().count() as f64)).min(1.0));
     format!(
         "{}<text x=\"{left}\" y=\"22\" class=\"title\" style=\"font-size:{size:.1}px\">{title}</text>\n\
