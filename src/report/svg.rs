@@ -11,7 +11,7 @@ use crate::case::sanitize::sanitize;
 /// Half the width of a printed page shows letters of about 7 pt.
 const WIDTH: f64 = 560.0;
 /// Left, top, right and bottom of the field.
-const FIELD: (f64, f64, f64, f64) = (84.0, 58.0, 544.0, 238.0);
+const FIELD: (f64, f64, f64, f64) = (84.0, 58.0, 536.0, 238.0);
 /// Vertical position of the first line of the legend.
 const LEGEND: f64 = 306.0;
 const LINE: f64 = 21.0;
@@ -20,7 +20,7 @@ const LETTER: f64 = 9.4;
 /// Width of a symbol of the legend with its gaps.
 const SYMBOL: f64 = 52.0;
 /// Greatest number of letters of a name in the legend.
-const MOST_LETTERS: usize = 44;
+const MOST_LETTERS: usize = 43;
 
 /// Draws the chart.
 #[must_use]
