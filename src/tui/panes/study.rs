@@ -147,7 +147,7 @@ pub(crate) fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
 pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(usize, usize)> {
     let shown = pane.study.shown.as_ref()?;
     let places = places(pane, shown);
-    if pane.state.is_table {
+    if pane.state.is_table && !places.is_empty() {
         let [width, height] =
             [0, 1].map(|at| places.get(at).map_or(1, |(axis, _)| axis.points.len()));
         let (x, y) = cursor(pane, shown);

@@ -86,7 +86,7 @@ const MOST_CURVES: usize = 8;
 /// The picture of the shown curves; of a map, curves over the first field for values of the second.
 #[must_use]
 pub(crate) fn picture(pane: &StudyPane<'_>) -> Option<Chart> {
-    let shown = pane.study.shown.as_ref()?;
+    let shown = pane.study.shown.as_ref().filter(|_| pane.study.obstacle.is_none())?;
     let StudyParameters::Grid(grid) = &shown.request.parameters else { return None };
     let (known, axis) = (shown.quantity()?, grid.axes.last()?);
     let layers = grid.layers.iter().zip(&shown.layers);

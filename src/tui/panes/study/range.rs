@@ -263,6 +263,9 @@ pub(crate) fn typed_axes(fields: [Option<usize>; 2], text: &str) -> Result<Vec<A
             }
             values = rest;
         }
+        if let Some(count) = sampling.points.filter(|count| *count > MOST_POINTS) {
+            return Err(too_many(count));
+        }
         let text = format!("{key}={values}");
         let is_count = index_of(key).is_some_and(|at| matches!(FIELDS[at].kind, Kind::Count(..)));
         if Axis::is_range(&text) && !is_count {
@@ -272,10 +275,11 @@ pub(crate) fn typed_axes(fields: [Option<usize>; 2], text: &str) -> Result<Vec<A
     };
     let axes = parts.iter().zip(fields).map(axis).collect::<Result<Vec<_>, String>>()?;
     let count: usize = axes.iter().map(|axis| axis.points.len()).product();
-    if count > MOST_POINTS {
-        return Err(format!("{count} points are more than {MOST_POINTS}: type fewer points"));
-    }
-    Ok(axes)
+    if count > MOST_POINTS { Err(too_many(count)) } else { Ok(axes) }
+}
+
+fn too_many(count: usize) -> String {
+    format!("{count} points are more than {MOST_POINTS}: type fewer points")
 }
 
 /// The argument of `--vary` that gives an axis, and its number of points if it is a range.
