@@ -2,7 +2,6 @@
 //! the tolerance.
 
 use crate::case::Case;
-use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity};
 use crate::study::axis::Axis;
 use crate::study::batch::{PointOutcome, Refusals};
@@ -40,23 +39,12 @@ pub struct GridParameters {
 /// A curve, or the values of a map.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Layer {
-    /// The method, or the baseline.
-    pub(crate) source: LayerSource,
-    /// The case with that method.
+    /// Whether it is the baseline.
+    pub(crate) is_baseline: bool,
+    /// The case with the method of the curve.
     pub(crate) inputs: Inputs,
     /// The key of the quantity.
     pub(crate) quantity: &'static str,
-}
-
-/// The origin of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum LayerSource {
-    /// The method of the case.
-    Active(Method),
-    /// Another method.
-    Other(Method),
-    /// The baseline.
-    Baseline,
 }
 
 /// The distributions of a case.
@@ -121,17 +109,12 @@ pub struct StudyResults {
     pub end: Option<End>,
 }
 
-impl LayerSource {
-    /// The name in the legend.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            LayerSource::Active(method) | LayerSource::Other(method) => method.name(),
-            LayerSource::Baseline => "baseline",
-        }
-    }
-}
-
 impl Layer {
+    /// The name in the legend.
+    pub(crate) fn name(&self) -> &'static str {
+        if self.is_baseline { "baseline" } else { self.inputs.method.name() }
+    }
+
     /// The quantity.
     #[must_use]
     pub(crate) fn quantity(&self) -> Option<&'static Quantity> {

@@ -314,7 +314,7 @@ fn values_at_cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
     let layers = grid.layers.iter().zip(&shown.layers);
     let value = |(layer, found): (&Layer, &LayerFound)| {
         let words = value_words(layer, found, index, pane.units, true)?;
-        Some(format!("{} {words}", layer.source.name()))
+        Some(format!("{} {words}", layer.name()))
     };
     let values: Vec<String> = layers.filter_map(value).collect();
     format!("{}: {}", settings.join(", "), values.join(", "))

@@ -37,8 +37,8 @@ use crate::tui::rows::{self, Row};
 use crate::tui::session::save::Next;
 use crate::tui::solver::{Baseline, Variants};
 use crate::tui::study::{
-    End, GridParameters, Layer, LayerFound, LayerSource, SAMPLES, StudyParameters, StudyRequest,
-    StudyResults, ToleranceParameters,
+    End, GridParameters, Layer, LayerFound, SAMPLES, StudyParameters, StudyRequest, StudyResults,
+    ToleranceParameters,
 };
 
 /// The title and the instruction of the dialog for a range.
@@ -157,21 +157,19 @@ fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer>
     let active = inputs.method;
     let answer = app.tab.answer.as_ref();
     let solved_by = answer.map_or(active, |answer| answer.active);
-    let first = Layer {
-        source: LayerSource::Active(active),
-        inputs: inputs.clone(),
-        quantity: quantity.key,
-    };
+    let first = Layer { is_baseline: false, inputs: inputs.clone(), quantity: quantity.key };
     let other = |method: Method| {
         let own = counterpart(quantity, solved_by, method)?;
         let inputs = Inputs { method, ..inputs.clone() };
-        Some(Layer { source: LayerSource::Other(method), inputs, quantity: own.key })
+        Some(Layer { is_baseline: false, inputs, quantity: own.key })
     };
-    let others = METHODS.into_iter().filter(|method| *method != active && *method != solved_by);
+    let is_shown = |method: &Method| *method != Method::Paper || app.shows_every_method;
+    let others = METHODS.into_iter().filter(is_shown);
+    let others = others.filter(|method| *method != active && *method != solved_by);
     let pinned = app.baseline.as_ref().and_then(|baseline| {
         let answer = &baseline.answer;
         Some(Layer {
-            source: LayerSource::Baseline,
+            is_baseline: true,
             inputs: answer.inputs.clone(),
             quantity: counterpart(quantity, solved_by, answer.active)?.key,
         })

@@ -15,8 +15,8 @@ use crate::report::common_unit;
 use crate::study::axis::Axis as StudyAxis;
 use crate::study::batch::PointOutcome;
 use crate::tui::panes::chart::curves::sign_of;
-use crate::tui::panes::plot::{Look, TerminalChart};
-use crate::tui::study::{Layer, LayerFound, LayerSource, StudyParameters, StudyResults};
+use crate::tui::panes::plot::TerminalChart;
+use crate::tui::study::{Layer, LayerFound, StudyParameters, StudyResults};
 
 pub(super) fn draw(
     pane: &StudyPane<'_>,
@@ -32,13 +32,18 @@ pub(super) fn draw(
     let theme = pane.look.theme;
     let all = || shown.layers.iter().flat_map(|found| found.values.iter().flatten().copied());
     let factor = units::factor(common_unit(known, all(), pane.units)).unwrap_or(1.0);
-    let curve = |(layer, found): (&Layer, &LayerFound)| {
-        let series = series(layer.source.name().to_owned(), axis, &found.values, factor);
-        let is_shown = !series.pieces.is_empty() || matches!(layer.source, LayerSource::Active(_));
-        is_shown.then(|| (series, look(pane, layer.source)))
-    };
     // The active method is first, on top.
-    let (series, looks) = grid.layers.iter().zip(&shown.layers).filter_map(curve).unzip();
+    let curve = |(at, (layer, found)): (usize, (&Layer, &LayerFound))| {
+        let series = series(layer.name().to_owned(), axis, &found.values, factor);
+        let look = match (at, layer.is_baseline) {
+            (0, _) => (pane.marker, theme.active),
+            (_, true) => (Marker::Custom('+'), theme.baseline),
+            (_, false) => (sign_of(layer.inputs.method), theme.other),
+        };
+        (at == 0 || !series.pieces.is_empty()).then_some((series, look))
+    };
+    let layers = grid.layers.iter().zip(&shown.layers).enumerate();
+    let (series, looks) = layers.filter_map(curve).unzip();
     let chart = Chart { across: across(axis, ""), series, ..Chart::default() };
     let mut words = vec![("● now".to_owned(), theme.focus), ("▴ cursor".to_owned(), theme.focus)];
     let has = |sought| shown.layers.iter().any(|found| found.outcomes.contains(&sought));
@@ -96,7 +101,7 @@ pub(crate) fn picture(pane: &StudyPane<'_>) -> Option<Chart> {
             let step = up.points.len().div_ceil(MOST_CURVES);
             rows.step_by(step).map(|(at, row)| (up.with_unit(at), row)).collect()
         }
-        _ => layers.map(|(of, found)| (of.source.name().to_owned(), &found.values[..])).collect(),
+        _ => layers.map(|(of, found)| (of.name().to_owned(), &found.values[..])).collect(),
     };
     let values = named.iter().flat_map(|(_, values)| values.iter().flatten().copied());
     let unit = common_unit(known, values, pane.units);
@@ -135,14 +140,4 @@ fn is_joined(axis: &StudyAxis) -> bool {
 /// The position of a point on the axis: its number, or the index of a choice.
 fn x(axis: &StudyAxis, at: usize) -> f64 {
     axis.points.get(at).and_then(|point| point.number).unwrap_or(at as f64)
-}
-
-/// The marker and the style of a curve.
-fn look(pane: &StudyPane<'_>, source: LayerSource) -> Look {
-    let theme = pane.look.theme;
-    match source {
-        LayerSource::Active(_) => (pane.marker, theme.active),
-        LayerSource::Baseline => (Marker::Custom('+'), theme.baseline),
-        LayerSource::Other(method) => (sign_of(method), theme.other),
-    }
 }

@@ -33,7 +33,7 @@ pub(super) fn draw(
     let curves = layers().filter_map(|(layer, found)| {
         let known = layer.quantity()?;
         let unit = common_unit(known, found.values.iter().flatten().copied(), pane.units);
-        let name = format!("{} {}", layer.source.name(), known.symbol_in(layer.inputs.method));
+        let name = format!("{} {}", layer.name(), known.symbol_in(layer.inputs.method));
         Some(Axis::new(name, unit).in_unit())
     });
     let head: Vec<String> =
