@@ -1,6 +1,6 @@
 //! The built program as scripts use it: input, output and exit codes.
 
-use crate::program::{has, output as run, program, stdout_of};
+use crate::program::{has, output as run, program, stdout_of, words};
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -166,15 +166,9 @@ fn only_requested_quantities_are_computed_and_printed() {
 
 #[test]
 fn csv_has_a_row_a_case_with_units_in_the_header() {
-    let table = stdout_of(&[
-        "solve",
-        TABLE_1,
-        TABLE_1,
-        "--only",
-        "impact_force,contact_ratio",
-        "--format",
-        "csv",
-    ]);
+    let table = stdout_of(&words(&format!(
+        "solve {TABLE_1} {TABLE_1} --only impact_force,contact_ratio --format csv"
+    )));
     let mut reader = csv::Reader::from_reader(table.as_bytes());
     assert_eq!(
         reader.headers().unwrap(),
@@ -288,16 +282,9 @@ fn every_fault_of_a_bad_case_has_its_place_on_one_line() {
 #[test]
 fn a_refusal_of_the_model_has_the_place_of_its_field() {
     let (_folder, path) = changed("addendum = 1.0", "addendum = 0.3");
-    let output = run(&[
-        "solve",
-        &path,
-        "--set",
-        "driven.addendum=0.3",
-        "--set",
-        "model.deflection=",
-        "--format",
-        "json",
-    ]);
+    let output = run(&words(&format!(
+        "solve {path} --set driven.addendum=0.3 --set model.deflection= --format json"
+    )));
     assert_eq!((code(&output), out(&output).as_str()), (3, ""));
     assert!(err(&output).contains("--set driven.addendum=0.3: "), "{}", err(&output));
     let (_folder, path) =
@@ -728,15 +715,9 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
         stdout_of(&["explain", "impact_force", TABLE_1]).lines().skip(3).collect::<Vec<_>>(),
         page.lines().skip(3).collect::<Vec<_>>()
     );
-    let paper = json(&[
-        "explain",
-        "approach_angle_driver",
-        TABLE_1,
-        "--method",
-        "paper",
-        "--format",
-        "json",
-    ]);
+    let paper = json(&words(&format!(
+        "explain approach_angle_driver {TABLE_1} --method paper --format json"
+    )));
     assert_eq!(
         (&paper["key"], &paper["method"]),
         (&"approach_angle_driver".into(), &"paper".into())
@@ -747,14 +728,8 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
         (&paper["validity"][0]["inside"], &paper["corrections"][0]["equation"]),
         (&false.into(), &"Eqs. 7-20".into())
     );
-    let faster = json(&[
-        "explain",
-        "normal_velocity",
-        "--set",
-        "operation.speed=4000 rpm",
-        "--format",
-        "json",
-    ]);
+    let faster =
+        json(&words("explain normal_velocity --set 'operation.speed=4000 rpm' --format json"));
     let effect = faster["sensitivity"]
         .as_array()
         .unwrap()

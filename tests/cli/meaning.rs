@@ -1,6 +1,6 @@
 //! A result, a verdict or a hint has one meaning in a method, and the text says so where another
 //! method differs.
-use crate::program::{has, output as run, run as texts_of};
+use crate::program::{has, output as run, run as texts_of, words};
 use serde_json::Value;
 use tipstrike::case::fields::{Kind, index_of};
 use tipstrike::case::{Acting, Case, EXAMPLES, FIELDS, partial_relevance, relevance};
@@ -54,16 +54,9 @@ fn an_equivalent_error_without_the_reliefs_is_named_so() {
         assert!(page.contains(row), "{method}: {page}");
     }
     let of = |method| -> Value {
-        let line = stdout_of(&[
-            "solve",
-            TABLE_1,
-            "--method",
-            method,
-            "--only",
-            "equivalent_error",
-            "--format",
-            "json",
-        ]);
+        let line = stdout_of(&words(&format!(
+            "solve {TABLE_1} --method {method} --only equivalent_error --format json"
+        )));
         serde_json::from_str::<Value>(&line).unwrap()["quantities"]["equivalent_error"]["of"]
             .clone()
     };

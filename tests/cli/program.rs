@@ -40,3 +40,16 @@ pub(crate) fn has(text: &str, parts: &[&str]) {
         assert!(text.contains(part), "{part:?} is missing: {text}");
     }
 }
+
+/// The words of a command line; blanks between single quotes stay.
+pub(crate) fn words(line: &str) -> Vec<&str> {
+    let mut all = Vec::new();
+    for (at, part) in line.split('\'').enumerate() {
+        if at % 2 == 1 {
+            all.push(part);
+        } else {
+            all.extend(part.split_whitespace());
+        }
+    }
+    all
+}

@@ -5,7 +5,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::Command;
 use std::time::Duration;
 
-use crate::program::{program as command, run as printed, stdout_of};
+use crate::program::{program as command, run as printed, stdout_of, words};
 use serde_json::Value;
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
@@ -78,16 +78,9 @@ fn a_bad_option_of_a_relief_gets_its_fix() {
 
 #[test]
 fn a_sweep_is_a_table_with_the_varied_fields_in_their_own_units() {
-    let text = stdout_of(&[
-        "sweep",
-        TABLE_1,
-        "--vary",
-        "operation.speed=1000..2000 rpm",
-        "--points",
-        "3",
-        "--only",
-        "F_S,contact_ratio",
-    ]);
+    let text = stdout_of(&words(&format!(
+        "sweep {TABLE_1} --vary 'operation.speed=1000..2000 rpm' --points 3 --only F_S,contact_ratio"
+    )));
     let rows: Vec<&str> = text.lines().collect();
     assert_eq!(rows[0], "operation.speed [rpm],impact_force [N],contact_ratio [1],outcome");
     assert_eq!(rows.len(), 4);
