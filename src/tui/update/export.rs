@@ -75,29 +75,31 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) {
         Ok(content) => content,
         Err(reason) => return app.complain(format!("not exported: {reason}")),
     };
-    app.exporting = Some(path.clone());
+    let target = at_home(&path);
+    let target = std::path::absolute(&target).unwrap_or(target);
+    app.exporting = Some(path);
     app.say("exporting");
-    let path = at_home(&path);
-    let path = std::path::absolute(&path).unwrap_or(path);
     let write = move |running: &Running<'_>| {
         Some((running.path.to_owned(), write(content, replaces, running)))
     };
-    let (own, failed) = (path.clone(), subject.clone());
+    let (own, failed) = (target.clone(), subject.clone());
     let internal = || Err(ExportFault::Failed("internal error".to_owned()));
     let work =
         Work::new(Slot::Export, write, move |app, (path, found)| done(app, &path, &subject, found));
     let work = work.or(move |app| done(app, &own, &failed, internal()));
-    app.start(work.at(path));
+    app.start(work.at(target));
 }
 
 /// The subject of an export, and its content.
 fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
     let is_picture = exports::is_picture(path);
     let is_data = matches!(exports::format_of(path), Some(Format::Csv | Format::Json));
-    if app.layout.focus() == Pane::Study && (is_picture || is_data) {
+    let picture = picture(app).filter(|_| is_picture);
+    let has_focus = app.layout.focus() == Pane::Study;
+    let is_alone = picture.is_none() && app.layout.plan().shows(Pane::Study);
+    if has_focus && (is_picture || is_data) || is_picture && is_alone {
         return studies::content(app, path);
     }
-    let picture = picture(app).filter(|_| is_picture);
     if is_picture && picture.is_none() {
         let [chart, teeth] = ["chart", "teeth"].map(|name| key_of(app, name));
         return Err(format!(

@@ -77,7 +77,7 @@ fn cancel() -> (&'static str, Choice) {
 }
 
 /// Asks after a save that would overwrite a file or that has no lock.
-fn ask_refused(app: &mut App, path: PathBuf, fault: SaveFault, next: &Next) {
+fn ask_refused(app: &mut App, path: &Path, fault: SaveFault, next: &Next) {
     let name = path.display().to_string();
     let after = next.clone();
     let save_as = Choice::of(move |app| {
@@ -87,7 +87,7 @@ fn ask_refused(app: &mut App, path: PathBuf, fault: SaveFault, next: &Next) {
     });
     let save_as = ("Save as", save_as);
     let overwrite = |stamp| {
-        let (path, next) = (path.clone(), next.clone());
+        let (path, next) = (path.to_owned(), next.clone());
         let over = Over::Seen(stamp);
         let choice = Choice::of(move |app| write(app, path.clone(), over, next.clone()));
         ("Overwrite", choice)
@@ -103,7 +103,7 @@ fn ask_refused(app: &mut App, path: PathBuf, fault: SaveFault, next: &Next) {
                 "{name} was changed after it was opened here. Reload discards the edits in the \
                  form."
             );
-            let reload = ("Reload", going(Next::Load(path.clone())));
+            let reload = ("Reload", going(Next::Load(path.to_owned())));
             let buttons = [reload, save_as, overwrite(stamp), cancel()];
             Question {
                 details: lines,
@@ -238,7 +238,7 @@ pub(super) fn saved(
             app.want(Effect::Remember(path));
             go(app, next);
         }
-        Err(fault) => ask_refused(app, path, fault, &next),
+        Err(fault) => ask_refused(app, &path, fault, &next),
     }
 }
 
