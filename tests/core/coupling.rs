@@ -18,8 +18,9 @@ use tipstrike::model::position::tip_at;
 use tipstrike::model::static_load::{balance, static_load};
 use tipstrike::model::stations::Spacing;
 use tipstrike::model::{Geometry, Inputs, Outline, Solution, Stage, Stages, notes, solve};
+use tipstrike::numeric::root;
 
-use crate::support::standard_pair;
+use crate::support::{range, standard_pair};
 use whole_gear::{Line, WholeGear};
 
 /// A pair with the finite elements of the program, and with both gears by other elements.
@@ -227,38 +228,26 @@ fn coupled_pairs_share_the_load_as_two_whole_gears_do() {
         println!("{name}: contact ratio {ratio:.3}");
         let load = check.solution.static_load.as_ref().expect("method static");
         let first = -load.first_contact_angle.expect("it strikes") * mesh.base_radii.1;
-        let (mut low, mut high) = (2.0 * first, 0.0);
-        for _ in 0..40 {
-            let middle = f64::midpoint(low, high);
-            if check.lead(middle) < 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        assert!((first / high - 1.0).abs() < 0.01, "{name}: first contact {first} {high}");
+        let other = root::between(2.0 * first, 0.0, |s| check.lead(s));
+        assert!((first / other - 1.0).abs() < 0.01, "{name}: first contact {first} {other}");
         let (_, at_start) = check.balance(0.0);
         let off = load.force_at_start / at_start - 1.0;
         assert!(off.abs() < 0.025, "{name}: force at E off by {off}");
         let places =
             (0..=30).map(|step| first + (mesh.length - 2.0 * first) * f64::from(step) / 30.0);
-        let (mut own, mut other) = (Vec::new(), Vec::new());
+        let (mut own, mut others) = (Vec::new(), Vec::new());
         for s in places {
             let found = balance(mesh, s, s);
             let (displacement, force) = check.balance(s);
             let off = (found.force - force) / mesh.force;
             assert!(off.abs() < 0.01, "{name}: force at {s} off by {off}");
             own.push(found.displacement);
-            other.push(displacement);
+            others.push(displacement);
         }
-        let range = |all: &[f64]| {
-            let most = all.iter().copied().fold(f64::MIN, f64::max);
-            most - all.iter().copied().fold(f64::MAX, f64::min)
-        };
-        let off = range(&own) / range(&other) - 1.0;
+        let off = range(&own) / range(&others) - 1.0;
         println!(
             "{name}: first contact {:+.4}, force at E {:+.4}, transmission error {off:+.4}",
-            first / high - 1.0,
+            first / other - 1.0,
             load.force_at_start / at_start - 1.0
         );
         assert!(off.abs() < 0.01, "{name}: transmission error off by {off}");
