@@ -454,15 +454,22 @@ impl WholeSolves<'_> {
         })
     }
 
+    /// The peak-to-peak transmission error at each load, in m.
+    fn errors(&self, reliefs: &TipReliefs) -> Result<Vec<f64>, NoRelief> {
+        let loads = self.bench.demand.loads().into_iter();
+        loads
+            .map(|(part, _)| {
+                let inputs = reliefs.of(&loaded(self.inputs, part));
+                let solution = self.solve(&inputs, Stage::StaticSpectrum)?;
+                let found = solution.static_spectrum.transpose()?;
+                Ok(found.map_or(0.0, |found| found.spectrum.peak_to_peak))
+            })
+            .collect()
+    }
+
     fn choice(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
-        let loads = self.bench.demand.loads();
-        let errors = loads.iter().map(|&(part, _)| {
-            let inputs = reliefs.of(&loaded(self.inputs, part));
-            let solution = self.solve(&inputs, Stage::StaticSpectrum)?;
-            let found = solution.static_spectrum.transpose()?;
-            Ok(found.map_or(0.0, |found| found.spectrum.peak_to_peak))
-        });
-        let errors = errors.collect::<Result<Vec<f64>, NoRelief>>()?;
+        let demand = self.bench.demand;
+        let errors = self.errors(&reliefs)?;
         let factor = if self.is_in_motion {
             // A motion that does not become steady has no factor.
             let solution = self.solve(&self.moving(&reliefs), Stage::SteadyMotion)?;
@@ -471,15 +478,19 @@ impl WholeSolves<'_> {
         } else {
             None
         };
-        let error = self.bench.demand.figure(errors.iter().copied());
+        let error = demand.figure(errors.iter().copied());
         let nominal = Figures { error, factor, ..self.figures(&reliefs, self.is_in_motion)? };
-        let worst = nominal.worst(self.worst(&reliefs)?);
+        let mut worst = nominal.worst(self.worst(&reliefs)?);
+        for off in demand.corners() {
+            let error = demand.figure(self.errors(&reliefs.off(off))?.into_iter());
+            worst.error = worst.error.max(error);
+        }
         let greatest_load = self.greatest_load(&reliefs)?;
         Ok(Choice { name, reliefs, errors, nominal, worst, greatest_load })
     }
 
-    /// The least favourable figures at the limits of the tolerances. The motion is computed where
-    /// both gears have equal deviations.
+    /// The least favourable figures at the limits of the tolerances, without the errors. The motion
+    /// is computed where both gears have equal deviations.
     fn worst(&self, reliefs: &TipReliefs) -> Result<Figures, NoRelief> {
         let none = Figures { gap: f64::INFINITY, ..Figures::default() };
         self.bench.demand.corners().into_iter().try_fold(none, |worst, off| {
@@ -489,7 +500,7 @@ impl WholeSolves<'_> {
         })
     }
 
-    /// The figures of a relief, by the motion if that is wanted.
+    /// The figures of a relief without the error, by the motion if that is wanted.
     fn figures(&self, reliefs: &TipReliefs, in_motion: bool) -> Result<Figures, NoRelief> {
         let solution = self.solve(&reliefs.of(self.at_most), Stage::Static)?;
         let leads = match &solution.mesh {
@@ -499,7 +510,7 @@ impl WholeSolves<'_> {
         let found = solution.static_load.unwrap_or_default();
         let gap = -leads[0].max(leads[1]);
         let at_rest = Figures {
-            error: self.bench.error(reliefs),
+            error: 0.0,
             gap,
             strikes: gap < 0.0,
             entry: if leads[0] > 0.0 { found.force_at_start } else { 0.0 },
