@@ -68,6 +68,11 @@ pub fn any_base_pitch(inputs: &Inputs) -> bool {
     inputs.has_own_base_pitch() || inputs.combination == Combination::Sum
 }
 
+/// The pair is helical.
+pub fn helical(inputs: &Inputs) -> bool {
+    inputs.helix_angle > 0.0
+}
+
 /// The driver has more teeth than the driven gear.
 pub fn driver_larger(inputs: &Inputs) -> bool {
     inputs.driver.teeth > inputs.driven.teeth
@@ -91,6 +96,11 @@ fn gear<const GEAR: usize>(inputs: &Inputs) -> &Gear {
 /// The flank tolerance class of the gear gives its base pitch deviation.
 pub fn graded<const GEAR: usize>(inputs: &Inputs) -> bool {
     inputs.base_pitch_of(gear::<GEAR>(inputs)).1 == Origin::Grade
+}
+
+/// The same of a helical pair.
+pub fn helical_class<const GEAR: usize>(inputs: &Inputs) -> bool {
+    helical(inputs) && graded::<GEAR>(inputs)
 }
 
 /// The case gives the own base pitch deviation of the gear.

@@ -1,6 +1,6 @@
 //! Rows of the figures of ISO 21771 and ISO 6336-1, with their steps.
 
-use super::conditions::{always, any_class, any_coarse, driver_larger};
+use super::conditions::{always, any_class, any_coarse, driver_larger, helical};
 use super::{Need, PLAIN, Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{self, Figures};
@@ -116,6 +116,27 @@ macro_rules! peaks {
 pub(super) const STATIC: [Quantity; 2] = peaks!("static", "p_st", "at rest", Static, static_load);
 pub(super) const DYNAMIC: [Quantity; 2] = peaks!("dynamic", "p_d", "in motion", Dynamic, dynamic);
 
+/// The tip thickness of a gear with the transverse pressure angle.
+macro_rules! thickness {
+    ($n:literal, $alpha:literal) => {
+        Difference(concat!(
+            "2 r_a",
+            $n,
+            " (π/(2 z",
+            $n,
+            ") + 2 x",
+            $n,
+            " tan α/z",
+            $n,
+            " + inv ",
+            $alpha,
+            " - inv α_a",
+            $n,
+            ")"
+        ))
+    };
+}
+
 /// The rows of a gear: its place, its number, key and name, the other number and name, the distances
 /// from its tangent point to the ends of its active flank, tip first, and its specific sliding at E and
 /// at B.
@@ -133,9 +154,10 @@ macro_rules! gear {
                     " between its flanks at the tip circle, less the chamfer. A thin tip breaks when it is \
                         hardened or strikes."
                 ),
-                formula: Difference(concat!(
-                    "2 r_a", $n, " (π/(2 z", $n, ") + 2 x", $n, " tan α/z", $n, " + inv α - inv α_a", $n, ")"
-                )),
+                formula: Cases(&[
+                    (helical, thickness!($n, "α_t")),
+                    (always, thickness!($n, "α")),
+                ]),
                 source: "ISO 21771:2007, tooth thickness at the tip circle.",
                 checks: &[checks::tips],
                 ..LENGTH
@@ -342,7 +364,10 @@ pub(super) const TABLE: &[Quantity] = &[
         value: |s| Some(s.figures?.pitch_pressure),
         meaning: "The Hertz pressure at the pitch point P if one pair carries the mesh force: the contact \
             stress of ISO 6336-2 without its factors.",
-        formula: Text("√(F_0 E'/(π b ρ_C))"),
+        formula: Cases(&[
+            (helical, Text("√(F_0 E' cos β_b/(π b ε ρ_C))")),
+            (always, Text("√(F_0 E'/(π b ρ_C))")),
+        ]),
         ..PRESSURE
     },
     Quantity {
@@ -352,9 +377,20 @@ pub(super) const TABLE: &[Quantity] = &[
         value: |s| Some(s.figures?.stiffness.single),
         meaning: "The greatest stiffness of one pair per width by ISO 6336-1. single_stiffness is that of \
             the model.",
-        formula: Text(
-            "0.8 c'_th C_B 2 E1 E2/((E1 + E2) 206 [GPa]) min(F_t/(100 [N/mm] b), 1)^(1/4)",
-        ),
+        formula: Cases(&[
+            (
+                helical,
+                Text(
+                    "0.8 c'_th C_B cos β 2 E1 E2/((E1 + E2) 206 [GPa]) min(F_t/(100 [N/mm] b), 1)^(1/4)",
+                ),
+            ),
+            (
+                always,
+                Text(
+                    "0.8 c'_th C_B 2 E1 E2/((E1 + E2) 206 [GPa]) min(F_t/(100 [N/mm] b), 1)^(1/4)",
+                ),
+            ),
+        ]),
         ..STIFFNESS
     },
     Quantity {
@@ -407,20 +443,27 @@ fn dynamic(k: &Context) -> Option<IsoDynamic> {
     Some(k.solution.figures?.dynamic)
 }
 
+/// The total contact ratio.
+fn contact_ratio(k: &Context) -> f64 {
+    let overlap = k.solution.helix.as_ref().map_or(0.0, |helix| helix.overlap_ratio);
+    k.solution.geometry.contact_ratio + overlap
+}
+
 /// C_v2, C_v3, C_v4, C_v6 and C_v7, as text.
-fn shares(k: &Context) -> [&'static str; 5] {
-    let ratio = k.solution.geometry.contact_ratio;
+fn shares(k: &Context) -> [String; 5] {
+    let ratio = contact_ratio(k);
     let rest = match ratio {
         few if few <= 1.5 => "0.75",
         some if some <= 2.5 => "0.125 sin(π (ε - 2)) + 0.875",
         _ => "1",
     };
-    if ratio <= 2.0 {
+    let all = if ratio <= 2.0 {
         ["0.34", "0.23", "0.9", "0.47", rest]
     } else {
         let within = "(0.57 - 0.05 ε)/(ε - 1.44)";
         ["0.57/(ε - 0.3)", "0.096/(ε - 1.56)", within, "0.12/(ε - 1.74)", rest]
-    }
+    };
+    all.map(|share| share.replace('ε', if helical(k.inputs) { "ε_γ" } else { "ε" }))
 }
 
 fn below(k: &Context) -> String {
@@ -451,29 +494,33 @@ fn factor_of_range(k: &Context) -> String {
 /// K_v at a resonance ratio.
 fn factor_at(k: &Context, ratio: f64) -> Option<f64> {
     let IsoDynamic { resonance_begin, terms, .. } = dynamic(k)?;
-    let contact_ratio = k.solution.geometry.contact_ratio;
-    Some(crate::model::figures::dynamic_factor(contact_ratio, ratio, resonance_begin, terms))
+    Some(crate::model::figures::dynamic_factor(contact_ratio(k), ratio, resonance_begin, terms))
 }
 
-/// The compliance q' with the numbers of the gear with fewer teeth and of the other.
+/// The compliance q' with the symbol of the teeth, and the numbers of the gear with fewer teeth and of
+/// the other.
 macro_rules! give {
-    ($one:literal, $two:literal) => {
+    ($z:literal, $one:literal, $two:literal) => {
         Text(concat!(
-            "(0.04723 + 0.15551/z",
+            "(0.04723 + 0.15551/",
+            $z,
             $one,
-            " + 0.25791/z",
+            " + 0.25791/",
+            $z,
             $two,
             " - 0.00635 x",
             $one,
             " - 0.11654 x",
             $one,
-            "/z",
+            "/",
+            $z,
             $one,
             " - 0.00193 x",
             $two,
             " - 0.24188 x",
             $two,
-            "/z",
+            "/",
+            $z,
             $two,
             " + 0.00529 x",
             $one,
@@ -502,7 +549,7 @@ macro_rules! circles {
                 concat!("r_f", $n),
                 concat!("root radius of the ", $name),
                 "mm",
-                Text(concat!("m (z", $n, "/2 + x", $n, " - hf*", $n, ")")),
+                Text(concat!("r_", $n, " + m (x", $n, " - hf*", $n, ")")),
                 |k| Some(k.solution.geometry.$gear.root),
             ),
         ]
@@ -542,7 +589,12 @@ pub(super) const STEPS: &[Step] = &[
         "q'",
         "compliance of a pair of steel discs",
         "um mm/N",
-        Cases(&[(driver_larger, give!("2", "1")), (always, give!("1", "2"))]),
+        Cases(&[
+            (|inputs| helical(inputs) && driver_larger(inputs), give!("z_n", "2", "1")),
+            (helical, give!("z_n", "1", "2")),
+            (driver_larger, give!("z", "2", "1")),
+            (always, give!("z", "1", "2")),
+        ]),
         |k| Some(1.0 / k.solution.figures?.stiffness.theoretical),
     ),
     step(

@@ -2,12 +2,12 @@
 
 use super::checks;
 use super::conditions::{
-    always, deflection_used, distance_given, driven_rounded, driver_rounded, power_given,
+    always, deflection_used, distance_given, driven_rounded, driver_rounded, helical, power_given,
 };
 use super::{PLAIN, Quantity, Variant};
 use crate::model::Stage::{Geometry, Load};
 use crate::model::explanation::Formula::{Cases, Difference, Given, Solved, Text};
-use crate::model::explanation::{Equation, Step, step};
+use crate::model::explanation::{Context, Equation, Step, step};
 
 const SPUR_PAIR: &str =
     "External spur gears on parallel, rigid shafts, with involute flanks down to the contact.";
@@ -41,7 +41,7 @@ pub(super) const TABLE: &[Quantity] = &[
         value: |s| Some(s.geometry.base_pitch),
         meaning: "The distance between neighbouring flanks along the line of action. Both gears \
             need the same base pitch to mesh evenly.",
-        formula: Text("π m cos α"),
+        formula: Cases(&[(helical, Text("π m_t cos α_t")), (always, Text("π m cos α"))]),
         source: "ISO 21771:2007, base pitch.",
         ..GEOMETRY
     },
@@ -74,6 +74,7 @@ pub(super) const TABLE: &[Quantity] = &[
             circles at this centre distance.",
         formula: Cases(&[
             (distance_given, Difference("acos((r_b1 + r_b2)/a)")),
+            (helical, Solved(&HELICAL_INVOLUTE)),
             (always, Solved(&INVOLUTE)),
         ]),
         source: "ISO 21771:2007, working pressure angle. Zhou & Chen 2014 use α, which is exact \
@@ -116,15 +117,24 @@ const INVOLUTE: Equation = Equation {
     left: Difference("inv α_w"),
     right: Difference("inv α + 2 (x1 + x2) tan α/(z1 + z2)"),
     unit: "1",
-    sides: |k| {
-        let (inputs, working) = (k.inputs, k.solution.geometry.working_pressure_angle);
-        let inv = |angle: f64| angle.tan() - angle;
-        let shifts = inputs.driver.profile_shift + inputs.driven.profile_shift;
-        let teeth = f64::from(inputs.driver.teeth + inputs.driven.teeth);
-        let alpha = inputs.pressure_angle;
-        Some([inv(working), inv(alpha) + 2.0 * shifts * alpha.tan() / teeth])
-    },
+    sides: involutes,
 };
+
+const HELICAL_INVOLUTE: Equation = Equation {
+    text: "inv α_w = inv α_t + 2 (x1 + x2) tan α/(z1 + z2), inv t = tan t - t",
+    right: Difference("inv α_t + 2 (x1 + x2) tan α/(z1 + z2)"),
+    ..INVOLUTE
+};
+
+fn involutes(k: &Context) -> Option<[f64; 2]> {
+    let (inputs, working) = (k.inputs, k.solution.geometry.working_pressure_angle);
+    let inv = |angle: f64| angle.tan() - angle;
+    let shifts = inputs.driver.profile_shift + inputs.driven.profile_shift;
+    let teeth = f64::from(inputs.driver.teeth + inputs.driven.teeth);
+    let alpha = inputs.pressure_angle;
+    let shifted = inv(inputs.transverse_pressure_angle()) + 2.0 * shifts * alpha.tan() / teeth;
+    Some([inv(working), shifted])
+}
 
 /// The radii and the mass of a gear: its number, its member of the geometry, its name, and that of
 /// its tip.
@@ -135,21 +145,30 @@ macro_rules! gear {
                 concat!("r_", $n),
                 concat!("reference radius of the ", $name),
                 "mm",
-                Text(concat!("m z", $n, "/2")),
+                Cases(&[
+                    (helical, Text(concat!("m_t z", $n, "/2"))),
+                    (always, Text(concat!("m z", $n, "/2"))),
+                ]),
                 |k| Some(k.solution.geometry.$gear.reference),
             ),
             step(
                 concat!("r_b", $n),
                 concat!("base radius of the ", $name),
                 "mm",
-                Text(concat!("r_", $n, " cos α")),
+                Cases(&[
+                    (helical, Text(concat!("r_", $n, " cos α_t"))),
+                    (always, Text(concat!("r_", $n, " cos α"))),
+                ]),
                 |k| Some(k.solution.geometry.$gear.base),
             ),
             step(
                 concat!("r_a", $n),
                 concat!("tip radius of the ", $name, " without the chamfer"),
                 "mm",
-                Text(concat!("m (z", $n, "/2 + ha*", $n, " + x", $n, ") - hk", $n)),
+                Cases(&[
+                    (helical, Text(concat!("r_", $n, " + m (ha*", $n, " + x", $n, ") - hk", $n))),
+                    (always, Text(concat!("m (z", $n, "/2 + ha*", $n, " + x", $n, ") - hk", $n))),
+                ]),
                 |k| Some(k.solution.geometry.$gear.tip),
             ),
             step(
