@@ -57,5 +57,5 @@ fn on_a_narrow_screen_sentences_are_wrapped_and_the_last_row_is_reached() {
     let end = desk.screen();
     desk.keys(&["PageDown"]);
     assert_eq!(desk.screen(), end, "the end stays");
-    assert!(end.contains("length 8.00 mm"), "{end}");
+    assert!(end.contains("length 8.20 mm"), "{end}");
 }
