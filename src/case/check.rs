@@ -274,16 +274,13 @@ pub fn violated_rule(inputs: &Inputs) -> Option<Problem> {
 /// The violated rules between fields, each with the fields that it reads.
 fn rules(inputs: &Inputs) -> impl Iterator<Item = (Vec<&'static str>, Problem)> {
     let heights = Height::all(inputs).filter_map(move |height| {
-        let key = |field: usize| FIELDS[field].key;
-        let [teeth, shift, bore] = height.fields.map(key);
-        let (problem, others) = if let Some(problem) = height.outside_range(inputs) {
-            (problem, vec![])
-        } else {
-            let problem = height.bore_through_root(inputs, bore)?;
-            (problem, vec![key(height.coefficient), bore])
-        };
-        let size = ["pair.module", "pair.diametral_pitch", teeth, shift, key(height.diameter)];
-        Some(([size.to_vec(), others].concat(), problem))
+        let problem = height.outside_range(inputs).or_else(|| height.bore_through_root(inputs))?;
+        let of_gear = ["teeth", "profile_shift", "bore_radius"].map(|name| height.key(name));
+        let own = [height.coefficient(), height.diameter()].map(|field| FIELDS[field].key);
+        let size = ["pair.module", "pair.diametral_pitch"];
+        let is_bore = problem.field == of_gear[2];
+        let others = if is_bore { vec![own[0], of_gear[2]] } else { vec![] };
+        Some(([&size[..], &of_gear[..2], &own[1..], &others].concat(), problem))
     });
     let ratio = ratio_beyond(inputs).map(|problem| (vec!["driver.teeth", "driven.teeth"], problem));
     let face = face_rules(inputs).map(|(key, problem)| (vec![key], problem));
@@ -371,36 +368,31 @@ fn ratio_beyond(inputs: &Inputs) -> Option<Problem> {
 /// The tip or the root of a gear, by a coefficient of the rack or by a diameter.
 struct Height<'i> {
     gear: &'i Gear,
+    table: &'static str,
     is_tip: bool,
-    coefficient: usize,
-    diameter: usize,
-    /// The fields of teeth, profile shift and bore.
-    fields: [usize; 3],
 }
 
-/// Coefficient, diameter, teeth, profile shift and bore of the heights: tip before root.
-static HEIGHTS: LazyLock<Vec<[usize; 5]>> = LazyLock::new(|| {
-    let tables = ["driver", "driven"].into_iter();
-    let heights = tables.flat_map(|table| {
-        ["addendum", "dedendum"].map(|height| {
-            let field = |name| index_of(&format!("{table}.{name}")).unwrap_or_default();
-            let [own, teeth, shift, bore] =
-                [height, "teeth", "profile_shift", "bore_radius"].map(field);
-            [own, FIELDS[own].partner().unwrap_or_default(), teeth, shift, bore]
-        })
-    });
-    heights.collect()
-});
-
 impl Height<'_> {
-    /// The heights of both gears.
+    /// The heights of both gears: tip before root.
     fn all(inputs: &Inputs) -> impl Iterator<Item = Height<'_>> {
-        let gears = [&inputs.driver, &inputs.driven].into_iter();
-        let heights = gears.flat_map(|gear| [(gear, true), (gear, false)]);
-        heights.zip(HEIGHTS.iter()).map(|((gear, is_tip), &fields)| {
-            let [coefficient, diameter, fields @ ..] = fields;
-            Height { gear, is_tip, coefficient, diameter, fields }
-        })
+        let gears = [("driver", &inputs.driver), ("driven", &inputs.driven)].into_iter();
+        gears.flat_map(|(table, gear)| [true, false].map(|is_tip| Height { gear, table, is_tip }))
+    }
+
+    fn field(&self, name: &str) -> usize {
+        index_of(&format!("{}.{name}", self.table)).unwrap_or_default()
+    }
+
+    fn key(&self, name: &str) -> &'static str {
+        FIELDS[self.field(name)].key
+    }
+
+    fn coefficient(&self) -> usize {
+        self.field(if self.is_tip { "addendum" } else { "dedendum" })
+    }
+
+    fn diameter(&self) -> usize {
+        self.field(if self.is_tip { "tip_diameter" } else { "root_diameter" })
     }
 
     fn given_diameter(&self) -> Option<f64> {
@@ -418,7 +410,7 @@ impl Height<'_> {
         } else {
             (inputs.dedendum_of(gear), -1.0)
         };
-        let (from, to) = field_range(self.coefficient);
+        let (from, to) = field_range(self.coefficient());
         let (side, limit) = match value {
             _ if value < from - SLACK => ("below", from),
             _ if value > to + SLACK => ("above", to),
@@ -427,18 +419,18 @@ impl Height<'_> {
         let cause = format!(
             "{} mm gives the {} coefficient {}, {side} the limit of {limit}",
             in_mm(given),
-            FIELDS[self.coefficient].label,
+            FIELDS[self.coefficient()].label,
             significant(value, DIGITS),
         );
         let shifted = f64::from(gear.teeth) / inputs.helix_angle.cos() + 2.0 * gear.profile_shift;
         let at = |coefficient: f64| in_mm(inputs.module * (shifted + 2.0 * sign * coefficient));
         let (least, most) = (at(from).min(at(to)), at(from).max(at(to)));
         let fix = format!("write a diameter from {least} to {most} mm");
-        let problem = Problem::new(FIELDS[self.diameter].key, cause, fix);
+        let problem = Problem::new(FIELDS[self.diameter()].key, cause, fix);
         Some(problem.coded("diameter-outside-range"))
     }
 
-    fn bore_through_root(&self, inputs: &Inputs, key: &str) -> Option<Problem> {
+    fn bore_through_root(&self, inputs: &Inputs) -> Option<Problem> {
         let gear = self.gear;
         let height = gear.profile_shift - inputs.dedendum_of(gear);
         let half_teeth = f64::from(gear.teeth) / (2.0 * inputs.helix_angle.cos());
@@ -453,7 +445,7 @@ impl Height<'_> {
                 "write a radius (not a diameter) below {root} mm, or a diameter below {} mm",
                 2.0 * root
             );
-            Problem::new(key, cause, fix).coded("bore-through-root")
+            Problem::new(self.key("bore_radius"), cause, fix).coded("bore-through-root")
         })
     }
 }
@@ -463,10 +455,10 @@ impl Problem {
     #[must_use]
     pub fn at_given_diameter(self, inputs: &Inputs) -> Problem {
         let is_it = |height: &Height| {
-            FIELDS[height.coefficient].key == self.field && height.given_diameter().is_some()
+            FIELDS[height.coefficient()].key == self.field && height.given_diameter().is_some()
         };
         match Height::all(inputs).find(is_it) {
-            Some(height) => self.at(FIELDS[height.diameter].key),
+            Some(height) => self.at(FIELDS[height.diameter()].key),
             None => self,
         }
     }
