@@ -148,6 +148,12 @@ impl FaceInputs {
         self.misalignment * z / self.width + driver + driven
     }
 
+    /// The slice at z without its width.
+    fn slice(&self, z: f64) -> Slice {
+        let ends = [0, 1].map(|gear| self.end_factor(gear, z));
+        Slice { z, width: 0.0, step: 0.0, ahead: self.lead * z, gap: self.gap(z), ends }
+    }
+
     /// Factor of the compliance of a gear's tooth at z.
     ///
     /// # Formula
@@ -267,14 +273,7 @@ impl Face {
             let z = places[number];
             let before = number.checked_sub(1).map_or(z, |before| places[before]);
             let after = places.get(number + 1).copied().unwrap_or(z);
-            Slice {
-                z,
-                width: 0.5 * (after - before),
-                step: after - z,
-                ahead: inputs.lead * z,
-                gap: inputs.gap(z),
-                ends: [0, 1].map(|gear| inputs.end_factor(gear, z)),
-            }
+            Slice { width: 0.5 * (after - before), step: after - z, ..inputs.slice(z) }
         };
         let slices: Vec<Slice> = (0..places.len()).map(slice).collect();
         Ok(Face {

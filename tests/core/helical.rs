@@ -86,7 +86,7 @@ fn geometry_agrees_to_1e_12() {
 fn first_contact_and_loads_agree_with_an_independent_solution() {
     for (name, is_coupled) in REFERENCES {
         let (mut inputs, answers) = reference(name);
-        inputs.slices = Some(if is_coupled { 513 } else { 1025 });
+        inputs.slices = Some(1025);
         let tolerance = if is_coupled { 1e-4 } else { 1e-5 };
         let solution = solve(&inputs, STATIC).expect(name);
         let load = solution.static_load.as_ref().expect(name);
@@ -156,9 +156,13 @@ fn a_small_helix_angle_or_misalignment_changes_nothing() {
     for (name, inputs) in almost {
         let solution = solve(&inputs, STATIC).expect(name);
         assert!(solution.face_load.is_some(), "{name} has no slices");
-        for (found, expected) in values(&solution).into_iter().zip(expected) {
+        // At E the stiffness steps from that of the tip to that of the flank: the spur pair has the force
+        // on the flank, the slices have the force before E.
+        let tolerances = [1e-6, 1e-5, 1e-6, 1e-6, 1e-6];
+        let found = values(&solution).into_iter().zip(expected).zip(tolerances);
+        for ((found, expected), tolerance) in found {
             let off = (found / expected - 1.0).abs();
-            assert!(off < 1e-6, "{name}: {found:e} for {expected:e}");
+            assert!(off < tolerance, "{name}: {found:e} for {expected:e}");
         }
     }
 }

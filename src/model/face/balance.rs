@@ -1,6 +1,6 @@
 //! The balance of a face width: the line load of every pair at every slice.
 
-use super::Face;
+use super::{Face, Slice};
 use crate::model::Refusal;
 use crate::model::budget::PAIRS;
 use crate::model::pair_forces::PITCHES;
@@ -14,12 +14,16 @@ pub struct Loads {
     pub first: i32,
     /// Number of pairs.
     pub pairs: usize,
+    /// Deviation of the incoming pair, in m.
+    error: f64,
     /// Displacement of the driver ahead x, in m.
     pub displacement: f64,
     /// Line load of each pair at each slice, slice by slice, in N/m.
     pub line_loads: Vec<f64>,
     /// Displacement under the loads minus the gap, in m, above 0 where a pair carries.
     pub leads: Vec<f64>,
+    /// Gap plus deflection by the pair itself, of each pair at each slice, in m: smooth along the face.
+    free: Vec<f64>,
     /// Change of the force with the displacement, in N/m.
     pub stiffness: f64,
 }
@@ -131,7 +135,7 @@ impl Face {
         };
         let lead = loads.displacement - self.least_gap + error.max(0.0);
         mesh.check_reach(lead)?;
-        Ok(Loads { s, first, ..loads })
+        Ok(Loads { s, first, error, ..loads })
     }
 
     fn contacts(
@@ -141,34 +145,62 @@ impl Face {
         pairs: usize,
         without: Option<i32>,
     ) -> Vec<Contact> {
-        /// Least part of the compliance of a pair that is in its contact.
-        const LEAST: f64 = 1e-3;
-        let mesh = &self.mesh;
-        let friction = mesh.friction() * self.inputs.oblique;
         let mut contacts = Vec::with_capacity(self.slices.len() * pairs);
         for slice in &self.slices {
             for ahead in (first..).take(pairs) {
-                let place = s + f64::from(ahead) * mesh.base_pitch + slice.ahead;
-                let (zone, kept) = mesh.zone_at(place);
-                let [stiffness, gap, lever, sliding] = mesh.values(zone, kept);
-                let [driver, driven] = self.teeth[zone].at(kept);
-                let compliance = self.inputs.width / stiffness;
-                let contact = (compliance - driver - driven).max(LEAST * compliance);
-                let teeth = (compliance - contact)
-                    * (driver * slice.ends[0] + driven * slice.ends[1])
-                    / (driver + driven);
-                let is_here = kept == place;
                 let error = if ahead == 0 { error } else { 0.0 };
-                contacts.push(Contact {
-                    gap: if is_here { gap + slice.gap - error } else { f64::INFINITY },
-                    can_carry: is_here && without != Some(ahead),
-                    contact,
-                    root: teeth.max(0.0).sqrt(),
-                    weight: 1.0 - friction * sliding.signum() * lever,
-                });
+                let place = s + f64::from(ahead) * self.mesh.base_pitch + slice.ahead;
+                let contact = self.contact(slice, place, error);
+                let can_carry = contact.can_carry && without != Some(ahead);
+                contacts.push(Contact { can_carry, ..contact });
             }
         }
         contacts
+    }
+
+    /// A pair with a deviation at a place of its path in a slice.
+    fn contact(&self, slice: &Slice, place: f64, error: f64) -> Contact {
+        /// Least part of the compliance of a pair that is in its contact.
+        const LEAST: f64 = 1e-3;
+        let mesh = &self.mesh;
+        let (zone, kept) = mesh.zone_at(place);
+        let [stiffness, gap, lever, sliding] = mesh.values(zone, kept);
+        let [driver, driven] = self.teeth[zone].at(kept);
+        let compliance = self.inputs.width / stiffness;
+        let contact = (compliance - driver - driven).max(LEAST * compliance);
+        let teeth = (compliance - contact) * (driver * slice.ends[0] + driven * slice.ends[1])
+            / (driver + driven);
+        let can_carry = kept == place;
+        let friction = mesh.friction() * self.inputs.oblique;
+        Contact {
+            gap: if can_carry { gap + slice.gap - error } else { f64::INFINITY },
+            can_carry,
+            contact,
+            root: teeth.max(0.0).sqrt(),
+            weight: 1.0 - friction * sliding.signum() * lever,
+        }
+    }
+
+    /// The line load of a pair at a place of its path between two slices, and z. `None` if the place is
+    /// not on the face, or in all slices at once.
+    pub(super) fn load_at(&self, loads: &Loads, ahead: i32, path: f64) -> Option<(f64, f64)> {
+        let pair = loads.index(ahead)?;
+        let z = (path - loads.s - f64::from(ahead) * self.mesh.base_pitch) / self.inputs.lead;
+        let after = self.slices.partition_point(|slice| slice.z < z);
+        let before = after.checked_sub(1).filter(|_| after < self.slices.len())?;
+        let [one, other] = [before, after].map(|slice| loads.free[slice * loads.pairs + pair]);
+        let part = (z - self.slices[before].z) / self.slices[before].step;
+        let error = if ahead == 0 { loads.error } else { 0.0 };
+        let contact = self.contact(&self.inputs.slice(z), path, error);
+        let lead = one + part * (other - one) - contact.gap;
+        let line_load = lead / (contact.contact + self.own(&contact));
+        (line_load > 0.0).then_some((line_load, z))
+    }
+
+    /// The part of the compliance of a pair by which its own load deflects the slice alone: without
+    /// coupling that of the teeth, too.
+    fn own(&self, contact: &Contact) -> f64 {
+        if self.inputs.coupling_length > 0.0 { 0.0 } else { contact.root * contact.root }
     }
 
     /// The lower factor C of κ = C Cᵀ, row by row.
@@ -294,19 +326,20 @@ impl<const ROW: usize> System<'_, ROW> {
                 break;
             }
         }
-        let line_loads = leads.iter().zip(self.contacts);
-        let line_loads =
-            line_loads.map(
-                |(lead, contact)| {
-                    if contact.can_carry { lead.max(0.0) / contact.contact } else { 0.0 }
-                },
-            );
+        let loaded = leads.iter().zip(self.contacts);
+        let line_loads: Vec<f64> = loaded
+            .map(|(lead, of)| if of.can_carry { lead.max(0.0) / of.contact } else { 0.0 })
+            .collect();
+        let free = leads.iter().zip(&line_loads).zip(self.contacts);
+        let free = free.map(|((lead, load), of)| lead + of.gap + self.face.own(of) * load);
         Loads {
             s: 0.0,
             first: 0,
+            error: 0.0,
             pairs: self.pairs,
             displacement,
-            line_loads: line_loads.collect(),
+            free: free.collect(),
+            line_loads,
             leads,
             stiffness,
         }

@@ -77,12 +77,13 @@ enum Part {
 impl Part {
     const ALL: [Part; 3] = [Part::All, Part::BeforeStart, Part::AfterEnd];
 
-    /// The end of the path of contact that limits the part, in m.
+    /// A place just inside the end of the part at the path of contact, in m.
     fn border(self, length: f64) -> Option<f64> {
+        const INSIDE: f64 = 1e-9;
         match self {
             Part::All => None,
-            Part::BeforeStart => Some(0.0),
-            Part::AfterEnd => Some(length),
+            Part::BeforeStart => Some(-INSIDE * length),
+            Part::AfterEnd => Some((1.0 + INSIDE) * length),
         }
     }
 
@@ -108,8 +109,7 @@ impl Face {
         loads.s + f64::from(ahead) * self.mesh.base_pitch + self.slices[slice].ahead
     }
 
-    /// The greatest line load of some pairs in a part of the path. At the border of the part the load
-    /// is that between the two slices on its sides.
+    /// The greatest line load of some pairs in a part of the path.
     fn line_peak(&self, loads: &Loads, pairs: impl Iterator<Item = i32>, part: Part) -> LinePeak {
         let place = FacePlace { z: 0.0, path: 0.0 };
         let mut best = LinePeak { line_load: 0.0, place };
@@ -119,26 +119,17 @@ impl Face {
             }
         };
         for ahead in pairs {
-            let at = |number: usize| {
+            for (number, slice) in self.slices.iter().enumerate() {
                 let path = self.path(loads, ahead, number);
-                (loads.at(ahead, number), FacePlace { z: self.slices[number].z, path })
-            };
-            for number in 0..self.slices.len() {
-                let (line_load, place) = at(number);
-                if part.has(place.path, self.mesh.length) {
-                    include(line_load, place);
+                if part.has(path, self.mesh.length) {
+                    include(loads.at(ahead, number), FacePlace { z: slice.z, path });
                 }
-                let Some(border) = part.border(self.mesh.length).filter(|_| number > 0) else {
-                    continue;
-                };
-                let (other_load, other) = at(number - 1);
-                let (beyond, before) = (place.path - border, border - other.path);
-                if beyond * before > 0.0 {
-                    let share = before / (beyond + before);
-                    let between = |one: f64, two: f64| one + share * (two - one);
-                    let z = between(other.z, place.z);
-                    include(between(other_load, line_load), FacePlace { z, path: border });
-                }
+            }
+            // The load rises up to the end of the part, which is between two slices.
+            if let Some(path) = part.border(self.mesh.length)
+                && let Some((line_load, z)) = self.load_at(loads, ahead, path)
+            {
+                include(line_load, FacePlace { z, path });
             }
         }
         best
