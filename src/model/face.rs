@@ -215,7 +215,7 @@ impl FaceInputs {
 }
 
 /// Greatest number of slices.
-pub const MOST_SLICES: usize = 1025;
+pub const MOST_SLICES: usize = 4097;
 
 /// A slice: its middle, or at an end of the face its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
