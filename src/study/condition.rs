@@ -249,6 +249,7 @@ mod tests {
             ("impact_forc<=2500 N", "did you mean impact_force?"),
             ("impact_force<=2500", "2500 has no unit"),
             ("impact_force<=2500 mm", "unit of length"),
+            ("impact_force<=1.3 x mesh_force", "is relative to another result"),
             ("impact_force=2500 N", "is a number: write impact_force<=2500 N"),
             ("outcome=contact", "write corner-contact or no-corner-contact"),
             ("impact_force==2500 N", "is a number: write impact_force<=2500 N"),

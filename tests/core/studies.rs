@@ -356,3 +356,22 @@ fn probabilities_count_contact_and_limits_and_leave_refused_samples_out() {
     assert!(limit.probability.unwrap().value < found.value);
     assert!(summary.quantities[0].figures.as_ref().unwrap().count < 3000);
 }
+
+/// The power varies by 10 %: a limit on the force that follows the mesh force is exceeded by all
+/// samples or by none.
+#[test]
+fn a_relative_limit_follows_the_result_of_each_sample() {
+    let exceeded = |limit: &str| {
+        let mut case = spread_case(&[("operation.power", "uniform", "1.5 kW")]);
+        case.set("model.deflection", "24.7 um").unwrap();
+        case.set_limit("mesh_force", limit).unwrap();
+        let (study, samples) = toleranced(&case, 200, 1, 2);
+        let summary = study.summary(&samples);
+        let of = summary.limits.iter().find(|limit| limit.quantity.key == "mesh_force").unwrap();
+        assert_eq!(of.known, 200);
+        of.probability.unwrap().value
+    };
+    let [below, above] = ["0.99 x nominal", "1.01 x nominal"].map(exceeded);
+    assert_eq!([below, above].map(f64::to_bits), [1.0f64, 0.0].map(f64::to_bits));
+    assert!((0.2..0.8).contains(&exceeded("1524 N")));
+}
