@@ -211,29 +211,34 @@ impl Comparison {
                 writeln!(out, "{line}")?;
             }
         }
-        let mut tables = self.tables();
+        let tables = self.tables();
         if tables.is_empty() {
             return Ok(());
         }
-        let widths = widths(&tables);
-        let room = |columns: &[usize]| -> usize {
-            let gap = |at: usize| tables[0].columns[at].gap;
-            columns.iter().map(|&at| widths[at] + gap(at)).sum()
-        };
         let others: Vec<usize> = (1..self.cases.len()).collect();
-        let widest = others.iter().map(|&at| room(&self.pair(at))).max().unwrap_or(WIDTH);
-        let fitting = |names: &[usize]| WIDTH.saturating_sub(room(names)) / widest.max(1);
+        // The number of further cases that fit a line behind these columns.
+        let fitting = |tables: &[Table], names: &[usize]| {
+            let widths = widths(tables);
+            let room = |columns: &[usize]| -> usize {
+                columns.iter().map(|&at| widths[at] + tables[0].columns[at].gap).sum()
+            };
+            let widest = others.iter().map(|&at| room(&self.pair(at))).max().unwrap_or(WIDTH);
+            WIDTH.saturating_sub(room(names)) / widest.max(1)
+        };
         let (with_labels, without) = ([2, 3, 4, NAMES], [2, 4, NAMES]);
-        let [all, fewer] = [fitting(&with_labels), fitting(&without).max(1)];
+        let all = fitting(&tables, &with_labels);
+        let mut short = tables.clone();
+        for row in short.iter_mut().flat_map(|table| &mut table.rows) {
+            if row[2] == Cell::from("") {
+                row[2] = row[3].clone();
+            }
+        }
+        let fewer = fitting(&short, &without).max(1);
         // The labels are shown if they take no more lines.
         let has_labels = all > 0 && others.len().div_ceil(all) <= others.len().div_ceil(fewer);
         let (names, in_a_line) =
             if has_labels { (&with_labels[..], all) } else { (&without[..], fewer) };
-        for row in tables.iter_mut().flat_map(|table| &mut table.rows) {
-            if !has_labels && row[2] == Cell::from("") {
-                row[2] = row[3].clone();
-            }
-        }
+        let tables = if has_labels { tables } else { short };
         for others in others.chunks(in_a_line) {
             let columns = names.iter().copied().chain(others.iter().flat_map(|&at| self.pair(at)));
             let columns: Vec<usize> = columns.collect();

@@ -1,4 +1,4 @@
-//! The effect of inertia, elastic field and coupling in three pairs.
+//! The effect of inertia, finite elements and coupling in three pairs.
 
 use std::fmt::Write as _;
 
@@ -67,11 +67,11 @@ fn driver_degrees(solution: &Solution, driven_angle: f64) -> f64 {
 
 /// The section of the page.
 pub(super) fn section() -> String {
-    let mut text = "\n## What inertia, elastic field and coupling change\n\nMethod `dynamic`: first contact \
+    let mut text = "\n## What inertia, finite elements and coupling change\n\nMethod `dynamic`: first contact \
         before E in degrees of the driver, peak force before E and overall in N, and required \
         additional tip relief in um. `base-circle` is the disc of Eq. 47, `outline` the true inertia. \
         `kuang-yang` and `beam` model neighbouring teeth as independent springs; \
-        `finite-element` couples them. The rows without coupling are the same elastic field with \
+        `finite-element` couples them. The rows without coupling are the same finite elements with \
         independent springs.\n"
         .to_owned();
     for (name, file) in PAIRS {
@@ -105,7 +105,7 @@ fn pair(name: &str, file: &str) -> String {
     let [_, [_, beam], [_, alone], [disc, whole]] = &found;
     let changes = [
         ("true inertia instead of the disc of Eq. 47, with finite-element", disc, whole),
-        ("elastic field instead of the beam, without coupling", beam, alone),
+        ("finite elements instead of the beam, without coupling", beam, alone),
         ("coupling instead of independent springs, with finite-element", alone, whole),
     ];
     for (words, from, to) in changes {

@@ -1,4 +1,4 @@
-//! The other tooth compliances compared with the elastic field.
+//! The other tooth compliances compared with the finite elements.
 
 use std::fmt::Write as _;
 
@@ -61,7 +61,7 @@ fn range(values: &[f64]) -> String {
 
 /// The section of the page.
 pub(super) fn section() -> String {
-    let mut text = "\n## Tooth compliances against the elastic field\n\nCompliance of one tooth without \
+    let mut text = "\n## Tooth compliances against the finite elements\n\nCompliance of one tooth without \
         contact over the flank, from 5 % of its height to the tip, against `finite-element` without the \
         twist of the body: the gears of `tests/reference/field`, which other finite elements check. \
         Above 0 the model is too soft. The foundation of the beam is fitted for r_f/r_h from 1.4 to 7 \
