@@ -329,8 +329,10 @@ fn table_rules(inputs: &Inputs) -> Option<(&'static str, Problem)> {
     let is_chosen = inputs.tooth_compliance == Some(ToothCompliance::GIVEN);
     let Some(given) = &inputs.given_compliance else {
         let problem = || {
-            let cause = "the case has no table [compliance]";
-            Problem::new(CHOICE, cause, "give the table, or choose another model")
+            let cause = "no compliance is given";
+            let fix = "give compliance.driver, compliance.driven and compliance.contact, or choose \
+                another model";
+            Problem::new(CHOICE, cause, fix)
         };
         return is_chosen.then(|| (CHOICE, problem().coded("compliance-missing")));
     };
@@ -342,7 +344,7 @@ fn table_rules(inputs: &Inputs) -> Option<(&'static str, Problem)> {
     curves.into_iter().find_map(|(key, curve)| {
         if curve.middle <= 0.0 {
             let field = &FIELDS[index_of(key)?];
-            let cause = format!("{key} is missing in the table [compliance]");
+            let cause = "the given compliance lacks this value";
             return Some((key, Problem::new(key, cause, addition(field)).coded(MISSING)));
         }
         let parts = (-32..=32).map(|part| f64::from(part) / 32.0);

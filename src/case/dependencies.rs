@@ -5,6 +5,7 @@ use super::fields::{Kind, Range, Reason};
 use super::units::{self, Dimension};
 use super::{Case, FIELDS};
 use crate::model::compliance::{model_of, without_field};
+use crate::model::given::COEFFICIENTS;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Stage, Stages};
 
@@ -103,7 +104,10 @@ fn with_values(field: usize, values: &[f64], inputs: &Inputs) -> Vec<Inputs> {
     };
     let values = values.iter();
     match FIELDS[field].kind {
-        Kind::Text | Kind::List(_) => Vec::new(),
+        Kind::Text => Vec::new(),
+        Kind::List(put) => {
+            values.map(|&value| with(&|other| put(other, [value; COEFFICIENTS]))).collect()
+        }
         Kind::Number(_, _, put) => values.map(|&value| with(&|other| put(other, value))).collect(),
         Kind::Count(_, _, put) => {
             values.map(|&value| with(&|other| put(other, value as u32))).collect()
@@ -210,6 +214,7 @@ fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
     let values = match FIELDS[field].kind {
         Kind::Number(_, range, _) => SHARES.map(|share| within(range, share)).to_vec(),
         Kind::Count(from, to, _) => vec![f64::from(from), f64::from(to)],
+        Kind::List(_) => vec![0.1, -0.2],
         _ => Vec::new(),
     };
     with_values(field, &values, &held)

@@ -5,11 +5,12 @@ use std::cell::RefCell;
 
 use super::budget::{Meter, SEARCH_TRIES, SEARCH_WORK};
 use super::dynamic::{Approach, Settings, approach};
-use super::face::{Face, FaceInputs};
+use super::face::FaceInputs;
 use super::inputs::{Inputs, Method};
 use super::mesh::MeshInputs;
 use super::mesh::build::Meshes;
 use super::position::printed_relief_to_clear;
+use super::slices::Face;
 use super::static_load::{lead_before_start, places_before_start};
 use super::{Outcome, Refusal, Solution};
 

@@ -9,12 +9,12 @@ pub mod tooth;
 
 use super::Refusal;
 use super::geometry::Geometry;
+use super::given::GivenCompliance;
 use super::inputs::{ContactCompliance, Gear, Inputs, ToothCompliance};
 use super::position::TipContact;
 use crate::numeric::chebyshev::TERMS;
 use crate::numeric::real::Lanes;
 use contact::{ContactLaw, ContactSpring};
-use given::GivenCompliance;
 use tooth::Tooth;
 
 pub use super::field::ElasticGear;
@@ -178,7 +178,7 @@ impl Teeth {
             curvature(place.radius_driver, driver.base),
             curvature(place.radius_driven, driven.base),
         );
-        Some((self.elasticity.given?, GivenCompliance::part(&self.geometry, arms)))
+        Some((self.elasticity.given?, given::part(&self.geometry, arms)))
     }
 
     /// A value of driver and driven gear at a place.

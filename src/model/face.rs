@@ -1,16 +1,8 @@
-//! The face width in slices. In a plane across the axis a helical pair is a spur pair, so that each
-//! slice is the mesh of the transverse section in another phase and with another gap.
-
-pub mod balance;
-pub mod load;
-
-use std::sync::Arc;
+//! The inputs of the face width: helix, misalignment and flank lines, and the coupling along a tooth.
 
 use super::Refusal;
 use super::geometry::Geometry;
 use super::inputs::{Gear, GearSide, Inputs};
-use super::mesh::Mesh;
-use crate::numeric::chebyshev::Series;
 
 /// The inputs of the face width. z is the place along the axis from the middle of the common face, in
 /// m; the driver turns positively about +z.
@@ -148,12 +140,6 @@ impl FaceInputs {
         self.misalignment * z / self.width + driver + driven
     }
 
-    /// The slice at z without its width.
-    fn slice(&self, z: f64) -> Slice {
-        let ends = [0, 1].map(|gear| self.end_factor(gear, z));
-        Slice { z, width: 0.0, step: 0.0, ahead: self.lead * z, gap: self.gap(z), ends }
-    }
-
     /// Factor of the compliance of a gear's tooth at z.
     ///
     /// # Formula
@@ -166,7 +152,7 @@ impl FaceInputs {
     /// # Source
     /// Own finite elements in three dimensions, for 10, 20 and 30 deg: an end is softer by 17, 44
     /// and 87 % and stiffer by 9, 16 and 19 %.
-    fn end_factor(&self, gear: usize, z: f64) -> f64 {
+    pub(super) fn end_factor(&self, gear: usize, z: f64) -> f64 {
         let [minus, plus] = self.flanks[gear].depths(z);
         let is_acute_plus = (self.lead >= 0.0) == (gear == 0);
         let (acute, obtuse) = if is_acute_plus { (plus, minus) } else { (minus, plus) };
@@ -176,7 +162,7 @@ impl FaceInputs {
 
     /// z of about `count` slices: both ends of the face, the places where an end relief begins, and
     /// even steps between them.
-    fn places(&self, count: usize) -> Vec<f64> {
+    pub(super) fn places(&self, count: usize) -> Vec<f64> {
         let (first, last) = (-0.5 * self.width, 0.5 * self.width);
         let begins = self.flanks.iter().flat_map(|flank| {
             let inner = 0.5 * flank.width - flank.end_relief_length;
@@ -201,7 +187,7 @@ impl FaceInputs {
 
     /// Number of slices: that of the case, or so many that the shares of the load are within 0.1 %,
     /// with two slices in a coupling length.
-    fn count(&self, base_pitch: f64) -> usize {
+    pub(super) fn count(&self, base_pitch: f64) -> usize {
         /// Overlap ratio, slices and coupling lengths of the usual number.
         const LEAST: usize = 33;
         const PER_PITCH: f64 = 24.0;
@@ -216,81 +202,6 @@ impl FaceInputs {
 
 /// Greatest number of slices.
 pub const MOST_SLICES: usize = 4097;
-
-/// A slice: its middle, or at an end of the face its end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Slice {
-    z: f64,
-    /// Width that the slice stands for, in m.
-    width: f64,
-    /// Distance of the next slice; 0 at the last, in m.
-    step: f64,
-    /// Path ahead of the middle of the face, in m.
-    ahead: f64,
-    /// Gap by misalignment and flank lines, in m.
-    gap: f64,
-    /// Factors of the compliance of driver's and driven tooth.
-    ends: [f64; 2],
-}
-
-/// The face width of a mesh in slices.
-#[derive(Debug, Clone)]
-pub struct Face {
-    inputs: FaceInputs,
-    mesh: Arc<Mesh>,
-    /// Compliance of driver's and driven tooth without the contact, by the zones of the mesh.
-    teeth: Arc<Vec<Series<2>>>,
-    slices: Vec<Slice>,
-    /// Greatest path of a slice ahead of the middle, in m.
-    reach: f64,
-    /// Least gap by misalignment and flank lines, in m.
-    least_gap: f64,
-}
-
-impl Face {
-    /// The face width of a mesh in slices.
-    ///
-    /// # Formula
-    /// ```text
-    /// s_k(z) = s + k p_bt + h z tan β_b,   gap = S(s_k) + reliefs(s_k) + e(z) − e_k
-    /// ```
-    /// s is the path of the incoming pair since E in the middle of the face, and e(z) the opening
-    /// by misalignment and flank lines.
-    ///
-    /// # Source
-    /// A turn about parallel axes keeps each point in its plane across the axis, so that flanks and
-    /// tip edges close their gaps in each plane as the spur section does.
-    ///
-    /// # Errors
-    /// A [`Refusal`] if a compliance cannot be computed.
-    pub fn new(
-        inputs: &FaceInputs,
-        geometry: &Geometry,
-        mesh: &Arc<Mesh>,
-    ) -> Result<Face, Refusal> {
-        let places = inputs.places(inputs.count(mesh.base_pitch));
-        let slice = |number: usize| {
-            let z = places[number];
-            let before = number.checked_sub(1).map_or(z, |before| places[before]);
-            let after = places.get(number + 1).copied().unwrap_or(z);
-            Slice { width: 0.5 * (after - before), step: after - z, ..inputs.slice(z) }
-        };
-        let slices: Vec<Slice> = (0..places.len()).map(slice).collect();
-        Ok(Face {
-            inputs: *inputs,
-            mesh: Arc::clone(mesh),
-            teeth: Arc::new(mesh.teeth(geometry)?),
-            reach: 0.5 * inputs.width * inputs.lead.abs(),
-            least_gap: slices.iter().map(|slice| slice.gap).fold(f64::INFINITY, f64::min),
-            slices,
-        })
-    }
-
-    /// z of each slice, in m.
-    pub fn places(&self) -> impl Iterator<Item = f64> {
-        self.slices.iter().map(|slice| slice.z)
-    }
-}
 
 /// The refusals of a face width.
 ///

@@ -344,20 +344,6 @@ impl Solution {
         };
         (curvature > 0.0).then(|| hertz.pressure(station.force, curvature))
     }
-
-    /// The greatest pressure at stations of the shared load, in Pa: at the corners of the tips, or on
-    /// the line of action.
-    pub fn greatest_pressure(&self, stations: &[Station], is_corner: bool) -> Option<f64> {
-        let geometry = &self.geometry;
-        let last = (geometry.start - geometry.end) / geometry.driver.base;
-        let on_line = |one: &&Station| {
-            let angle = one.roll_angle_driver;
-            let rounding = 4.0 * f64::EPSILON * last.abs();
-            (last - rounding..=0.0).contains(&angle) != is_corner && one.force > 0.0
-        };
-        let pressures = stations.iter().filter(on_line).filter_map(|one| self.pressure(one));
-        pressures.reduce(f64::max)
-    }
 }
 
 impl Geometry {

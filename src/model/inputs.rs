@@ -1,6 +1,6 @@
 //! Inputs of a solve, in SI units.
 
-use super::compliance::given::GivenCompliance;
+use super::given::GivenCompliance;
 use super::stage::{Stage, Stages};
 
 /// A gear of the pair.

@@ -114,9 +114,15 @@ fn hold(
             }
             for text in others(field, index, &case) {
                 let mut changed = case.clone();
-                if changed.set(field.key, &text).is_err()
-                    || solve(&changed).is_none_or(|after| results(&after) == results(&before))
-                {
+                if changed.set(field.key, &text).is_err() {
+                    continue;
+                }
+                let after = solve(&changed);
+                // A refusal by the method is an effect, too.
+                if after.is_none() && acting == Acting::Yes && changed.inputs().is_ok() {
+                    found.insert(field.key);
+                }
+                if after.is_none_or(|after| results(&after) == results(&before)) {
                     continue;
                 }
                 found.insert(field.key);

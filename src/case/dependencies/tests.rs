@@ -308,7 +308,7 @@ fn a_quantity_lists_no_field_without_effect() {
         keys.collect::<Vec<_>>()
     };
     let mut case = Case::table_1();
-    let base_pitch = ["pair.module", "pair.pressure_angle", "model.accurate"];
+    let base_pitch = ["pair.module", "pair.pressure_angle", "pair.helix_angle", "model.accurate"];
     assert_eq!(listed("base_pitch", &case), base_pitch);
     // The case of Table 1 gives the deflection, which then needs no load and no stiffness.
     for key in ["operation.power", "driver.young", "model.tooth_compliance"] {

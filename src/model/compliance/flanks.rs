@@ -2,7 +2,7 @@
 //! evaluate.
 
 use super::contact::ContactLaw;
-use super::given::GivenCompliance;
+use super::given;
 use super::tooth::Tooth;
 use super::{ContactPlace, Elasticity, Teeth};
 use crate::model::Refusal;
@@ -167,9 +167,9 @@ impl Flanks {
         arms: (f64, f64),
         force: f64,
     ) -> Result<([f64; 2], f64), Refusal> {
-        if let Some(given) = elasticity.given {
-            let part = GivenCompliance::part(geometry, arms);
-            return Ok((given.teeth(part), given.contact.at(part)));
+        if let Some(table) = elasticity.given {
+            let part = given::part(geometry, arms);
+            return Ok((table.teeth(part), table.contact.at(part)));
         }
         let half_width = elasticity.half_width(place, force);
         let [driver, driven] = [(0, arms.0), (1, arms.1)].map(|(gear, curvature)| {

@@ -221,23 +221,24 @@ impl Tooth {
     }
 }
 
-/// The models in order of preference if the case names none.
-pub fn preferences(inputs: &Inputs) -> [&'static ToothModel; MODELS.len()] {
+/// The models in order of preference if the case names none and gives no compliance.
+pub fn preferences(inputs: &Inputs) -> [&'static ToothModel; 3] {
     if inputs.method == Method::Paper {
-        [&given::MODEL, &kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL]
+        [&kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL]
     } else {
-        [&given::MODEL, &finite_element::MODEL, &beam::MODEL, &kuang_yang::MODEL]
+        [&finite_element::MODEL, &beam::MODEL, &kuang_yang::MODEL]
     }
 }
 
-/// The tooth compliance of a pair: the choice of the case, or the first of the [`preferences`] that
-/// covers the pair. If none covers the pair, the beam, whose refusal gives the reason.
+/// The tooth compliance of a pair: the choice of the case, the table of the case, or the first of the
+/// [`preferences`] that covers the pair. If none covers the pair, the beam, whose refusal gives the reason.
 pub fn model_of(inputs: &Inputs) -> ToothCompliance {
     let by_range = || {
         let covering = preferences(inputs).into_iter().find(|model| (model.covers)(inputs));
         ToothCompliance::named(covering.unwrap_or(&beam::MODEL).name)
     };
-    inputs.tooth_compliance.unwrap_or_else(by_range)
+    let given = inputs.given_compliance.map(|_| ToothCompliance::GIVEN);
+    inputs.tooth_compliance.or(given).unwrap_or_else(by_range)
 }
 
 /// A tooth compliance that is quick to build, if the model of the pair needs an elastic field.

@@ -1,7 +1,7 @@
 //! Rows of the static load sharing.
 
 use super::conditions::{always, friction_given};
-use super::{Need, PLAIN, Quantity, Variant, checks, figures, of_driver};
+use super::{Need, PLAIN, Quantity, Variant, checks, of_driver};
 use crate::model::Stage::{Mesh, Static};
 use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::explanation::Formula::{self, Difference, Found, Made, Solved, Text, Words};
@@ -188,8 +188,6 @@ pub(super) const TABLE: &[Quantity] = &[
         ),
         ..AT_REST
     },
-    figures::STATIC[0],
-    figures::STATIC[1],
     Quantity {
         key: "static_transmission_error",
         symbol: "TE_st",

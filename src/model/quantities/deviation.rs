@@ -171,7 +171,7 @@ pub(super) const TABLE: &[Quantity] = &[
         key: "clearing_relief",
         symbol: "ΔC_a2",
         label: "additional tip relief",
-        equation: "no contact before E",
+        equation: "no contact",
         stage: Clearing,
         value: |s| s.clearing?.relief,
         meaning: "The required additional tip relief of the driven gear: the smallest increase \

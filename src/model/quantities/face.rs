@@ -5,8 +5,8 @@ use crate::model::Solution;
 use crate::model::Stage::{Geometry, Load, Static, StaticSpectrum};
 use crate::model::explanation::Check;
 use crate::model::explanation::Formula::{Found, Text};
-use crate::model::face::load::{FaceCycle, FaceLoad, LinePeak};
 use crate::model::helix::Helix;
+use crate::model::slices::load::{FaceCycle, FaceLoad, LinePeak};
 
 const HELICAL: &str = "External helical gears on parallel, rigid shafts, with involute flanks down to \
     the contact.";
@@ -14,7 +14,7 @@ const SLICES: &str = "Each plane across the axis is a spur pair in another phase
     Its compliance is that of the virtual spur gear of the normal section over cos β_b. A force on a \
     slice displaces the slices beside it over the coupling length. Shafts and bearings do not bend: \
     their tilting is given as misalignment.";
-const BALANCE: &str = "Balance of the line load in slices with gaps: the model of this program. Decay \
+const BALANCE: &str = "Balance ΣF = F0 of the line load in slices with gaps: the model of this program. Decay \
     along the tooth and ends by own finite elements in three dimensions.";
 const CHECKS: &[Check] = &[checks::teeth];
 
@@ -187,7 +187,7 @@ pub(super) const TABLE: &[Quantity] = &[
     },
     Quantity {
         key: "static_peak_line_load",
-        symbol: "p_st,max",
+        symbol: "w_st,max",
         label: "static: peak line load",
         value: |s| Some(line_load(load(s)?.peak)),
         meaning: "The greatest force per width of the incoming tooth.",
@@ -204,7 +204,7 @@ pub(super) const TABLE: &[Quantity] = &[
     },
     Quantity {
         key: "static_peak_line_load_before_start",
-        symbol: "p_st,DE",
+        symbol: "w_st,DE",
         label: "static: peak line load before E",
         value: |s| load(s)?.before_start.map(line_load),
         meaning: "The greatest force per width of the driven tip before E: that of the corner contact.",
@@ -212,7 +212,7 @@ pub(super) const TABLE: &[Quantity] = &[
     },
     Quantity {
         key: "static_peak_line_load_after_end",
-        symbol: "p_st,B",
+        symbol: "w_st,B",
         label: "static: peak line load after B",
         value: |s| load(s)?.after_end.map(line_load),
         meaning: "The greatest force per width of the driver's tip after B.",

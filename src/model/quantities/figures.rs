@@ -1,7 +1,7 @@
 //! Rows of the figures of ISO 21771 and ISO 6336-1, with their steps.
 
 use super::conditions::{always, any_class, any_coarse, driver_larger, helical};
-use super::{Need, PLAIN, Quantity, checks};
+use super::{PLAIN, Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{self, Figures};
 use crate::model::explanation::Formula::{Cases, Difference, Made, Text, Words};
@@ -15,8 +15,6 @@ const STEEL: &str = "Solid gears of the basic rack of the case, C_R = 1 and C_M 
     their Young's modulus. Each pair carries its load alone.";
 const PEAK: &str = "The flanks are smooth cylinders without oil, and the load is even over the width. A \
     sharp edge has no finite pressure.";
-const STATIONS: &str =
-    "the greatest √(F E'/(π b ρ)) at the stations, ρ the reduced radius of curvature";
 
 /// A figure.
 const FIGURE: Quantity = Quantity {
@@ -74,47 +72,6 @@ pub(super) const PRESSURE: Quantity = Quantity {
     assumptions: PEAK,
     ..PLAIN
 };
-
-/// The rows of the greatest pressures of a method, on the line of action and at the corner: how keys,
-/// symbols, labels and sentences begin or end, the stage, and the member of the solution.
-macro_rules! peaks {
-    ($method:literal, $symbol:literal, $when:literal, $stage:ident, $load:ident) => {
-        [
-            Quantity {
-                key: concat!($method, "_peak_pressure"),
-                symbol: concat!($symbol, ",max"),
-                label: concat!($method, ": Hertz pressure"),
-                stage: Stage::$stage,
-                value: |s| s.greatest_pressure(&s.$load.as_ref()?.stations, false),
-                meaning: concat!(
-                    "The greatest Hertz pressure of the incoming tooth from E to B ",
-                    $when,
-                    "."
-                ),
-                formula: Words(STATIONS),
-                ..PRESSURE
-            },
-            Quantity {
-                key: concat!($method, "_corner_pressure"),
-                symbol: concat!($symbol, ",S"),
-                label: concat!($method, ": corner pressure"),
-                stage: Stage::$stage,
-                value: |s| s.greatest_pressure(&s.$load.as_ref()?.stations, true),
-                meaning: concat!(
-                    "The greatest Hertz pressure of a rounded tip edge before E or after B ",
-                    $when,
-                    "."
-                ),
-                formula: Words(STATIONS),
-                needs: Need::TipRadius,
-                ..PRESSURE
-            },
-        ]
-    };
-}
-
-pub(super) const STATIC: [Quantity; 2] = peaks!("static", "p_st", "at rest", Static, static_load);
-pub(super) const DYNAMIC: [Quantity; 2] = peaks!("dynamic", "p_d", "in motion", Dynamic, dynamic);
 
 /// The tip thickness of a gear with the transverse pressure angle.
 macro_rules! thickness {

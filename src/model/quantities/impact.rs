@@ -311,8 +311,6 @@ pub(super) const TABLE: &[Quantity] = &[
         formula: Text("2 F_S/(π a_H b)"),
         checks: &[checks::contact_small, checks::edge],
         needs: Need::TipRadius,
-        by_static: Some("static_corner_pressure"),
-        by_dynamic: Some("dynamic_corner_pressure"),
         ..PRESSURE
     },
     Quantity {

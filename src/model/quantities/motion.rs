@@ -1,6 +1,6 @@
 //! Rows of the motion: load sharing with inertia, mesh frequency and natural frequency.
 
-use super::{Need, PLAIN, Quantity, Variant, checks, conditions, figures, of_driver};
+use super::{Need, PLAIN, Quantity, Variant, checks, conditions, of_driver};
 use crate::model::Solution;
 use crate::model::Stage::{Dynamic, Resonance, SpeedRun};
 use crate::model::dynamic::speeds::SpeedCurve;
@@ -124,8 +124,6 @@ pub(super) const TABLE: &[Quantity] = &[
         )],
         ..IN_MOTION
     },
-    figures::DYNAMIC[0],
-    figures::DYNAMIC[1],
     Quantity {
         key: "dynamic_impact_duration",
         symbol: "T_d",

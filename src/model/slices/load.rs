@@ -164,7 +164,8 @@ impl Face {
 
     /// The balance with the incoming pair at `s`.
     fn balance(&self, s: f64, error: f64) -> Result<Loads, Refusal> {
-        self.loads(s, error, Until::Force(self.mesh.force), None)
+        let loads = self.loads(s, error, Until::Force(self.mesh.force), None)?;
+        if loads.displacement.is_finite() { Ok(loads) } else { Err(Refusal::BeyondReach) }
     }
 
     /// One base pitch without deviations, and the harmonics of its transmission error.

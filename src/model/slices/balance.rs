@@ -191,7 +191,7 @@ impl Face {
         let [one, other] = [before, after].map(|slice| loads.free[slice * loads.pairs + pair]);
         let part = (z - self.slices[before].z) / self.slices[before].step;
         let error = if ahead == 0 { loads.error } else { 0.0 };
-        let contact = self.contact(&self.inputs.slice(z), path, error);
+        let contact = self.contact(&Slice::at(&self.inputs, z), path, error);
         let lead = one + part * (other - one) - contact.gap;
         let line_load = lead / (contact.contact + self.own(&contact));
         (line_load > 0.0).then_some((line_load, z))
