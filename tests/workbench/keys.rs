@@ -52,7 +52,7 @@ fn the_method_is_a_field_and_a_key() {
 #[test]
 fn undo_and_redo_move_by_one_field() {
     let mut desk = Desk::new(SMALL);
-    desk.fill("operation.speed", "1500 rpm").keys(&["Tab", "0.1", "Ctrl-Z"]);
+    desk.fill("operation.speed", "1500 rpm").keys(&["Tab", "Tab", "0.1", "Ctrl-Z"]);
     desk.assert_shows("undo: friction coefficient: 0.1 -> (empty)");
     assert!(desk.shows("1500 rpm"));
     desk.keys(&["Ctrl-Z"]);

@@ -38,7 +38,9 @@ fn a_pane_alone_has_no_poorer_title() {
                 let alone = title(&desk, pane);
                 // The unit of the x axis is also below the corner of its axes.
                 let is_cut = alone.contains('…') && !alone.contains(" over ");
-                let is_poorer = pane != "2" && alone.chars().count() < among.chars().count();
+                let is_poorer = pane != "2"
+                    && !among.contains('…')
+                    && alone.chars().count() < among.chars().count();
                 assert!(!is_cut && !is_poorer, "{size}: {among:?}, alone {alone:?}");
             }
         }
@@ -51,12 +53,12 @@ fn a_pane_alone_leaves_no_other_in_sight() {
         let mut desk = Desk::on(size, "case.toml", TABLE_1);
         desk.keys(&["Esc", "2", "z"]);
         desk.assert_shows("Corner contact ");
-        desk.assert(!desk.shows("number of te"));
+        desk.assert(!desk.shows("pressure angle"));
         desk.keys(&["1"]);
-        desk.assert_shows("number of teeth");
+        desk.assert_shows("pressure angle");
         desk.assert(!desk.shows("Corner contact "));
         desk.keys(&["z"]);
-        assert!(desk.shows("number of te") && desk.shows("orner contact "));
+        assert!(desk.shows("pressure an") && desk.shows("orner contact "));
     }
 }
 
@@ -193,7 +195,7 @@ fn the_values_of_a_chart_at_the_cursor_have_one_unit() {
     for _ in 0..20 {
         desk.keys(&["l"]);
         let screen = desk.screen();
-        let line = screen.lines().find(|line| line.contains(" before E: "));
+        let line = screen.lines().rfind(|line| line.contains(" before E: "));
         let (_, values) = line.and_then(|line| line.split_once(": ")).expect("a readout");
         let forces = values.split(';').next().unwrap_or_default();
         let units: Vec<bool> = forces.split(", ").map(|value| value.ends_with(" kN")).collect();

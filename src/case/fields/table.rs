@@ -119,6 +119,19 @@ const PAIR: &[Field] = &[
         |inputs, value| inputs.helix_angle = value,
         "Helix angle at the reference cylinder; with it module and pressure angle are the normal ones. 0 for a spur pair."
     ),
+    number!(
+        "pair.centre_distance",
+        "a",
+        "centre distance",
+        Length,
+        0.1,
+        100000.0,
+        "mm",
+        Without("no backlash"),
+        |inputs, value| inputs.centre_distance = Some(value),
+        "Centre distance; else from the profile shifts, without backlash."
+    )
+    .with_example("100 mm"),
     choice("pair.driver_hand", "", "hand of the driver", &["right", "left"], Default("right"), |inputs, value| {
             inputs.driver_hand = Hand::ALL[value];
         }, "Hand of the driver's helix; the other gear has the other hand. The driver turns positively about +z.")
@@ -135,19 +148,6 @@ const PAIR: &[Field] = &[
         |inputs, value| inputs.face_offset = value,
         "Middle of the face of gear 2 minus that of gear 1, along +z."
     ),
-    number!(
-        "pair.centre_distance",
-        "a",
-        "centre distance",
-        Length,
-        0.1,
-        100000.0,
-        "mm",
-        Without("no backlash"),
-        |inputs, value| inputs.centre_distance = Some(value),
-        "Centre distance; else from the profile shifts, without backlash."
-    )
-    .with_example("100 mm"),
 ];
 
 /// The rows by groups, in the order of the form and of a new file.

@@ -325,7 +325,7 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::OUTSIDE, "a", "cursor to angle", panes::ask_cursor,
         "Move the cursor to a roll angle, a time, D, E, B, L or the peak."),
     pair(Place::WORKER_CHART, "l/h Right/Left", "point", |app, by| panes::run_chart(app, Chart::Move(by)),
-        "Move the cursor of a chart with its own axes one point right or left.").shown(),
+        "One point right or left in a chart with its own axes.").shown(),
     pair(Place::WORKER_CHART, "L/H Shift-Right/Shift-Left", "", |app, by| panes::run_chart(app, Chart::Move(10 * by)),
         "Move that cursor ten points right or left."),
     row(Place::CURSOR.or(Place::WORKER_CHART), "c", "hide cursor", panes::hide_cursor, "Hide the cursor."),

@@ -74,7 +74,7 @@ pub(super) const COMPLIANCE: &[Field] = &[
     CURVES[2][1],
     number!(
         "compliance.cross",
-        "κ",
+        "q_x",
         "next pair",
         Number,
         0.0,

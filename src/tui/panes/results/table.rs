@@ -245,7 +245,7 @@ fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
             (None, _) => String::new(),
         };
         let heading = "baseline".to_owned();
-        columns.push(Column::numbers(0, heading, cells(&difference), [theme.baseline; 2]));
+        columns.push(Column::numbers(2, heading, cells(&difference), [theme.baseline; 2]));
     } else {
         let equations = cells(&|at| known[at].equation.to_owned());
         columns.push(Column::words(99, 12, equations, theme.faint));
