@@ -241,6 +241,9 @@ pub fn specify(
     demand: &Demand,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Specification, NoRelief> {
+    if inputs.face().is_some() {
+        return Err(NoRelief::Refused(Refusal::ReliefOverFace));
+    }
     let torque = inputs.torque();
     let inputs = Inputs { drive: Drive::Torque(torque), ..inputs.clone() };
     let method = governing(&inputs, go_on)?;
