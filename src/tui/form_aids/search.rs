@@ -227,7 +227,9 @@ mod tests {
     fn every_word_must_fit() {
         assert!(keys("module relief").is_empty());
         assert!(keys("xyzzy").is_empty());
-        assert!(keys("driven").iter().all(|key| !key.starts_with("pair")));
+        // A mistyped "driver" is found, too.
+        let is_of_gear = |key: &&str| !key.starts_with("pair") || *key == "pair.driver_hand";
+        assert!(keys("driven").iter().all(is_of_gear));
     }
 
     #[test]

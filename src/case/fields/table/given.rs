@@ -13,7 +13,7 @@ fn given(inputs: &mut Inputs) -> &mut GivenCompliance {
 
 /// The rows of a curve: its value in the middle and its coefficients.
 macro_rules! curve {
-    ($name:ident, $symbol:literal, $label:literal, $help:literal) => {
+    ($name:ident, $symbol:literal, [$label:literal, $coefficients:literal], $help:literal) => {
         [
             number!(
                 concat!("compliance.", stringify!($name)),
@@ -32,7 +32,7 @@ macro_rules! curve {
             Field {
                 key: concat!("compliance.", stringify!($name), "_coefficients"),
                 symbol: "",
-                label: concat!($label, ": c1, c2, .."),
+                label: $coefficients,
                 help: "Change along the path: times 1 + c1 t + c2 t^2 .., t from -1 at E to 1 at B.",
                 kind: Kind::List(|inputs, values| given(inputs).$name.coefficients = values),
                 absent: Without("0"),
@@ -48,19 +48,19 @@ const CURVES: [[Field; 2]; 3] = [
     curve!(
         driver,
         "q1",
-        "driver",
+        ["given driver compliance", "given driver coefficients"],
         "Compliance of the driver's tooth and body per width without the contact, in the middle of the path."
     ),
     curve!(
         driven,
         "q2",
-        "driven",
+        ["given driven compliance", "given driven coefficients"],
         "Compliance of the driven tooth and body per width without the contact, in the middle of the path."
     ),
     curve!(
         contact,
         "qH",
-        "contact",
+        ["given contact compliance", "given contact coefficients"],
         "Compliance of the contact of both flanks per width, in the middle of the path."
     ),
 ];
