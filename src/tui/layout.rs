@@ -73,6 +73,7 @@ impl Pane {
         match self {
             Pane::Form | Pane::Trade | Pane::Study => Stages::NONE,
             Pane::Results => Stages::CLOSED_FORM
+                .with(Stage::Figures)
                 .with(Stage::Band)
                 .and(Stages::of(Stage::Static))
                 .and(Stages::of(Stage::Resonance))

@@ -16,7 +16,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc", "Enter", "7", "module               7 mm"),
     ("Esc", "/", "", "Go to a field"),
     ("Esc", "j", "", "Pd diametral pitch,"),
-    ("Esc G", "k", "", "▸ c_o   obtuse end"),
+    ("Esc G", "k", "", "▸       decay of the ends"),
     ("Esc", "l", "", "z1 driver number of teeth,"),
     ("Esc", "h", "", "title. A name"),
     ("Esc", "g", "", "title. A name"),

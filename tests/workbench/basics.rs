@@ -552,7 +552,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
         "it is waited for no more"
     );
     desk.act(Action::Solved(Box::new(whole)));
-    desk.assert(desk.shows("40.1 um of tip relief on the driven gear") && !desk.shows("..."));
+    desk.assert(desk.shows("40.1 um of tip relief on the driven") && !desk.shows("..."));
 }
 
 #[test]

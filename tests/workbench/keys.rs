@@ -335,8 +335,12 @@ fn every_field_can_be_reached_and_every_line_of_the_results() {
         desk.keys(&["Down"]);
     }
     assert!(!desk.shows(" κ "));
-    desk.keys(&["F4"; 13]);
-    desk.assert_shows(" κ ");
+    let pages = (0..13).take_while(|_| {
+        let is_hidden = !desk.shows(" κ ");
+        desk.keys(&["F4"]);
+        is_hidden
+    });
+    assert!(pages.count() < 13, "{}", desk.screen());
 }
 
 #[test]

@@ -64,13 +64,14 @@ const SIGNS: [&str; 6] = [
         before E. Crosses: named points. Bold dots: contacts.",
 ];
 
-const PLACES: [(&str, Place); 14] = [
+const PLACES: [(&str, Place); 15] = [
     ("Everywhere", Place::WORK),
     ("In a field", Place::TEXT),
     ("Outside a field (Esc leaves the field)", Place::FIELD),
     ("In a field of choices", Place::CHOICE),
     ("In the results", Place::RESULTS),
     ("In chart and teeth", Place::CURSOR),
+    ("In a chart with its own axes", Place::WORKER_CHART),
     ("In accuracy against run time", Place::TRADE),
     ("In the study", Place::STUDY),
     ("In the tolerance", Place::TOLERANCE),

@@ -60,7 +60,7 @@ struct Column {
 }
 
 /// The rank of the units, which are cut but not removed.
-const UNITS: usize = 1;
+const UNITS: usize = 2;
 
 impl Column {
     fn words(rank: usize, least: usize, cells: Vec<String>, style: Style) -> Column {
@@ -162,15 +162,16 @@ fn fitting(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
     loop {
         let taken: usize = columns.iter().map(|column| column.width() + 1).sum();
         let over = taken.saturating_sub(pane.area.width.into());
-        let last = columns.iter().enumerate().max_by_key(|(_, column)| column.rank);
+        let is_cut = |column: &Column| column.rank == UNITS && column.width() <= column.least;
+        let left = columns.iter().enumerate().filter(|(_, column)| !is_cut(column));
+        let last = left.max_by_key(|(_, column)| column.rank);
         let Some((at, last)) = last.filter(|(_, last)| over > 0 && last.rank > 0) else {
             return columns;
         };
-        let room = last.width().saturating_sub(over);
+        let least = if last.rank == UNITS { last.least } else { 0 };
+        let room = last.width().saturating_sub(over).max(least);
         if room >= last.least {
             columns[at].cells.iter_mut().for_each(|cell| *cell = text::cut(cell, room));
-        } else if last.rank == UNITS {
-            return columns;
         } else {
             columns.remove(at);
         }
@@ -211,7 +212,7 @@ fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
     for (at, &method) in methods.iter().enumerate() {
         let numbers = cells(&|at| number(at, value(answer, method, known[at])));
         let (rank, heading, styles) = match pane.variants {
-            Some(_) => (2, "case".to_owned(), [theme.active, theme.focus]),
+            Some(_) => (3, "case".to_owned(), [theme.active, theme.focus]),
             None if method == active => {
                 (0, format!("▸{}", method.name()), [theme.active, theme.focus])
             }
@@ -234,7 +235,7 @@ fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
             let pairs: Vec<_> = (0..known.len()).map(pair).collect();
             let right = pairs.iter().map(|pair| pair[1].width()).max().unwrap_or(0);
             let pairs = pairs.iter().map(|[now, by]| format!("{now} {by:>right$}")).collect();
-            let rank = if at == 0 { 0 } else { 2 + at };
+            let rank = if at == 0 { 0 } else { 3 + at };
             columns.push(Column::numbers(rank, text::cut(name, LONGEST_NAME), pairs, plain));
         }
     } else if pane.baseline.is_some() {
@@ -245,7 +246,7 @@ fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
             (None, _) => String::new(),
         };
         let heading = "baseline".to_owned();
-        columns.push(Column::numbers(2, heading, cells(&difference), [theme.baseline; 2]));
+        columns.push(Column::numbers(1, heading, cells(&difference), [theme.baseline; 2]));
     } else {
         let equations = cells(&|at| known[at].equation.to_owned());
         columns.push(Column::words(99, 12, equations, theme.faint));
