@@ -4,7 +4,6 @@
 
 pub mod contact;
 pub mod flanks;
-pub mod given;
 pub mod tooth;
 
 use super::Refusal;
@@ -178,7 +177,7 @@ impl Teeth {
             curvature(place.radius_driver, driver.base),
             curvature(place.radius_driven, driven.base),
         );
-        Some((self.elasticity.given?, given::part(&self.geometry, arms)))
+        Some((self.elasticity.given?, tooth::given::part(&self.geometry, arms)))
     }
 
     /// A value of driver and driven gear at a place.

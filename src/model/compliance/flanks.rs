@@ -2,8 +2,7 @@
 //! evaluate.
 
 use super::contact::ContactLaw;
-use super::given;
-use super::tooth::Tooth;
+use super::tooth::{Tooth, given};
 use super::{ContactPlace, Elasticity, Teeth};
 use crate::model::Refusal;
 use crate::model::geometry::{Circles, Geometry};

@@ -3,12 +3,13 @@
 
 pub mod beam;
 pub mod finite_element;
+pub mod given;
 pub mod kuang_yang;
 
 use std::sync::Arc;
 
+use super::ElasticGear;
 use super::contact::ContactLaw;
-use super::{ElasticGear, given};
 use crate::model::Refusal;
 use crate::model::explanation::{Context, Finding, Step};
 use crate::model::field::Field;

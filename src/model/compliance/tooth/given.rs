@@ -1,6 +1,6 @@
 //! Compliance from the table of the case.
 
-use super::tooth::{Kind, ToothModel};
+use super::{Kind, ToothModel};
 use crate::model::explanation::Formula::Words;
 use crate::model::explanation::{Step, step};
 use crate::model::geometry::Geometry;
