@@ -77,6 +77,8 @@ pub struct Quantity {
 pub enum Need {
     /// None.
     Nothing,
+    /// A load that varies over the face width: a helical, misaligned or crowned pair.
+    Slices,
     /// A friction coefficient.
     Friction,
     /// A backlash.

@@ -29,6 +29,8 @@ pub enum Absence {
     NotReached,
     /// No contact after the end of the path of contact.
     NoExit,
+    /// The load of the pair is even over the face width.
+    NoSlices,
     /// The model withholds the quantity.
     Withheld(Refusal),
     /// The impact has no end, because the triangle of Eq. 34 does not close.
@@ -51,6 +53,9 @@ impl Absence {
             return absence;
         }
         match (quantity.stage, solution.withheld) {
+            _ if quantity.needs == Need::Slices && solution.face_load.is_none() => {
+                Absence::NoSlices
+            }
             (Stage::Static | Stage::Dynamic, _) if quantity.key.contains("last_contact") => {
                 Absence::NoExit
             }
@@ -168,6 +173,9 @@ impl fmt::Display for Absence {
                 let methods = listed(&methods.collect::<Vec<_>>());
                 let own = method.name();
                 write!(f, "method {own} does not compute this quantity; {methods} do")
+            }
+            Absence::NoSlices => {
+                f.write_str("only a helical, misaligned or crowned pair has this quantity")
             }
             // A deviation above 0 belongs to the load at rest and is not the reason.
             Absence::NoContact(why, total) if *total > 0.0 => write!(f, "no corner contact: {why}"),

@@ -27,10 +27,10 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 2", "n", "", "Outcome, limits, notes"),
     ("Esc 2", "Alt-L", "", "ok impact_force 2191.0 N <= 2500 N (88 %)"),
     ("Esc 2", "l", "", "O2D driven radius at D, rounding"),
-    ("Esc 2 l", "h", "", "2 Results 1-21/7"),
+    ("Esc 2 l", "h", "", "2 Results 1-21/6"),
     ("Esc 2", "j", "", "T_S impact duration, by the method"),
     ("Esc 2 j j", "k", "", "T_S impact duration, by the method"),
-    ("Esc 2", "G", "", "(iso_dynamic_factor)."),
+    ("Esc 2", "G", "", "(corner_pressure)."),
     ("Esc 2 G", "g", "", "F_S impact force, Eq. 57"),
     ("Ctrl-T Esc 2", "f", "G", " free: "),
     // Accuracy against run time.

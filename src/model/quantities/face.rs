@@ -1,6 +1,6 @@
 //! Rows of the face width: helical geometry, and the line load of a pair in slices.
 
-use super::{PLAIN, Quantity, checks};
+use super::{Need, PLAIN, Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{Geometry, Load, Static, StaticSpectrum};
 use crate::model::explanation::Check;
@@ -27,6 +27,7 @@ const HELIX: Quantity = Quantity {
     stage: Geometry,
     source: "ISO 21771:2007.",
     assumptions: HELICAL,
+    needs: Need::Slices,
     ..PLAIN
 };
 
@@ -41,6 +42,7 @@ const AT_REST: Quantity = Quantity {
     formula: LOAD,
     assumptions: SLICES,
     checks: CHECKS,
+    needs: Need::Slices,
     ..PLAIN
 };
 

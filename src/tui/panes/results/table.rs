@@ -86,10 +86,16 @@ pub(super) fn order(pane: &Results<'_>, answer: &Answer) -> Vec<&'static Quantit
     let methods = || answer.methods.iter().map(|(method, _)| *method);
     let stages = methods().fold(Stages::NONE, |stages, method| stages.and(method.stages()));
     let has_friction = answer.inputs.friction_coefficient.is_some();
+    let has_slices = answer.inputs.face().is_some();
     let is_folded = answer.active.shares_load() && !pane.shows_every_method;
     let first = FIRST.iter().filter_map(|key| Quantity::find(key));
     let rest = report::quantities(answer.active).filter(|quantity| {
-        !FIRST.contains(&quantity.key) && (has_friction || quantity.needs != Need::Friction)
+        let is_open = match quantity.needs {
+            Need::Friction => has_friction,
+            Need::Slices => has_slices,
+            _ => true,
+        };
+        is_open && !FIRST.contains(&quantity.key)
     });
     let listed = first.chain(rest).filter(|quantity| {
         stages.has(quantity.stage) && !(is_folded && quantity.is_of_free_impact())
