@@ -77,9 +77,8 @@ impl Inputs {
         const OF_DEPTH: f64 = 0.58;
         /// Of the face width.
         const RELIEF_LENGTH: f64 = 0.1;
-        let is_even = |gear: &Gear| {
-            gear.helix_slope == 0.0 && gear.crowning == 0.0 && gear.end_reliefs == [0.0; 2]
-        };
+        let is_even =
+            |gear: &Gear| gear.helix_slope == 0.0 && gear.crowning == 0.0 && !gear.has_end_relief();
         let is_plain = self.helix_angle == 0.0 && self.misalignment == 0.0;
         if is_plain && is_even(&self.driver) && is_even(&self.driven) {
             return None;
@@ -209,6 +208,8 @@ pub const MOST_SLICES: usize = 4097;
 /// [`Refusal::TotalContactRatioBelowOne`] if no pair is in contact at times,
 /// [`Refusal::EndReliefsOverlap`], [`Refusal::TooFewSlices`].
 pub(super) fn check_face(inputs: &FaceInputs, geometry: &Geometry) -> Result<(), Refusal> {
+    /// Least number of slices in a base pitch of the overlap.
+    const PER_PITCH: f64 = 8.0;
     let ratio = inputs.total_contact_ratio(geometry);
     if ratio < 1.0 {
         return Err(Refusal::TotalContactRatioBelowOne { ratio });
@@ -221,8 +222,6 @@ pub(super) fn check_face(inputs: &FaceInputs, geometry: &Geometry) -> Result<(),
             return Err(Refusal::EndReliefsOverlap { gear: side, length, width });
         }
     }
-    /// Slices of the path that all slices of a face differ by.
-    const PER_PITCH: f64 = 8.0;
     let least = (PER_PITCH * inputs.overlap_ratio(geometry)).ceil() as usize;
     match inputs.slices {
         Some(slices) if slices < least => Err(Refusal::TooFewSlices { slices, least }),

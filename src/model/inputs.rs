@@ -94,6 +94,13 @@ pub struct Gear {
     pub end_relief_length: Option<f64>,
 }
 
+impl Gear {
+    /// Whether an end of the face has a relief.
+    pub fn has_end_relief(&self) -> bool {
+        self.end_reliefs.iter().any(|relief| *relief > 0.0)
+    }
+}
+
 /// A full-depth gear without shift, relief and bore. Teeth, width and material are zero, which
 /// every check refuses.
 impl Default for Gear {

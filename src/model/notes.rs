@@ -322,9 +322,10 @@ const ROWS: &[fn(&Context) -> Found] = &[
     form_circle,
     |k| {
         let [driver, driven] = k.solution.figures?.tip_clearance;
-        let (name, root, least) = match driver < driven {
-            true => ("driver", "driven gear", driver),
-            false => ("driven gear", "driver", driven),
+        let (name, root, least) = if driver < driven {
+            ("driver", "driven gear", driver)
+        } else {
+            ("driven gear", "driver", driven)
         };
         let message = format!(
             "the tip of the {name} runs into the root of the {root}: the tip clearance is {} mm and \

@@ -218,8 +218,8 @@ fn rounded_up(least: f64, given: f64, system: System) -> [String; 2] {
     // Decimal places of um and of thou.
     let last = if system == System::Inch { 4 } else { 3 };
     let before_point = (least / factor).log10().floor() as i32 + 1;
-    let digits = (RELIEF_DIGITS - before_point).clamp(0, last) as usize;
-    let scale = 10f64.powi(digits as i32);
+    let places = (RELIEF_DIGITS - before_point).clamp(0, last);
+    let (digits, scale) = (places as usize, 10f64.powi(places));
     let more = (least / factor * scale * (1.0 + ROUNDING)).ceil();
     let all = (more + given / factor * scale - ROUNDING).ceil();
     [more, all].map(|number| format!("{:.digits$}", number / scale))

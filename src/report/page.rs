@@ -149,10 +149,8 @@ impl<'a> Page<'a> {
         let cases: Vec<NamedCase> = cases.collect();
         // A picture of one case is drawn once for each.
         let drawn = |picture: Picture| -> Vec<String> {
-            let sets: Vec<&[NamedCase]> = match picture.is_of_one_case() {
-                true => cases.chunks(1).collect(),
-                false => vec![&cases[..]],
-            };
+            let sets: Vec<&[NamedCase]> =
+                if picture.is_of_one_case() { cases.chunks(1).collect() } else { vec![&cases[..]] };
             sets.into_iter().filter_map(|cases| picture.draw(cases).ok()).collect()
         };
         let is_main = |picture: &Picture| MAIN_PICTURES.contains(&picture.key);

@@ -445,8 +445,11 @@ impl Results for ReliefReport<'_> {
 /// The value of a column of a choice, in SI.
 type Number = fn(&Specification, &Choice) -> Option<f64>;
 
+/// A column of numbers.
+type Numbers = (&'static str, &'static str, &'static str, (&'static str, usize), Number);
+
 /// The columns of numbers: key, header, unit in SI, unit and digits in text, value.
-const NUMBERS: [(&str, &str, &str, (&str, usize), Number); 19] = [
+const NUMBERS: [Numbers; 19] = [
     ("driver.tip_relief", "C_a1", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[0])),
     ("driver.tip_relief_length", "L_1", "m", ("mm", 4), |_, of| of.length(0)),
     ("driven.tip_relief", "C_a2", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[1])),

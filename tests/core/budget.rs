@@ -233,10 +233,11 @@ fn outcome(name: &str, inputs: &Inputs, solved: &Result<Solution, Refusal>) -> S
 
 /// Prints the number of each outcome, and the most expensive cases.
 fn print(all: &[Taken], outcomes: &BTreeMap<&str, u64>) {
+    type Size = (&'static str, fn(&Taken) -> u64);
     for (outcome, count) in outcomes {
         println!("{count:8} {outcome}");
     }
-    let sizes: [(&str, fn(&Taken) -> u64); 3] = [
+    let sizes: [Size; 3] = [
         ("work", |taken| taken.work),
         ("time", |taken| taken.time.as_nanos() as u64),
         ("memory", |taken| taken.bytes),

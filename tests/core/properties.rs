@@ -328,6 +328,7 @@ fn same_bits_on_one_thread_and_on_many() {
     let solved = |number: u64| format!("{:?}", solve(&numbered(number), WITHOUT_SPREAD));
     let mut alone: Vec<String> = (0..PAIRS).map(solved).collect();
     let mut shared = on_all_cores(PAIRS, solved);
-    (alone.sort(), shared.sort());
+    alone.sort();
+    shared.sort();
     assert!(alone == shared);
 }

@@ -87,7 +87,9 @@ fn printed_position_of_every_row() {
 /// Each case of a folder with its answers, with ten stations.
 fn cases(name: &str) -> Vec<(String, Inputs, Value)> {
     let mut all = cases_with_answers(&format!("tests/reference/{name}"));
-    all.iter_mut().for_each(|(_, inputs, _)| inputs.stations = Some(10));
+    for (_, inputs, _) in &mut all {
+        inputs.stations = Some(10);
+    }
     all
 }
 

@@ -557,7 +557,7 @@ macro_rules! gear {
             )
             .with_example("4 mm")
             .reasons(&[
-                Idle(|inputs| inputs.$gear.end_reliefs == [0.0; 2], "the gear has no end relief"),
+                Idle(|inputs| !inputs.$gear.has_end_relief(), "the gear has no end relief"),
                 FACE[0],
             ]),
         ]

@@ -126,6 +126,7 @@ const HELICAL_INVOLUTE: Equation = Equation {
     ..INVOLUTE
 };
 
+#[expect(clippy::unnecessary_wraps, reason = "the sides of an equation may be unknown")]
 fn involutes(k: &Context) -> Option<[f64; 2]> {
     let (inputs, working) = (k.inputs, k.solution.geometry.working_pressure_angle);
     let inv = |angle: f64| angle.tan() - angle;

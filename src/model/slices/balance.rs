@@ -34,6 +34,11 @@ impl Loads {
         self.index(ahead).map_or(0.0, |pair| self.line_loads[slice * self.pairs + pair])
     }
 
+    /// Line load of all pairs at each slice, in N/m.
+    pub fn of_all(&self) -> Vec<f64> {
+        self.line_loads.chunks(self.pairs.max(1)).map(|of_slice| of_slice.iter().sum()).collect()
+    }
+
     /// The greatest lead of a pair over the face, in m, with the number of its slice.
     pub fn lead(&self, ahead: i32) -> (f64, usize) {
         let Some(pair) = self.index(ahead) else {
@@ -80,7 +85,7 @@ struct Contact {
     /// Whether the pair can carry here.
     can_carry: bool,
     /// Compliance of the contact, q_c.
-    contact: f64,
+    local: f64,
     /// √q_t of the teeth.
     root: f64,
     /// The part of the load that turns the driver.
@@ -170,12 +175,12 @@ impl Face {
         let contact = (compliance - driver - driven).max(LEAST * compliance);
         let teeth = (compliance - contact) * (driver * slice.ends[0] + driven * slice.ends[1])
             / (driver + driven);
-        let can_carry = kept == place;
+        let can_carry = kept.to_bits() == place.to_bits();
         let friction = mesh.friction() * self.inputs.oblique;
         Contact {
             gap: if can_carry { gap + slice.gap - error } else { f64::INFINITY },
             can_carry,
-            contact,
+            local: contact,
             root: teeth.max(0.0).sqrt(),
             weight: 1.0 - friction * sliding.signum() * lever,
         }
@@ -193,7 +198,7 @@ impl Face {
         let error = if ahead == 0 { loads.error } else { 0.0 };
         let contact = self.contact(&Slice::at(&self.inputs, z), path, error);
         let lead = one + part * (other - one) - contact.gap;
-        let line_load = lead / (contact.contact + self.own(&contact));
+        let line_load = lead / (contact.local + self.own(&contact));
         (line_load > 0.0).then_some((line_load, z))
     }
 
@@ -212,7 +217,7 @@ impl Face {
             for apart in 1..=PITCHES.min(pairs - 1 - rear) {
                 let way = apart as f64 * mesh.base_pitch;
                 // Both pairs are as near the middle of the path as on the face.
-                let place = s + f64::from(first + rear as i32) * mesh.base_pitch;
+                let place = s + (f64::from(first) + rear as f64) * mesh.base_pitch;
                 let to_middle = 0.5 * (mesh.length - way) - place;
                 let place = place + to_middle.clamp(-self.reach, self.reach);
                 kappa[(rear + apart) * pairs + rear] = self.neighbour(place, apart);
@@ -318,7 +323,9 @@ impl<const ROW: usize> System<'_, ROW> {
                 if !self.touching.contains(&true) {
                     let all = (0..leads.len()).filter(|&at| self.contacts[at].can_carry);
                     let nearest = all.max_by(|&one, &other| leads[one].total_cmp(&leads[other]));
-                    nearest.into_iter().for_each(|at| self.touching[at] = true);
+                    if let Some(at) = nearest {
+                        self.touching[at] = true;
+                    }
                 }
             } else if let Some((at, _)) = wrong.next() {
                 self.touching[at] = !self.touching[at];
@@ -328,7 +335,7 @@ impl<const ROW: usize> System<'_, ROW> {
         }
         let loaded = leads.iter().zip(self.contacts);
         let line_loads: Vec<f64> = loaded
-            .map(|(lead, of)| if of.can_carry { lead.max(0.0) / of.contact } else { 0.0 })
+            .map(|(lead, of)| if of.can_carry { lead.max(0.0) / of.local } else { 0.0 })
             .collect();
         let free = leads.iter().zip(&line_loads).zip(self.contacts);
         let free = free.map(|((lead, load), of)| lead + of.gap + self.face.own(of) * load);
@@ -355,7 +362,7 @@ impl<const ROW: usize> System<'_, ROW> {
             let (stiffness, preload) =
                 touching.fold((0.0, force), |(stiffness, preload), (at, contact)| {
                     let width = self.face.slices[at / self.pairs].width;
-                    let compliance = contact.contact + contact.root * contact.root;
+                    let compliance = contact.local + contact.root * contact.root;
                     let spring = contact.weight * width / compliance;
                     (stiffness + spring, preload + spring * contact.gap)
                 });
@@ -392,9 +399,9 @@ impl<const ROW: usize> System<'_, ROW> {
                 self.sides[at] = [0.0; 2];
             }
             for pair in (0..pairs).filter(|pair| touching[*pair]) {
-                let Contact { gap, contact, root, .. } = contacts[pair];
+                let Contact { gap, local, root, .. } = contacts[pair];
                 let factors = &self.factors[pair * pairs..=pair * pairs + pair];
-                let push = slice.width * root / contact;
+                let push = slice.width * root / local;
                 for (row, factor) in
                     factors.iter().enumerate().filter(|(_, factor)| **factor != 0.0)
                 {
@@ -430,7 +437,7 @@ impl<const ROW: usize> System<'_, ROW> {
         touching.fold([0.0; 2], |[slope, offset], at| {
             let ([moved, kept], contact) = (self.pushed(at), &self.contacts[at]);
             let width = self.face.slices[at / self.pairs].width;
-            let spring = contact.weight * width / contact.contact;
+            let spring = contact.weight * width / contact.local;
             [slope + spring * (1.0 - moved), offset + spring * (contact.gap - kept)]
         })
     }
@@ -470,9 +477,9 @@ fn factor<const ROW: usize>(rows: &mut [[f64; ROW]]) {
 
 /// Solves for two right sides, in place.
 fn solve<const ROW: usize>(rows: &[[f64; ROW]], sides: &mut [[f64; 2]]) {
-    for at in 0..sides.len() {
+    for (at, row) in rows.iter().enumerate() {
         let (known, rest) = sides.split_at_mut(at);
-        for (side, factor) in known.iter().rev().zip(&rows[at][1..]) {
+        for (side, factor) in known.iter().rev().zip(&row[1..]) {
             rest[0] = [rest[0][0] - factor * side[0], rest[0][1] - factor * side[1]];
         }
     }

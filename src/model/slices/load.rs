@@ -151,11 +151,6 @@ impl Face {
         (0..self.slices.len()).map(of_slice).sum()
     }
 
-    /// Line load of all pairs at each slice, in N/m.
-    fn line_loads(&self, loads: &Loads) -> Vec<f64> {
-        loads.line_loads.chunks(loads.pairs).map(|of_slice| of_slice.iter().sum()).collect()
-    }
-
     /// ∫ of a value over the face.
     fn over_face(&self, values: &[f64], of: impl Fn(f64) -> f64) -> f64 {
         let parts = values.iter().zip(&self.slices);
@@ -188,7 +183,7 @@ impl Face {
         let mean = |of: &dyn Fn(&Loads) -> f64| all.iter().map(of).sum::<f64>() / steps as f64;
         let mut line_loads = vec![0.0; self.slices.len()];
         for loads in &all {
-            for (sum, line_load) in line_loads.iter_mut().zip(self.line_loads(loads)) {
+            for (sum, line_load) in line_loads.iter_mut().zip(loads.of_all()) {
                 *sum += line_load / steps as f64;
             }
         }
@@ -207,7 +202,7 @@ impl Face {
                 .1
         };
         let middle = |loads: &Loads| {
-            let line_loads = self.line_loads(loads);
+            let line_loads = loads.of_all();
             self.over_face(&line_loads, |z| z) / self.over_face(&line_loads, |_| 1.0)
         };
         let most = line_loads.iter().copied().fold(0.0, f64::max);
@@ -273,7 +268,7 @@ impl Face {
         let (zone, place) = kept(&nearest);
         let [stiffness, _, _, sliding] = mesh.values(zone, place);
         let force = self.force(loads, 0, Part::All);
-        let total: f64 = self.over_face(&self.line_loads(loads), |_| 1.0);
+        let total: f64 = self.over_face(&loads.of_all(), |_| 1.0);
         Station {
             roll_angle_driver: 0.0 - loads.s / mesh.base_radii.0,
             roll_angle_driven: 0.0 - loads.s / mesh.base_radii.1,
@@ -294,15 +289,16 @@ impl Face {
     ///
     /// # Errors
     /// Those of [`Face::loads`].
+    #[expect(clippy::too_many_lines, reason = "one value after the other from the same samples")]
     pub fn static_load(
         &self,
         spacing: Spacing,
     ) -> Result<(StaticLoad, Option<Arc<FaceLoad>>), Refusal> {
+        /// Looks for the ends of the contact in a base pitch.
+        const LOOKS: f64 = 16.0;
         let (mesh, error) = (&self.mesh, self.mesh.error);
         let (from, to) = mesh.ends();
         let (from, to) = (from - self.reach, to + self.reach);
-        /// Looks for the ends of the contact in a base pitch.
-        const LOOKS: f64 = 16.0;
         let count = (LOOKS * (to - from) / mesh.base_pitch).ceil() as usize;
         let place = |number: usize| from + (to - from) * number as f64 / count as f64;
         let lead = |s: f64| -> Result<(f64, usize), Refusal> {

@@ -589,7 +589,7 @@ pub(super) fn measure(app: &mut App) {
             }),
             Err(Refusal::Stopped) => (),
             Err(refusal) => {
-                running.send(move |app| benchmark_failed(app, tab, &refusal.to_string()))
+                running.send(move |app| benchmark_failed(app, tab, &refusal.to_string()));
             }
         }
     });

@@ -197,7 +197,6 @@ fn a_typed_key_is_the_first_match() {
             results: results.clone(),
             are_results_first,
             idle: (0..FIELDS.len()).collect(),
-            ..Context::default()
         };
         for key in fields.clone().chain(results.iter().copied()) {
             assert_eq!(found(Context::search, &context, key)[0], key);
