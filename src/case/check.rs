@@ -326,7 +326,7 @@ fn face_rules(inputs: &Inputs) -> impl Iterator<Item = (&'static str, Problem)> 
 /// A table of compliances that is chosen but not given, lacks a value or is not above 0 everywhere.
 fn table_rules(inputs: &Inputs) -> Option<(&'static str, Problem)> {
     const CHOICE: &str = "model.tooth_compliance";
-    let is_chosen = inputs.tooth_compliance == Some(ToothCompliance::GIVEN);
+    let is_chosen = inputs.tooth_compliance.is_some_and(ToothCompliance::reads_table);
     let Some(given) = &inputs.given_compliance else {
         let problem = || {
             let cause = "no compliance is given";

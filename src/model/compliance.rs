@@ -51,7 +51,7 @@ impl Inputs {
             },
             driver: gear(&self.driver),
             driven: gear(&self.driven),
-            given: self.given_compliance.filter(|_| tooth == ToothCompliance::GIVEN),
+            given: self.given_compliance.filter(|_| tooth.reads_table()),
             width: self.common_width(),
         }
     }
@@ -177,7 +177,7 @@ impl Teeth {
             curvature(place.radius_driver, driver.base),
             curvature(place.radius_driven, driven.base),
         );
-        Some((self.elasticity.given?, tooth::given::part(&self.geometry, arms)))
+        Some((self.elasticity.given?, self.geometry.part_of_path(arms)))
     }
 
     /// A value of driver and driven gear at a place.

@@ -207,6 +207,22 @@ fn working_angle_rise<T: Real>(shape: &PairShape, alpha: T) -> Result<T, Refusal
 }
 
 impl Geometry {
+    /// The part of the path of contact, from −1 at E to 1 at B, of a contact with the load points at these distances from N₁ and N₂. Before E, where only
+    /// the driven tip touches, and after B it is that of the end.
+    pub fn part_of_path(&self, (driver, driven): (f64, f64)) -> f64 {
+        /// Of the path: the two distances of a contact on the line of action differ less.
+        const SAME: f64 = 1e-9;
+        let length = self.end - self.start;
+        let by_driver = driver - self.start;
+        let by_driven = self.tangent_length - self.start - driven;
+        let is_on_line = (by_driver - by_driven).abs() <= SAME * length;
+        match by_driver + by_driven {
+            sum if is_on_line => sum / length - 1.0,
+            sum if sum < length => -1.0,
+            _ => 1.0,
+        }
+    }
+
     /// Length of the path of contact with one additional pair in contact, (ε − ⌈ε⌉ + 1) p_b, in m.
     /// For 1 < ε < 2 this is the length of double contact at each end.
     pub fn shared_length(&self) -> f64 {

@@ -53,7 +53,10 @@ impl Absence {
             return absence;
         }
         match (quantity.stage, solution.withheld) {
-            _ if quantity.needs == Need::Slices && solution.face_load.is_none() => {
+            _ if quantity.needs == Need::Slices
+                && solution.helix.is_none()
+                && solution.face_load.is_none() =>
+            {
                 Absence::NoSlices
             }
             (Stage::Static | Stage::Dynamic, _) if quantity.key.contains("last_contact") => {

@@ -445,7 +445,7 @@ fn a_typed_digit_costs_few_bytes() {
         );
         assert!(alone <= 120, "{columns}x{rows}: {alone} bytes for a field alone");
         assert!(
-            first <= 600 && whole <= 700,
+            first <= 600 && whole <= 600,
             "{columns}x{rows}: {whole} bytes with results and chart"
         );
         tty.discard();

@@ -2,7 +2,7 @@
 //! evaluate.
 
 use super::contact::ContactLaw;
-use super::tooth::{Tooth, given};
+use super::tooth::Tooth;
 use super::{ContactPlace, Elasticity, Teeth};
 use crate::model::Refusal;
 use crate::model::geometry::{Circles, Geometry};
@@ -167,7 +167,7 @@ impl Flanks {
         force: f64,
     ) -> Result<([f64; 2], f64), Refusal> {
         if let Some(table) = elasticity.given {
-            let part = given::part(geometry, arms);
+            let part = geometry.part_of_path(arms);
             return Ok((table.teeth(part), table.contact.at(part)));
         }
         let half_width = elasticity.half_width(place, force);

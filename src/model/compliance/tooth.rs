@@ -3,7 +3,7 @@
 
 pub mod beam;
 pub mod finite_element;
-pub mod given;
+pub mod from_table;
 pub mod kuang_yang;
 
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use crate::numeric::real::Lanes;
 
 /// Every model.
 pub const MODELS: [&ToothModel; 4] =
-    [&kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL, &given::MODEL];
+    [&kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL, &from_table::MODEL];
 
 /// A model of the compliance of one tooth.
 #[derive(Debug)]
@@ -238,7 +238,7 @@ pub fn model_of(inputs: &Inputs) -> ToothCompliance {
         let covering = preferences(inputs).into_iter().find(|model| (model.covers)(inputs));
         ToothCompliance::named(covering.unwrap_or(&beam::MODEL).name)
     };
-    let given = inputs.given_compliance.map(|_| ToothCompliance::GIVEN);
+    let given = inputs.given_compliance.map(|_| ToothCompliance::FROM_TABLE);
     inputs.tooth_compliance.or(given).unwrap_or_else(by_range)
 }
 
@@ -263,7 +263,7 @@ impl ToothCompliance {
         ToothCompliance::KUANG_YANG,
         ToothCompliance::BEAM,
         ToothCompliance::FINITE_ELEMENT,
-        ToothCompliance::GIVEN,
+        ToothCompliance::FROM_TABLE,
     ];
 
     /// The names in a case file.
@@ -275,6 +275,11 @@ impl ToothCompliance {
         beam: potential energy on the true profile, in plane strain. finite-element: plane strain of \
         the whole gear with its contact, the default except in method paper. given: the table \
         [compliance] of the case, the default with this table.";
+
+    /// Whether the model takes the compliances that the case gives.
+    pub fn reads_table(self) -> bool {
+        self == ToothCompliance::FROM_TABLE
+    }
 
     /// The entry of the list.
     pub fn model(self) -> &'static ToothModel {

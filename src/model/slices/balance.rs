@@ -4,6 +4,7 @@ use super::{Face, Slice};
 use crate::model::Refusal;
 use crate::model::budget::PAIRS;
 use crate::model::pair_forces::PITCHES;
+use crate::numeric::banded::Banded;
 
 /// The line loads of all pairs at a position of the mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -138,6 +139,7 @@ impl Face {
             8..16 => balanced::<16>(system, until),
             _ => balanced::<{ PAIRS + 1 }>(system, until),
         };
+        let loads = loads.ok_or(Refusal::IndefiniteCompliance)?;
         let lead = loads.displacement - self.least_gap + error.max(0.0);
         mesh.check_reach(lead)?;
         Ok(Loads { s, first, error, ..loads })
@@ -273,7 +275,7 @@ struct System<'a, const ROW: usize> {
 fn balanced<const ROW: usize>(
     (face, contacts, factors, pairs): (&Face, &[Contact], &[f64], usize),
     until: Until,
-) -> Loads {
+) -> Option<Loads> {
     let mut system = System::<ROW> {
         face,
         contacts,
@@ -287,8 +289,8 @@ fn balanced<const ROW: usize>(
 }
 
 impl<const ROW: usize> System<'_, ROW> {
-    /// The loads at the end of the search.
-    fn balanced(&mut self, until: Until) -> Loads {
+    /// The loads at the end of the search; `None` if the compliances are not positive definite.
+    fn balanced(&mut self, until: Until) -> Option<Loads> {
         const CORRECTIONS: usize = 40;
         const ONE_BY_ONE: usize = 400;
         let mut displacement = match until {
@@ -301,7 +303,7 @@ impl<const ROW: usize> System<'_, ROW> {
         let (mut leads, mut stiffness) = (vec![f64::INFINITY; self.contacts.len()], 0.0);
         let rounds = if displacement.is_finite() { CORRECTIONS + ONE_BY_ONE } else { 0 };
         for round in 0..rounds {
-            self.solve();
+            self.solve()?;
             let sums = self.sums();
             stiffness = sums[0];
             if let Until::Force(force) = until {
@@ -339,7 +341,7 @@ impl<const ROW: usize> System<'_, ROW> {
             .collect();
         let free = leads.iter().zip(&line_loads).zip(self.contacts);
         let free = free.map(|((lead, load), of)| lead + of.gap + self.face.own(of) * load);
-        Loads {
+        Some(Loads {
             s: 0.0,
             first: 0,
             error: 0.0,
@@ -349,7 +351,7 @@ impl<const ROW: usize> System<'_, ROW> {
             line_loads,
             leads,
             stiffness,
-        }
+        })
     }
 
     /// The displacement at which independent slices balance a force. Begins with all slices, so that
@@ -380,8 +382,8 @@ impl<const ROW: usize> System<'_, ROW> {
         if step > 0.0 { length * length / step } else { 0.0 }
     }
 
-    /// Solves the equations of the touching slices.
-    fn solve(&mut self) {
+    /// Solves the equations of the touching slices; `None` if the compliances are not positive definite.
+    fn solve(&mut self) -> Option<()> {
         let (pairs, mut before) = (self.pairs, 0.0);
         for (number, slice) in self.face.slices.iter().enumerate() {
             let after = self.exchange(number);
@@ -415,8 +417,8 @@ impl<const ROW: usize> System<'_, ROW> {
             }
             before = after;
         }
-        factor(&mut self.rows);
-        solve(&self.rows, &mut self.sides);
+        Banded::factored(self.rows.iter().copied())?.solve(&mut self.sides);
+        Some(())
     }
 
     /// √q_t (C y)_k of the displacement and of the gaps.
@@ -449,46 +451,5 @@ impl<const ROW: usize> System<'_, ROW> {
             displacement * (1.0 - moved) - (self.contacts[at].gap - kept)
         };
         (0..self.contacts.len()).map(lead).collect()
-    }
-}
-
-/// Replaces the rows of a symmetric positive definite band matrix by its factors L D Lᵀ. A row has the
-/// diagonal entry and then the entries before it.
-///
-/// # Source
-/// Golub & Van Loan 2013, "Matrix Computations", section 4.3.6.
-fn factor<const ROW: usize>(rows: &mut [[f64; ROW]]) {
-    for at in 0..rows.len() {
-        let (known, rest) = rows.split_at_mut(at);
-        let (row, reach) = (&mut rest[0], ROW.min(at + 1));
-        for distance in (1..reach).rev() {
-            let other = &known[at - distance];
-            for far in distance + 1..reach {
-                row[distance] -= row[far] * other[far - distance];
-            }
-        }
-        for distance in 1..reach {
-            let share = row[distance] / known[at - distance][0];
-            row[0] -= share * row[distance];
-            row[distance] = share;
-        }
-    }
-}
-
-/// Solves for two right sides, in place.
-fn solve<const ROW: usize>(rows: &[[f64; ROW]], sides: &mut [[f64; 2]]) {
-    for (at, row) in rows.iter().enumerate() {
-        let (known, rest) = sides.split_at_mut(at);
-        for (side, factor) in known.iter().rev().zip(&row[1..]) {
-            rest[0] = [rest[0][0] - factor * side[0], rest[0][1] - factor * side[1]];
-        }
-    }
-    for at in (0..sides.len()).rev() {
-        let mut side = sides[at].map(|side| side / rows[at][0]);
-        for distance in 1..ROW.min(sides.len() - at) {
-            let (factor, later) = (rows[at + distance][distance], sides[at + distance]);
-            side = [side[0] - factor * later[0], side[1] - factor * later[1]];
-        }
-        sides[at] = side;
     }
 }

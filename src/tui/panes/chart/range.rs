@@ -39,10 +39,11 @@ impl ChartView {
     pub(crate) fn window(self, scale: &Scale) -> Span {
         let Scale { across, strike } = *scale;
         match self {
-            ChartView::Part(part) => part.within(across.and(strike)),
+            ChartView::Part(part) if !part.is_empty() => part.within(across.and(strike)),
             ChartView::Strike if !strike.is_empty() => strike,
             ChartView::Opening if !strike.is_empty() && strike.to < across.to => strike,
-            ChartView::Opening | ChartView::Whole | ChartView::Strike => across,
+            // Also a part of a chart that had no values.
+            _ => across,
         }
     }
 

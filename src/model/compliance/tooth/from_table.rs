@@ -3,24 +3,7 @@
 use super::{Kind, ToothModel};
 use crate::model::explanation::Formula::Words;
 use crate::model::explanation::{Step, step};
-use crate::model::geometry::Geometry;
 use crate::model::inputs::ToothCompliance;
-
-/// t of a contact with the load points at these distances from N₁ and N₂. Before E, where only
-/// the driven tip touches, and after B it is that of the end.
-pub fn part(geometry: &Geometry, (driver, driven): (f64, f64)) -> f64 {
-    /// Of the path: the two distances of a contact on the line of action differ less.
-    const SAME: f64 = 1e-9;
-    let length = geometry.end - geometry.start;
-    let by_driver = driver - geometry.start;
-    let by_driven = geometry.tangent_length - geometry.start - driven;
-    let is_on_line = (by_driver - by_driven).abs() <= SAME * length;
-    match by_driver + by_driven {
-        sum if is_on_line => sum / length - 1.0,
-        sum if sum < length => -1.0,
-        _ => 1.0,
-    }
-}
 
 /// The entry of the list.
 pub const MODEL: ToothModel = ToothModel {
@@ -41,7 +24,7 @@ pub const MODEL: ToothModel = ToothModel {
 
 impl ToothCompliance {
     /// The table of the case.
-    pub const GIVEN: ToothCompliance = ToothCompliance::named(MODEL.name);
+    pub const FROM_TABLE: ToothCompliance = ToothCompliance::named(MODEL.name);
 }
 
 const STEPS: &[Step] = &[
