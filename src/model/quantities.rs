@@ -87,7 +87,7 @@ pub enum Need {
     TipRadius,
 }
 
-/// Default members of a row. A test requires all other members in each row.
+/// A row without texts, from which every row begins.
 const PLAIN: Quantity = Quantity {
     key: "",
     symbol: "",
@@ -110,6 +110,43 @@ const PLAIN: Quantity = Quantity {
     by_static: None,
     by_dynamic: None,
 };
+
+/// Methods that set one member.
+macro_rules! setters {
+    ($($member:ident: $type:ty),*) => {
+        $(const fn $member(self, $member: $type) -> Quantity { Quantity { $member, ..self } })*
+    };
+}
+
+impl Quantity {
+    /// A row with key, symbol and label; SI unit, shown unit and digits; value, meaning, formula. The
+    /// other members are those of `self`.
+    const fn row(
+        self,
+        [key, symbol, label]: [&'static str; 3],
+        (unit, shown, digits): (&'static str, &'static str, usize),
+        value: fn(&Solution) -> Option<f64>,
+        meaning: &'static str,
+        formula: Formula,
+    ) -> Quantity {
+        Quantity { key, symbol, label, unit, shown, digits, value, meaning, formula, ..self }
+    }
+
+    setters! {
+        equation: &'static str, stage: Stage, source: &'static str,
+        corrections: &'static [&'static str], assumptions: &'static str,
+        checks: &'static [Check], variants: &'static [Variant], needs: Need
+    }
+
+    const fn signed(self) -> Quantity {
+        Quantity { is_signed: true, ..self }
+    }
+
+    /// The corresponding quantities of the methods `static` and `dynamic`.
+    const fn counterparts(self, at_rest: &'static str, in_motion: &'static str) -> Quantity {
+        Quantity { by_static: Some(at_rest), by_dynamic: Some(in_motion), ..self }
+    }
+}
 
 /// Texts of a quantity in some cases: the end of the meaning, and other assumptions.
 #[derive(Debug, Clone, Copy)]

@@ -12,13 +12,14 @@ use crate::model::relief::Relief;
 use crate::numeric::quadrature;
 
 const SPRINGS: &str = "Every pair is a spring b/q with a gap, and all pairs share the mesh force \
-    at rest. With finite-element compliance the force on a pair displaces the pairs up to three \
-    pitches away; in the other models each pair deflects alone. Only the incoming pair has a \
-    deviation, e = Δf_0; all pairs have their reliefs. The method ignores a deflection that the \
-    case gives.";
-const BALANCE: &str = "Balance ΣF = F0 of springs with gaps, as in Seireg & Houser 1970, coupled as \
-    in Conry & Seireg 1973, with the gap S(u) of the tips off the line of action. Compliances of \
-    Zhou & Chen 2014, Eqs. 54-56, or by finite elements.";
+            at rest. With finite-element compliance the force on a pair displaces the \
+            pairs up to three pitches away; in the other models each pair deflects \
+            alone. Only the incoming pair has a deviation, e = Δf_0; all pairs have \
+            their reliefs. The method ignores a deflection that the case gives.";
+const BALANCE: &str = "Balance ΣF = F0 of springs with gaps, as in Seireg & Houser 1970, coupled \
+            as in Conry & Seireg 1973, with the gap S(u) of the tips off the line of \
+            action. Compliances of Zhou & Chen 2014, Eqs. 54-56, or by finite \
+            elements.";
 const SHARED: &[&str] = &["F_0", "k_m", "Δf_0"];
 const CHECKS: &[Check] = &[checks::contact_ratio, checks::teeth, checks::at_rest];
 
@@ -33,214 +34,177 @@ const AT_REST: Quantity = Quantity {
 };
 
 pub(super) const TABLE: &[Quantity] = &[
-    Quantity {
-        key: "mesh_stiffness",
-        symbol: "k_m",
-        label: "mean mesh stiffness",
-        unit: "N/m",
-        shown: "N/um",
-        digits: 5,
-        equation: "mean of b/q",
-        stage: Mesh,
-        value: |s| Some(s.mesh.as_ref()?.mean_stiffness()),
-        meaning: "The mean stiffness of the mesh over a base pitch, of all pairs on the line of \
-            action together and without deviations. It determines the natural frequency, and the \
-            damping is a fraction of it.",
-        formula: Made(mean_of_pairs),
-        source: "Mean of b/q of a pair over its path of contact, times the contact ratio; with \
-            coupled pairs the mean of their force per displacement. Compliances of Zhou & Chen \
-            2014, Eqs. 54-56, or by finite elements. The mean mesh stiffness of ISO 6336-1 is \
-            c_γα.",
-        corrections: &["Eq. 55", "Eq. 56"],
-        assumptions: "The contact compliance is that under F_0, so the stiffness of a pair \
+    PLAIN
+        .row(
+            ["mesh_stiffness", "k_m", "mean mesh stiffness"],
+            ("N/m", "N/um", 5),
+            |s| Some(s.mesh.as_ref()?.mean_stiffness()),
+            "The mean stiffness of the mesh over a base pitch, of all pairs on the line \
+            of action together and without deviations. It determines the natural \
+            frequency, and the damping is a fraction of it.",
+            Made(mean_of_pairs),
+        )
+        .equation("mean of b/q")
+        .stage(Mesh)
+        .source(
+            "Mean of b/q of a pair over its path of contact, times the contact ratio; \
+            with coupled pairs the mean of their force per displacement. Compliances \
+            of Zhou & Chen 2014, Eqs. 54-56, or by finite elements. The mean mesh \
+            stiffness of ISO 6336-1 is c_γα.",
+        )
+        .corrections(&["Eq. 55", "Eq. 56"])
+        .assumptions(
+            "The contact compliance is that under F_0, so the stiffness of a pair \
             depends on its place only.",
-        checks: &[checks::teeth],
-        ..PLAIN
-    },
-    Quantity {
-        key: "single_stiffness",
-        symbol: "c'_q",
-        label: "single stiffness",
-        unit: "N/m2",
-        shown: "N/(mm um)",
-        digits: 5,
-        equation: "max 1/q",
-        stage: Mesh,
-        value: |s| Some(s.mesh.as_ref()?.single_stiffness() / s.mesh.as_ref()?.width),
-        meaning: "The greatest stiffness of one pair per width between E and B, max 1/q, by the compliance \
-            of the case. iso_single_stiffness is that of ISO 6336-1.",
-        formula: Words("the greatest 1/q of a pair from E to B, contact under F_0"),
-        source: "Compliances of Zhou & Chen 2014, Eqs. 54-56, or by finite elements.",
-        assumptions: "The pair is alone, and the contact compliance is that under F_0.",
-        checks: &[checks::teeth],
-        ..PLAIN
-    },
-    Quantity {
-        key: "mesh_stiffness_per_width",
-        symbol: "c_m",
-        label: "mesh stiffness per width",
-        unit: "N/m2",
-        shown: "N/(mm um)",
-        digits: 5,
-        equation: "k_m/b",
-        stage: Mesh,
-        value: |s| Some(s.mesh.as_ref()?.mean_stiffness() / s.mesh.as_ref()?.width),
-        meaning: "The mean stiffness of the mesh per width, k_m/b, by the compliance of the case. \
-            iso_mesh_stiffness is that of ISO 6336-1.",
-        formula: Text("k_m/b"),
-        source: "Mean of b/q of a pair over its path of contact, see mesh_stiffness.",
-        assumptions: "As for mesh_stiffness.",
-        checks: &[checks::teeth],
-        ..PLAIN
-    },
-    Quantity {
-        key: "static_first_contact_angle_driver",
-        symbol: "θ_st",
-        label: "static: driver angle",
-        unit: "rad",
-        shown: "deg",
-        digits: 4,
-        value: |s| Some(of_driver(s, s.static_load.as_ref()?.first_contact_angle?)),
-        meaning: "The angle of the driver before E at which the incoming tooth begins to carry load \
-            at rest. The verdict of method static gives this angle.",
-        formula: Text("i u_st"),
-        corrections: &["Eqs. 7-20"],
-        ..AT_REST
-    },
-    Quantity {
-        key: "static_first_contact_angle",
-        symbol: "u_st",
-        label: "static: driven angle",
-        unit: "rad",
-        shown: "deg",
-        digits: 4,
-        value: |s| s.static_load.as_ref()?.first_contact_angle,
-        meaning: "The angle of the driven gear before E at which the incoming tooth begins to \
-            carry load at rest: its gap there equals the displacement by the other pairs.",
-        formula: Solved(&FIRST_CONTACT),
-        corrections: &["Eqs. 7-20"],
-        ..AT_REST
-    },
-    Quantity {
-        key: "static_force_at_start",
-        symbol: "F_st,E",
-        label: "static: force at E",
-        unit: "N",
-        shown: "N",
-        digits: 5,
-        value: |s| Some(s.static_load.as_ref()?.force_at_start),
-        meaning: "The force on the incoming tooth at E at rest. A sufficient tip relief reduces \
-            this force to 0.",
-        formula: Difference("max(k_E (x_E + Δf_0 - C_E), 0)"),
-        corrections: &["Eq. 53", "Eq. 54"],
-        ..AT_REST
-    },
-    Quantity {
-        key: "static_force_at_end",
-        symbol: "F_st,B",
-        label: "static: force at B",
-        unit: "N",
-        shown: "N",
-        digits: 5,
-        value: |s| Some(s.static_load.as_ref()?.force_at_end),
-        meaning: "The force on the incoming tooth at the exit B at rest. A sufficient tip relief of the \
-            driver reduces this force to 0.",
-        formula: Found("F_k of the tooth at B, with Σ w_k F_k = F_0", SHARED),
-        corrections: &["Eq. 53", "Eq. 54"],
-        ..AT_REST
-    },
-    Quantity {
-        key: "static_peak_force",
-        symbol: "F_st,max",
-        label: "static: peak force",
-        unit: "N",
-        shown: "N",
-        digits: 5,
-        value: |s| Some(s.static_load.as_ref()?.peak_force),
-        meaning: "The peak force on the incoming tooth at rest from its first contact to its \
+        )
+        .checks(&[checks::teeth]),
+    PLAIN
+        .row(
+            ["single_stiffness", "c'_q", "single stiffness"],
+            ("N/m2", "N/(mm um)", 5),
+            |s| Some(s.mesh.as_ref()?.single_stiffness() / s.mesh.as_ref()?.width),
+            "The greatest stiffness of one pair per width between E and B, max 1/q, by \
+            the compliance of the case. iso_single_stiffness is that of ISO 6336-1.",
+            Words("the greatest 1/q of a pair from E to B, contact under F_0"),
+        )
+        .equation("max 1/q")
+        .stage(Mesh)
+        .source("Compliances of Zhou & Chen 2014, Eqs. 54-56, or by finite elements.")
+        .assumptions("The pair is alone, and the contact compliance is that under F_0.")
+        .checks(&[checks::teeth]),
+    PLAIN
+        .row(
+            ["mesh_stiffness_per_width", "c_m", "mesh stiffness per width"],
+            ("N/m2", "N/(mm um)", 5),
+            |s| Some(s.mesh.as_ref()?.mean_stiffness() / s.mesh.as_ref()?.width),
+            "The mean stiffness of the mesh per width, k_m/b, by the compliance of the \
+            case. iso_mesh_stiffness is that of ISO 6336-1.",
+            Text("k_m/b"),
+        )
+        .equation("k_m/b")
+        .stage(Mesh)
+        .source("Mean of b/q of a pair over its path of contact, see mesh_stiffness.")
+        .assumptions("As for mesh_stiffness.")
+        .checks(&[checks::teeth]),
+    AT_REST
+        .row(
+            ["static_first_contact_angle_driver", "θ_st", "static: driver angle"],
+            ("rad", "deg", 4),
+            |s| Some(of_driver(s, s.static_load.as_ref()?.first_contact_angle?)),
+            "The angle of the driver before E at which the incoming tooth begins to \
+            carry load at rest. The verdict of method static gives this angle.",
+            Text("i u_st"),
+        )
+        .corrections(&["Eqs. 7-20"]),
+    AT_REST
+        .row(
+            ["static_first_contact_angle", "u_st", "static: driven angle"],
+            ("rad", "deg", 4),
+            |s| s.static_load.as_ref()?.first_contact_angle,
+            "The angle of the driven gear before E at which the incoming tooth begins \
+            to carry load at rest: its gap there equals the displacement by the other \
+            pairs.",
+            Solved(&FIRST_CONTACT),
+        )
+        .corrections(&["Eqs. 7-20"]),
+    AT_REST
+        .row(
+            ["static_force_at_start", "F_st,E", "static: force at E"],
+            ("N", "N", 5),
+            |s| Some(s.static_load.as_ref()?.force_at_start),
+            "The force on the incoming tooth at E at rest. A sufficient tip relief \
+            reduces this force to 0.",
+            Difference("max(k_E (x_E + Δf_0 - C_E), 0)"),
+        )
+        .corrections(&["Eq. 53", "Eq. 54"]),
+    AT_REST
+        .row(
+            ["static_force_at_end", "F_st,B", "static: force at B"],
+            ("N", "N", 5),
+            |s| Some(s.static_load.as_ref()?.force_at_end),
+            "The force on the incoming tooth at the exit B at rest. A sufficient tip \
+            relief of the driver reduces this force to 0.",
+            Found("F_k of the tooth at B, with Σ w_k F_k = F_0", SHARED),
+        )
+        .corrections(&["Eq. 53", "Eq. 54"]),
+    AT_REST
+        .row(
+            ["static_peak_force", "F_st,max", "static: peak force"],
+            ("N", "N", 5),
+            |s| Some(s.static_load.as_ref()?.peak_force),
+            "The peak force on the incoming tooth at rest from its first contact to its \
             last. In single-tooth contact it carries the whole mesh force",
-        formula: Found(
-            "the largest F_k of the tooth from its first contact to its last, F_k >= 0 with x + e_k \
-                - S_k = Σ_j Q_kj F_j/b where F_k > 0, and Σ w_k F_k = F_0",
-            SHARED,
-        ),
-        corrections: &["Eq. 53", "Eq. 54"],
-        variants: &[
+            Found(
+                "the largest F_k of the tooth from its first contact to its last, F_k >= 0 \
+            with x + e_k - S_k = Σ_j Q_kj F_j/b where F_k > 0, and Σ w_k F_k = F_0",
+                SHARED,
+            ),
+        )
+        .corrections(&["Eq. 53", "Eq. 54"])
+        .variants(&[
             Variant::meaning(friction_given, " and the addition by friction."),
             Variant::meaning(always, "."),
-        ],
-        ..AT_REST
-    },
-    Quantity {
-        key: "static_last_contact_angle",
-        symbol: "θ_st,B",
-        label: "static: exit angle",
-        unit: "rad",
-        shown: "deg",
-        digits: 4,
-        value: |s| s.static_load.as_ref()?.last_contact_angle,
-        meaning: "The angle of the driver after B at which the incoming tooth no longer carries \
-            load at rest: the corner contact at the exit, of the driver's tip on the driven flank.",
-        formula: Found(
-            "the angle after B at which the gap of the tooth equals the displacement by the other \
-                pairs, with Σ w_k F_k = F_0",
+        ]),
+    AT_REST.row(
+        ["static_last_contact_angle", "θ_st,B", "static: exit angle"],
+        ("rad", "deg", 4),
+        |s| s.static_load.as_ref()?.last_contact_angle,
+        "The angle of the driver after B at which the incoming tooth no longer \
+            carries load at rest: the corner contact at the exit, of the driver's tip \
+            on the driven flank.",
+        Found(
+            "the angle after B at which the gap of the tooth equals the displacement by \
+            the other pairs, with Σ w_k F_k = F_0",
             SHARED,
         ),
-        ..AT_REST
-    },
-    Quantity {
-        key: "static_transmission_error",
-        symbol: "TE_st",
-        label: "transmission error",
-        unit: "m",
-        shown: "um",
-        digits: 5,
-        equation: "max x − min x",
-        value: |s| Some(s.static_load.as_ref()?.transmission_error),
-        meaning: "The difference between the largest and the smallest lead of the driver while \
-            the tooth carries load. The transmission error causes gear whine.",
-        formula: Found(
-            "max x - min x from the first contact to the last, x by Σ w_k F_k = F_0",
-            SHARED,
+    ),
+    AT_REST
+        .row(
+            ["static_transmission_error", "TE_st", "transmission error"],
+            ("m", "um", 5),
+            |s| Some(s.static_load.as_ref()?.transmission_error),
+            "The difference between the largest and the smallest lead of the driver \
+            while the tooth carries load. The transmission error causes gear whine.",
+            Found("max x - min x from the first contact to the last, x by Σ w_k F_k = F_0", SHARED),
+        )
+        .equation("max x − min x")
+        .source(
+            "Displacement x of the driver along the line of action, max x − min x, by \
+            the balance ΣF = F0 of springs with gaps, as in Seireg & Houser 1970, \
+            coupled as in Conry & Seireg 1973.",
         ),
-        source: "Displacement x of the driver along the line of action, max x − min x, by the \
-            balance ΣF = F0 of springs with gaps, as in Seireg & Houser 1970, coupled as in Conry & \
-            Seireg 1973.",
-        ..AT_REST
-    },
-    Quantity {
-        key: "pitch_contact_jump",
-        symbol: "ΔF_P",
-        label: "jump at the pitch point",
-        unit: "N",
-        shown: "N",
-        digits: 4,
-        equation: "friction reverses",
-        stage: Static,
-        value: |s| s.static_load.as_ref()?.pitch_jump,
-        meaning: "The change of the sum of all pair forces where the incoming tooth passes the \
-            pitch point. Before the pitch point, friction drives the driver; after the pitch \
-            point, friction brakes the driver.",
-        formula: PITCH_JUMP,
-        source: "Friction in the balance of the driver, ΣF = F0 with weights. The introduction of \
-            Zhou & Chen 2014 names pitch corner contact as the third kind of contact; the \
-            friction force reverses at the pitch point.",
-        assumptions: SPRINGS,
-        checks: &[checks::at_rest],
-        is_signed: true,
-        needs: Need::Friction,
-        ..PLAIN
-    },
+    PLAIN
+        .row(
+            ["pitch_contact_jump", "ΔF_P", "jump at the pitch point"],
+            ("N", "N", 4),
+            |s| s.static_load.as_ref()?.pitch_jump,
+            "The change of the sum of all pair forces where the incoming tooth passes \
+            the pitch point. Before the pitch point, friction drives the driver; after \
+            the pitch point, friction brakes the driver.",
+            PITCH_JUMP,
+        )
+        .equation("friction reverses")
+        .stage(Static)
+        .source(
+            "Friction in the balance of the driver, ΣF = F0 with weights. The \
+            introduction of Zhou & Chen 2014 names pitch corner contact as the third \
+            kind of contact; the friction force reverses at the pitch point.",
+        )
+        .assumptions(SPRINGS)
+        .checks(&[checks::at_rest])
+        .signed()
+        .needs(Need::Friction),
 ];
 
 const PITCH_JUMP: Formula = Found(
-    "Σ F_k just after the pitch point minus Σ F_k just before it, with Σ w_k F_k = F_0 and w = 1 \
-        -+ μ ρ_1/r_b1",
+    "Σ F_k just after the pitch point minus Σ F_k just before it, with Σ w_k \
+            F_k = F_0 and w = 1 -+ μ ρ_1/r_b1",
     SHARED,
 );
 
 const FIRST_CONTACT: Equation = Equation {
-    text: "gap of the incoming pair = displacement by the other pairs, S_st + C_st - Δf_0 = x_st",
+    text: "gap of the incoming pair = displacement by the other pairs, S_st + C_st - \
+            Δf_0 = x_st",
     left: Difference("S_st + C_st - Δf_0"),
     right: Text("x_st"),
     unit: "um",
@@ -292,7 +256,8 @@ fn compliance_at_start(k: &Context) -> Option<f64> {
 fn mean_of_pairs(k: &Context) -> String {
     let is_coupled = k.solution.mesh.as_ref().is_some_and(|mesh| mesh.is_coupled());
     let formula = if is_coupled {
-        "the forces of all pairs from E to B per displacement, averaged over a base pitch"
+        "the forces of all pairs from E to B per displacement, averaged over a base \
+            pitch"
     } else {
         "ε k_p"
     };
@@ -334,8 +299,8 @@ pub(super) const STEPS: &[Step] = &[
     ),
     step(
         "x_E",
-        "lead of the driver with the tooth at E, less the displacement of the tooth by the forces \
-            on the others",
+        "lead of the driver with the tooth at E, less the displacement of the tooth \
+            by the forces on the others",
         "um",
         Words("from ΣF = F_0 of all pairs"),
         |k| lead(k, 0.0),
@@ -363,8 +328,8 @@ pub(super) const STEPS: &[Step] = &[
     ),
     step(
         "x_st",
-        "lead of the driver by the other pairs at the first contact, less the displacement of the \
-            tooth by their forces",
+        "lead of the driver by the other pairs at the first contact, less the \
+            displacement of the tooth by their forces",
         "um",
         Words("from ΣF = F_0 of the other pairs"),
         lead_at_first,

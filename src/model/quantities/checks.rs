@@ -31,8 +31,8 @@ pub(super) fn end(k: &Context) -> Option<Finding> {
 pub(super) fn contact_ratio(k: &Context) -> Option<Finding> {
     let ratio = k.solution.geometry.contact_ratio;
     Finding::new(
-        "ε > 1: a pair carries the load while the next pair comes into contact; above 2 several \
-            pairs share the load",
+        "ε > 1: a pair carries the load while the next pair comes into contact; \
+            above 2 several pairs share the load",
         format!("ε = {}", four(ratio)),
         ratio > 1.0,
     )
@@ -42,7 +42,8 @@ pub(super) fn contact_ratio(k: &Context) -> Option<Finding> {
 pub(super) fn distance(k: &Context) -> Option<Finding> {
     let (backlash, part) = backlash(k)?;
     Finding::new(
-        "a given centre distance leaves a normal backlash of 0 to a tenth of the module",
+        "a given centre distance leaves a normal backlash of 0 to a tenth of the \
+            module",
         format!("{}, {} of the module", mm(backlash), four(part)),
         USUAL_BACKLASH.contains(&part),
     )
@@ -206,8 +207,8 @@ pub(super) fn at_rest(k: &Context) -> Option<Finding> {
     let share = four(100.0 * part.min(1.0));
     let (period, time) = (micro(period, "us"), micro(time, "us"));
     Finding::new(
-        "the load on the tooth grows so slowly that the mesh does not oscillate: 1/(π f_n t) <= \
-            model.within",
+        "the load on the tooth grows so slowly that the mesh does not oscillate: \
+            1/(π f_n t) <= model.within",
         format!("1/f_n = {period}, t = {time}, {share} %"),
         part <= k.inputs.within,
     )
@@ -232,8 +233,8 @@ pub(super) fn contact_kept(k: &Context) -> Option<Finding> {
     let lost = k.solution.dynamic.as_ref()?.contact_lost;
     let here = if lost { "contact is lost at times" } else { "the teeth stay in contact" };
     Finding::new(
-        "the teeth keep contact; if they lose contact, a small change of the case can change the \
-            value strongly",
+        "the teeth keep contact; if they lose contact, a small change of the case \
+            can change the value strongly",
         here,
         !lost,
     )
@@ -272,7 +273,8 @@ pub(super) fn form_diameters(k: &Context) -> Option<Finding> {
         gears.map(|(gear, circles)| Profile::of(&Rack::of(k.inputs, gear), circles).form_radius());
     let [driver, driven] = form.map(|radius| mm(2.0 * radius));
     Finding::new(
-        "d_Nf >= d_Ff: the involute begins at the root form diameter d_Ff, below the active flank",
+        "d_Nf >= d_Ff: the involute begins at the root form diameter d_Ff, below \
+            the active flank",
         format!("d_Ff1 = {driver}, d_Ff2 = {driven}"),
         active.iter().zip(form).all(|(active, form)| *active >= form),
     )

@@ -14,9 +14,6 @@ use crate::model::inputs::{Combination, Method};
 
 /// A distance along the line of action.
 const DEVIATION: Quantity = Quantity {
-    unit: "m",
-    shown: "um",
-    digits: 5,
     stage: Deviation,
     source: "Zhou & Chen 2014, Eqs. 1 and 2.",
     corrections: &["Eq. 1"],
@@ -24,32 +21,44 @@ const DEVIATION: Quantity = Quantity {
     ..PLAIN
 };
 
+const MICRONS: (&str, &str, usize) = ("m", "um", 5);
+
+/// The addition of deviations, with the end of the sentence about the reliefs.
+macro_rules! added {
+    ($reliefs:literal) => {
+        concat!(
+            "Deviations of which only the size is known are independent and add as squares, hence \
+                the factor 1/√2; with combination sum they add with their signs. ",
+            $reliefs,
+            " A backlash does not delay a drive flank under load."
+        )
+    };
+}
+
 pub(super) const TABLE: &[Quantity] = &[
-    Quantity {
-        key: "equivalent_error",
-        symbol: "Δf",
-        label: "equivalent error",
-        value: |s| Some(s.deviation.equivalent_error),
-        meaning: "The distance along the line of action by which the deviations of both gears \
-            bring the incoming tooth into contact early",
-        formula: Cases(&[
-            (any_base_pitch, Made(own_error)),
-            (paper, Difference("(2 f_pb + e_m - j_bn)/√2")),
-            (shared_load, Text("2 f_pb/√2")),
-            (always, Difference("2 f_pb/√2 + e_m")),
-        ]),
-        assumptions: "Deviations of which only the size is known are independent and add as \
-            squares, hence the factor 1/√2; with combination sum they add with their signs. The \
-            relief acts with its full amount at the tip, where first contact occurs. A backlash \
-            does not delay a drive flank under load.",
-        variants: &[
+    DEVIATION
+        .row(
+            ["equivalent_error", "Δf", "equivalent error"],
+            MICRONS,
+            |s| Some(s.deviation.equivalent_error),
+            "The distance along the line of action by which the deviations of both gears bring \
+                the incoming tooth into contact early",
+            Cases(&[
+                (any_base_pitch, Made(own_error)),
+                (paper, Difference("(2 f_pb + e_m - j_bn)/√2")),
+                (shared_load, Text("2 f_pb/√2")),
+                (always, Difference("2 f_pb/√2 + e_m")),
+            ]),
+        )
+        .assumptions(added!(
+            "The relief acts with its full amount at the tip, where first contact occurs."
+        ))
+        .variants(&[
             Variant::words(
                 shared_load,
-                ", without the reliefs. In this method the reliefs act on the flanks over their \
-                    length. Method exact calls the sum of this distance and e_m Δf.",
-                "Deviations of which only the size is known are independent and add as squares, \
-                    hence the factor 1/√2; with combination sum they add with their signs. The \
-                    reliefs are not included. A backlash does not delay a drive flank under load.",
+                ", without the reliefs, which act on the flanks over their length. Method exact \
+                    calls the sum of this distance and e_m Δf.",
+                added!("The reliefs are not included."),
             ),
             Variant::words(
                 paper,
@@ -59,52 +68,51 @@ pub(super) const TABLE: &[Quantity] = &[
                     exact counts its full amount.",
             ),
             Variant::meaning(always, ". Relief reduces it by its full amount."),
-        ],
-        is_signed: true,
-        ..DEVIATION
-    },
-    Quantity {
-        key: "modification",
-        symbol: "e_m",
-        label: "modification at entry",
-        value: |s| Some(s.deviation.modification),
-        meaning: "The material that the reliefs remove where tip and root meet: the tip relief of \
-            the driven gear and the root relief of the driver, as a negative number.",
-        formula: Text("-(Ca2 + Cf1)"),
-        assumptions: "Both reliefs have their full amount at the first contact, whatever their \
-            length.",
-        variants: &[
-            Variant::words(
+        ])
+        .signed(),
+    DEVIATION
+        .row(
+            ["modification", "e_m", "modification at entry"],
+            MICRONS,
+            |s| Some(s.deviation.modification),
+            "The material that the reliefs remove where tip and root meet: the tip relief of the \
+                driven gear and the root relief of the driver, as a negative number.",
+            Text("-(Ca2 + Cf1)"),
+        )
+        .assumptions("Both reliefs have their full amount at the first contact.")
+        .variants(&[
+            Variant::meaning(
                 shared_load,
                 " Only Δ includes it. The forces of this method follow the reliefs on the flanks, \
                     with their length and shape.",
-                "Both reliefs have their full amount where the driven tip meets the driver's \
-                    flank.",
             ),
             Variant::meaning(paper, " Δf includes 1/√2 of it, as printed."),
             Variant::meaning(always, " Δf and Δ include its full amount."),
-        ],
-        is_signed: true,
-        ..DEVIATION
-    },
-    Quantity {
-        key: "combined_deflection",
-        symbol: "δ",
-        label: "combined deflection",
-        equation: "Eq. 3",
-        value: |s| Some(s.deviation.combined_deflection),
-        meaning: "The deflection along the line of action of the pairs that carry the load when \
-            the incoming pair is at E",
-        formula: Cases(&[(deflection_used, Given("model.deflection")), (always, Made(deflection))]),
-        source: "Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 instead of \
-            the curve in Fig. 3. Table 1 uses 24.7 um from reference 20 of the paper.",
-        corrections: &["Eq. 55", "Eq. 56"],
-        assumptions: "Teeth and contacts deflect under the mesh force at rest and share the \
-            force. With finite-element compliance, the force on a tooth also displaces the \
-            incoming pair, which reduces its lead. In the other models and in method paper, each \
-            pair deflects alone. Shafts, bearings and housing are rigid.",
-        checks: &[checks::contact_ratio, checks::teeth_of_deflection],
-        variants: &[
+        ])
+        .signed(),
+    DEVIATION
+        .row(
+            ["combined_deflection", "δ", "combined deflection"],
+            MICRONS,
+            |s| Some(s.deviation.combined_deflection),
+            "The deflection along the line of action of the pairs that carry the load when the \
+                incoming pair is at E",
+            Cases(&[(deflection_used, Given("model.deflection")), (always, Made(deflection))]),
+        )
+        .equation("Eq. 3")
+        .source(
+            "Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 instead of the \
+                curve in Fig. 3. Table 1 uses 24.7 um from reference 20 of the paper.",
+        )
+        .corrections(&["Eq. 55", "Eq. 56"])
+        .assumptions(
+            "Teeth and contacts share the mesh force at rest. With finite-element compliance, the \
+                force on a tooth also displaces the incoming pair, which reduces its lead; in the \
+                other models and in method paper, each pair deflects alone. Shafts, bearings and \
+                housing are rigid.",
+        )
+        .checks(&[checks::contact_ratio, checks::teeth_of_deflection])
+        .variants(&[
             Variant::meaning(
                 in_motion,
                 ", at rest. In motion the mesh oscillates about this deflection. The method \
@@ -121,38 +129,32 @@ pub(super) const TABLE: &[Quantity] = &[
                     compare the two.",
             ),
             Variant::meaning(always, "."),
-        ],
-        ..DEVIATION
-    },
-    Quantity {
-        key: "total_deviation",
-        symbol: "Δ",
-        label: "total deviation",
-        equation: "Eq. 5",
-        value: |s| Some(s.deviation.total),
-        meaning: "The total distance by which the incoming tooth is early",
-        formula: Cases(&[
-            (shared_load, Difference("Δf_0 + e_m + δ")),
-            (always, Difference("Δf + δ")),
         ]),
-        source: "Zhou & Chen 2014, Eq. 5.",
-        assumptions: "Deviations and deflection add up along the line of action.",
-        checks: &[checks::pair_ahead],
-        variants: &[
+    DEVIATION
+        .row(
+            ["total_deviation", "Δ", "total deviation"],
+            MICRONS,
+            |s| Some(s.deviation.total),
+            "The total distance by which the incoming tooth is early",
+            Cases(&[(shared_load, Difference("Δf_0 + e_m + δ")), (always, Difference("Δf + δ"))]),
+        )
+        .equation("Eq. 5")
+        .source("Zhou & Chen 2014, Eq. 5.")
+        .assumptions("Deviations and deflection add up along the line of action.")
+        .checks(&[checks::pair_ahead])
+        .variants(&[
             Variant::words(
                 in_motion,
-                " at rest. In motion the mesh oscillates, so the tooth may touch before E whether Δ is positive or \
-                    negative; see dynamic_first_contact_angle.",
-                "Deviations and deflection add up along the line of action. The gears are at \
-                    rest, and the pairs ahead are on flanks without relief.",
+                " at rest. In motion the mesh oscillates, so the tooth may touch before E whether \
+                    Δ is positive or negative; see dynamic_first_contact_angle.",
+                ON_BARE_FLANKS,
             ),
             Variant::words(
                 shared_load,
-                " if the pairs ahead are on flanks without relief. Above 0 it touches before E, at 0 or below it does \
-                    not. The balance of all pairs decides: static_first_contact_angle has the \
-                    answer.",
-                "Deviations and deflection add up along the line of action. The pairs ahead are \
-                    on flanks without relief.",
+                " if the pairs ahead are on flanks without relief. Above 0 it touches before E, at \
+                    0 or below it does not. The balance of all pairs decides: \
+                    static_first_contact_angle has the answer.",
+                ON_BARE_FLANKS,
             ),
             Variant::meaning(
                 paper,
@@ -163,55 +165,60 @@ pub(super) const TABLE: &[Quantity] = &[
                 always,
                 ". Above 0 the tip strikes before E. At 0 or below there is no contact before E.",
             ),
-        ],
-        is_signed: true,
-        ..DEVIATION
-    },
-    Quantity {
-        key: "clearing_relief",
-        symbol: "ΔC_a2",
-        label: "additional tip relief",
-        equation: "no contact",
-        stage: Clearing,
-        value: |s| s.clearing?.relief,
-        meaning: "The required additional tip relief of the driven gear: the smallest increase \
-            with which the chosen method finds no contact before E.",
-        formula: Cases(&[
-            (
-                paper,
-                Words("the root C of u(Δf - C/√2) = 0, u by Eqs. 11-20 as printed; at most √2 Δ"),
-            ),
-            (
-                at_rest,
-                Found(
-                    "the root C of max(x - gap) = 0 up to E: x is the lead of the driver by the \
-                        balance Σ w_k F_k = F_0 of the other pairs; every pair has the additional \
-                        tip relief C",
-                    &["F_0", "k_m", "Δf_0", "Δ"],
+        ])
+        .signed(),
+    DEVIATION
+        .row(
+            ["clearing_relief", "ΔC_a2", "additional tip relief"],
+            MICRONS,
+            |s| s.clearing?.relief,
+            "The required additional tip relief of the driven gear: the smallest increase with \
+                which the chosen method finds no contact before E.",
+            Cases(&[
+                (
+                    paper,
+                    Words(
+                        "the root C of u(Δf - C/√2) = 0, u by Eqs. 11-20 as printed; at most √2 Δ",
+                    ),
                 ),
-            ),
-            (
-                in_motion,
-                Found(
-                    "the root C of max(x - gap) = 0 up to E: x is the lead of the driver in the \
-                        motion m_red x'' + c x' + Σ w_k F_k = F_0 without a force on the incoming \
-                        tooth; every pair has the additional tip relief C",
-                    &["m_red", "c", "f_n", "f_z", "Δf_0", "Δ"],
+                (
+                    at_rest,
+                    Found(
+                        "the root C of max(x - gap) = 0 up to E: x is the lead of the driver by \
+                            the balance Σ w_k F_k = F_0 of the other pairs; every pair has the \
+                            additional tip relief C",
+                        &["F_0", "k_m", "Δf_0", "Δ"],
+                    ),
                 ),
-            ),
-            (always, Text("Δ")),
-        ]),
-        source: "Zhou & Chen 2014, Eq. 5: the condition Δ <= 0. Methods static and dynamic apply \
-            the same condition, no contact before E, to the displacement of every pair.",
-        corrections: &["Eq. 1", "Eqs. 7-20"],
-        assumptions: "Every tooth of the driven gear has the additional relief, with the length \
-            and shape of its tip relief. With method dynamic, the search also tests 4 larger \
-            reliefs, up to twice this relief (50 if contact is lost), and finds no contact before \
-            E.",
-        checks: &[checks::contact_kept],
-        ..DEVIATION
-    },
+                (
+                    in_motion,
+                    Found(
+                        "the root C of max(x - gap) = 0 up to E: x is the lead of the driver in \
+                            the motion m_red x'' + c x' + Σ w_k F_k = F_0 without a force on the \
+                            incoming tooth; every pair has the additional tip relief C",
+                        &["m_red", "c", "f_n", "f_z", "Δf_0", "Δ"],
+                    ),
+                ),
+                (always, Text("Δ")),
+            ]),
+        )
+        .equation("no contact")
+        .stage(Clearing)
+        .source(
+            "Zhou & Chen 2014, Eq. 5: the condition Δ <= 0. Methods static and dynamic apply the \
+                same condition, no contact before E, to the displacement of every pair.",
+        )
+        .corrections(&["Eq. 1", "Eqs. 7-20"])
+        .assumptions(
+            "Every tooth of the driven gear has the additional relief, with the length and shape \
+                of its tip relief. With method dynamic, the search also tests 4 larger reliefs, up \
+                to twice this relief (50 if contact is lost), and finds no contact before E.",
+        )
+        .checks(&[checks::contact_kept]),
 ];
+
+const ON_BARE_FLANKS: &str = "Deviations and deflection add up along the line of action. The gears are \
+    at rest, and the pairs ahead are on flanks without relief.";
 
 /// Δf of gears with their own base pitch deviations, or of known deviations.
 fn own_error(k: &Context) -> String {

@@ -8,32 +8,22 @@ use crate::model::explanation::Formula::{Cases, Difference, Made, Text, Words};
 use crate::model::explanation::{Context, Step, step};
 use crate::model::figures::{IsoDynamic, RESONANCE_ENDS};
 
-const SPUR: &str =
-    "External spur gears with involute flanks; the values are in the transverse section.";
+const SPUR: &str = "External spur gears with involute flanks; the values are in the transverse \
+            section.";
 const RIGID: &str = "Rigid gears on parallel, rigid shafts at steady speed.";
-const STEEL: &str = "Solid gears of the basic rack of the case, C_R = 1 and C_M = 0.8; other materials by \
-    their Young's modulus. Each pair carries its load alone.";
-const PEAK: &str = "The flanks are smooth cylinders without oil, and the load is even over the width. A \
-    sharp edge has no finite pressure.";
+const STEEL: &str = "Solid gears of the basic rack of the case, C_R = 1 and C_M = 0.8; other \
+            materials by their Young's modulus. Each pair carries its load alone.";
+const PEAK: &str = "The flanks are smooth cylinders without oil, and the load is even over the \
+            width. A sharp edge has no finite pressure.";
 
 /// A figure.
-const FIGURE: Quantity = Quantity {
-    unit: "1",
-    shown: "1",
-    digits: 4,
-    equation: "ISO 21771",
-    stage: Figures,
-    assumptions: SPUR,
-    ..PLAIN
-};
-
-/// A length on a gear.
-const LENGTH: Quantity = Quantity { unit: "m", shown: "mm", digits: 5, ..FIGURE };
+const FIGURE: Quantity =
+    Quantity { equation: "ISO 21771", stage: Figures, assumptions: SPUR, ..PLAIN };
 
 /// A specific sliding.
 const SLIDING: Quantity = Quantity {
-    source: "ISO 21771:2007, specific sliding: the sliding velocity over the velocity of the flank, \
-        both along the tangent.",
+    source: "ISO 21771:2007, specific sliding: the sliding velocity over the velocity \
+            of the flank, both along the tangent.",
     assumptions: RIGID,
     is_signed: true,
     ..FIGURE
@@ -41,9 +31,6 @@ const SLIDING: Quantity = Quantity {
 
 /// A sliding velocity.
 const VELOCITY: Quantity = Quantity {
-    unit: "m/s",
-    shown: "m/s",
-    digits: 5,
     source: "ISO 21771:2007, sliding velocity. The sign is that of ΔV_τ.",
     assumptions: RIGID,
     is_signed: true,
@@ -52,9 +39,6 @@ const VELOCITY: Quantity = Quantity {
 
 /// A stiffness per width.
 const STIFFNESS: Quantity = Quantity {
-    unit: "N/m2",
-    shown: "N/(mm um)",
-    digits: 5,
     equation: "ISO 6336-1",
     source: "ISO 6336-1:2019, clause 9, method B.",
     assumptions: STEEL,
@@ -64,9 +48,6 @@ const STIFFNESS: Quantity = Quantity {
 
 /// A Hertz pressure.
 pub(super) const PRESSURE: Quantity = Quantity {
-    unit: "Pa",
-    shown: "MPa",
-    digits: 5,
     equation: "Hertz 1882",
     source: "Hertz 1882, two cylinders: p = √(F E'/(π b ρ)).",
     assumptions: PEAK,
@@ -100,90 +81,104 @@ macro_rules! thickness {
 macro_rules! gear {
     ($at:literal, $n:literal, $gear:literal, $name:literal, $other:literal, $mate:literal, $tip:literal, $root:literal, $entry:literal, $exit:literal) => {
         [
-            Quantity {
-                key: concat!("tip_thickness_", $gear),
-                symbol: concat!("s_a", $n),
-                label: concat!("tip thickness, ", $name),
-                value: |s| Some(s.figures?.tip_thickness[$at]),
-                meaning: concat!(
-                    "The thickness of a tooth of the ",
-                    $name,
-                    " between its flanks at the tip circle, less the chamfer. A thin tip breaks when it is \
-                        hardened or strikes."
-                ),
-                formula: Cases(&[
-                    (helical, thickness!($n, "α_t")),
-                    (always, thickness!($n, "α")),
-                ]),
-                source: "ISO 21771:2007, tooth thickness at the tip circle.",
-                checks: &[checks::tips],
-                ..LENGTH
-            },
-            Quantity {
-                key: concat!("tip_clearance_", $gear),
-                symbol: concat!("c_a", $n),
-                label: concat!("tip clearance, ", $name),
-                value: |s| Some(s.figures?.tip_clearance[$at]),
-                meaning: concat!(
-                    "The distance from the tip circle of the ",
-                    $name,
-                    " to the root circle of the ",
-                    $mate,
-                    " on the centre line."
-                ),
-                formula: Difference(concat!("a - r_a", $n, " - hk", $n, " - r_f", $other)),
-                source: "ISO 21771:2007, tip clearance.",
-                checks: &[checks::clearance],
-                is_signed: true,
-                ..LENGTH
-            },
-            Quantity {
-                key: concat!("active_tip_diameter_", $gear),
-                symbol: concat!("d_Na", $n),
-                label: concat!("active tip dia., ", $name),
-                value: |s| Some(active_diameters(s)[$at][0]),
-                meaning: concat!(
-                    "The diameter at which the active flank of the ",
-                    $name,
-                    " ends at the tip: below chamfer and tip radius."
-                ),
-                formula: Text(concat!("2 √(r_b", $n, "² + ", $tip, "²)")),
-                source: "ISO 21771:2007, active tip diameter d_Na.",
-                ..LENGTH
-            },
-            Quantity {
-                key: concat!("active_root_diameter_", $gear),
-                symbol: concat!("d_Nf", $n),
-                label: concat!("active root dia., ", $name),
-                value: |s| Some(active_diameters(s)[$at][1]),
-                meaning: concat!(
-                    "The diameter at which the active flank of the ",
-                    $name,
-                    " begins at the root: the start of active profile. The involute must begin below it."
-                ),
-                formula: Text(concat!("2 √(r_b", $n, "² + ", $root, "²)")),
-                source: "ISO 21771:2007, active root diameter d_Nf.",
-                checks: &[checks::form_diameters],
-                ..LENGTH
-            },
-            Quantity {
-                key: concat!("specific_sliding_entry_", $gear),
-                symbol: concat!("ζ_E", $n),
-                label: concat!("sliding at E, ", $name),
-                value: |s| Some(specific_sliding(s, s.geometry.start)[$at]),
-                meaning: concat!("The specific sliding of the flank of the ", $name, " at the entry E."),
-                formula: Difference($entry),
-                ..SLIDING
-            },
-            Quantity {
-                key: concat!("specific_sliding_exit_", $gear),
-                symbol: concat!("ζ_B", $n),
-                label: concat!("sliding at B, ", $name),
-                value: |s| Some(specific_sliding(s, s.geometry.end)[$at]),
-                meaning: concat!("The specific sliding of the flank of the ", $name, " at the exit B."),
-                formula: Difference($exit),
-                ..SLIDING
-            },
+            FIGURE
+                .row(
+                    [
+                        concat!("tip_thickness_", $gear),
+                        concat!("s_a", $n),
+                        concat!("tip thickness, ", $name),
+                    ],
+                    ("m", "mm", 5),
+                    |s| Some(s.figures?.tip_thickness[$at]),
+                    concat!(
+                        "The thickness of a tooth of the ",
+                        $name,
+                        " between its flanks at the tip circle, less the chamfer. A thin tip breaks \
+            when it is hardened or strikes."
+                    ),
+                    Cases(&[(helical, thickness!($n, "α_t")), (always, thickness!($n, "α"))]),
+                )
+                .source("ISO 21771:2007, tooth thickness at the tip circle.")
+                .checks(&[checks::tips]),
+            FIGURE
+                .row(
+                    [
+                        concat!("tip_clearance_", $gear),
+                        concat!("c_a", $n),
+                        concat!("tip clearance, ", $name),
+                    ],
+                    ("m", "mm", 5),
+                    |s| Some(s.figures?.tip_clearance[$at]),
+                    concat!(
+                        "The distance from the tip circle of the ",
+                        $name,
+                        " to the root circle of the ",
+                        $mate,
+                        " on the centre line."
+                    ),
+                    Difference(concat!("a - r_a", $n, " - hk", $n, " - r_f", $other)),
+                )
+                .source("ISO 21771:2007, tip clearance.")
+                .checks(&[checks::clearance])
+                .signed(),
+            FIGURE
+                .row(
+                    [
+                        concat!("active_tip_diameter_", $gear),
+                        concat!("d_Na", $n),
+                        concat!("active tip dia., ", $name),
+                    ],
+                    ("m", "mm", 5),
+                    |s| Some(active_diameters(s)[$at][0]),
+                    concat!(
+                        "The diameter at which the active flank of the ",
+                        $name,
+                        " ends at the tip: below chamfer and tip radius."
+                    ),
+                    Text(concat!("2 √(r_b", $n, "² + ", $tip, "²)")),
+                )
+                .source("ISO 21771:2007, active tip diameter d_Na."),
+            FIGURE
+                .row(
+                    [
+                        concat!("active_root_diameter_", $gear),
+                        concat!("d_Nf", $n),
+                        concat!("active root dia., ", $name),
+                    ],
+                    ("m", "mm", 5),
+                    |s| Some(active_diameters(s)[$at][1]),
+                    concat!(
+                        "The diameter at which the active flank of the ",
+                        $name,
+                        " begins at the root: the start of active profile. The involute must begin \
+            below it."
+                    ),
+                    Text(concat!("2 √(r_b", $n, "² + ", $root, "²)")),
+                )
+                .source("ISO 21771:2007, active root diameter d_Nf.")
+                .checks(&[checks::form_diameters]),
+            SLIDING.row(
+                [
+                    concat!("specific_sliding_entry_", $gear),
+                    concat!("ζ_E", $n),
+                    concat!("sliding at E, ", $name),
+                ],
+                ("1", "1", 4),
+                |s| Some(specific_sliding(s, s.geometry.start)[$at]),
+                concat!("The specific sliding of the flank of the ", $name, " at the entry E."),
+                Difference($entry),
+            ),
+            SLIDING.row(
+                [
+                    concat!("specific_sliding_exit_", $gear),
+                    concat!("ζ_B", $n),
+                    concat!("sliding at B, ", $name),
+                ],
+                ("1", "1", 4),
+                |s| Some(specific_sliding(s, s.geometry.end)[$at]),
+                concat!("The specific sliding of the flank of the ", $name, " at the exit B."),
+                Difference($exit),
+            ),
         ]
     };
 }
@@ -215,31 +210,27 @@ const DRIVEN: [Quantity; 6] = gear!(
 
 /// The specific sliding at D.
 pub(super) const AT_CONTACT: [Quantity; 2] = [
-    Quantity {
-        key: "specific_sliding_contact_driver",
-        symbol: "ζ_D1",
-        label: "sliding at D, driver",
-        value: |s| Some(1.0 - s.position?.contact.normal_length_driven / rolled(s)?),
-        meaning: "The specific sliding of the driver's flank at the first contact D.",
-        formula: Difference("1 - N2'D/(i ρ_1)"),
-        ..CONTACT
-    },
-    Quantity {
-        key: "specific_sliding_contact_driven",
-        symbol: "ζ_D2",
-        label: "sliding at D, driven gear",
-        value: |s| Some(1.0 - rolled(s)? / s.position?.contact.normal_length_driven),
-        meaning: "The specific sliding of the tip of the driven gear at the first contact D.",
-        formula: Difference("1 - i ρ_1/N2'D"),
-        ..CONTACT
-    },
+    CONTACT.row(
+        ["specific_sliding_contact_driver", "ζ_D1", "sliding at D, driver"],
+        ("1", "1", 4),
+        |s| Some(1.0 - s.position?.contact.normal_length_driven / rolled(s)?),
+        "The specific sliding of the driver's flank at the first contact D.",
+        Difference("1 - N2'D/(i ρ_1)"),
+    ),
+    CONTACT.row(
+        ["specific_sliding_contact_driven", "ζ_D2", "sliding at D, driven gear"],
+        ("1", "1", 4),
+        |s| Some(1.0 - rolled(s)? / s.position?.contact.normal_length_driven),
+        "The specific sliding of the tip of the driven gear at the first contact D.",
+        Difference("1 - i ρ_1/N2'D"),
+    ),
 ];
 
 const CONTACT: Quantity = Quantity {
     stage: Stage::Velocity,
     equation: "sliding/velocity",
     source: "The definition of ISO 21771:2007 along the contact normal at D: the ratio \
-        sliding/velocity of each flank.",
+            sliding/velocity of each flank.",
     checks: &[checks::gap_closed],
     ..SLIDING
 };
@@ -258,126 +249,113 @@ pub(super) const TABLE: &[Quantity] = &[
     DRIVEN[2],
     DRIVER[3],
     DRIVEN[3],
-    Quantity {
-        key: "tangential_force",
-        symbol: "F_t",
-        label: "tangential force",
-        unit: "N",
-        shown: "N",
-        digits: 5,
-        equation: "ISO 6336-1",
-        value: |s| Some(s.figures?.tangential_force),
-        meaning: "The force at the reference circle that gives the torque: the nominal load of \
-            ISO 6336.",
-        formula: Text("T1/r_1"),
-        source: "ISO 6336-1:2019, nominal tangential load F_t.",
-        assumptions: RIGID,
-        ..FIGURE
-    },
-    Quantity {
-        key: "pitch_line_speed",
-        symbol: "v",
-        label: "pitch-line speed",
-        unit: "m/s",
-        shown: "m/s",
-        digits: 5,
-        equation: "ISO 6336-1",
-        value: |s| Some(s.figures?.pitch_line_speed),
-        meaning: "The circumferential speed of the reference circles.",
-        formula: Text("ω_1 r_1"),
-        source: "ISO 6336-1:2019, circumferential speed v at the reference circle.",
-        assumptions: RIGID,
-        ..FIGURE
-    },
-    Quantity {
-        key: "sliding_velocity_entry",
-        symbol: "ΔV_τ,E",
-        label: "sliding velocity at E",
-        value: |s| Some(s.figures?.sliding[0]),
-        meaning: "The velocity at which the tip of the driven gear slides along the driver's flank at \
-            the entry E.",
-        formula: Difference("ω_2 N2E - ω_1 N1E"),
-        ..VELOCITY
-    },
-    Quantity {
-        key: "sliding_velocity_exit",
-        symbol: "ΔV_τ,B",
-        label: "sliding velocity at B",
-        value: |s| Some(s.figures?.sliding[1]),
-        meaning: "The velocity at which the driven flank slides along the tip of the driver at the \
-            exit B.",
-        formula: Difference("ω_2 N2B - ω_1 N1B"),
-        ..VELOCITY
-    },
+    FIGURE
+        .row(
+            ["tangential_force", "F_t", "tangential force"],
+            ("N", "N", 5),
+            |s| Some(s.figures?.tangential_force),
+            "The force at the reference circle that gives the torque: the nominal load \
+            of ISO 6336.",
+            Text("T1/r_1"),
+        )
+        .equation("ISO 6336-1")
+        .source("ISO 6336-1:2019, nominal tangential load F_t.")
+        .assumptions(RIGID),
+    FIGURE
+        .row(
+            ["pitch_line_speed", "v", "pitch-line speed"],
+            ("m/s", "m/s", 5),
+            |s| Some(s.figures?.pitch_line_speed),
+            "The circumferential speed of the reference circles.",
+            Text("ω_1 r_1"),
+        )
+        .equation("ISO 6336-1")
+        .source("ISO 6336-1:2019, circumferential speed v at the reference circle.")
+        .assumptions(RIGID),
+    VELOCITY.row(
+        ["sliding_velocity_entry", "ΔV_τ,E", "sliding velocity at E"],
+        ("m/s", "m/s", 5),
+        |s| Some(s.figures?.sliding[0]),
+        "The velocity at which the tip of the driven gear slides along the driver's \
+            flank at the entry E.",
+        Difference("ω_2 N2E - ω_1 N1E"),
+    ),
+    VELOCITY.row(
+        ["sliding_velocity_exit", "ΔV_τ,B", "sliding velocity at B"],
+        ("m/s", "m/s", 5),
+        |s| Some(s.figures?.sliding[1]),
+        "The velocity at which the driven flank slides along the tip of the driver \
+            at the exit B.",
+        Difference("ω_2 N2B - ω_1 N1B"),
+    ),
     DRIVER[4],
     DRIVEN[4],
     DRIVER[5],
     DRIVEN[5],
-    Quantity {
-        key: "hertz_pressure_pitch",
-        symbol: "p_C",
-        label: "Hertz pressure at P",
-        stage: Figures,
-        value: |s| Some(s.figures?.pitch_pressure),
-        meaning: "The Hertz pressure at the pitch point P if one pair carries the mesh force: the contact \
-            stress of ISO 6336-2 without its factors.",
-        formula: Cases(&[
-            (helical, Text("√(F_0 E' cos β_b/(π b ε ρ_C))")),
-            (always, Text("√(F_0 E'/(π b ρ_C))")),
-        ]),
-        ..PRESSURE
-    },
-    Quantity {
-        key: "iso_single_stiffness",
-        symbol: "c'",
-        label: "ISO single stiffness",
-        value: |s| Some(s.figures?.stiffness.single),
-        meaning: "The greatest stiffness of one pair per width by ISO 6336-1. single_stiffness is that of \
-            the model.",
-        formula: Cases(&[
+    PRESSURE
+        .row(
+            ["hertz_pressure_pitch", "p_C", "Hertz pressure at P"],
+            ("Pa", "MPa", 5),
+            |s| Some(s.figures?.pitch_pressure),
+            "The Hertz pressure at the pitch point P if one pair carries the mesh \
+            force: the contact stress of ISO 6336-2 without its factors.",
+            Cases(&[
+                (helical, Text("√(F_0 E' cos β_b/(π b ε ρ_C))")),
+                (always, Text("√(F_0 E'/(π b ρ_C))")),
+            ]),
+        )
+        .stage(Figures),
+    STIFFNESS.row(
+        ["iso_single_stiffness", "c'", "ISO single stiffness"],
+        ("N/m2", "N/(mm um)", 5),
+        |s| Some(s.figures?.stiffness.single),
+        "The greatest stiffness of one pair per width by ISO 6336-1. \
+            single_stiffness is that of the model.",
+        Cases(&[
             (
                 helical,
                 Text(
-                    "0.8 c'_th C_B cos β 2 E1 E2/((E1 + E2) 206 [GPa]) min(F_t/(100 [N/mm] b), 1)^(1/4)",
+                    "0.8 c'_th C_B cos β 2 E1 E2/((E1 + E2) 206 [GPa]) min(F_t/(100 [N/mm] b), \
+            1)^(1/4)",
                 ),
             ),
             (
                 always,
                 Text(
-                    "0.8 c'_th C_B 2 E1 E2/((E1 + E2) 206 [GPa]) min(F_t/(100 [N/mm] b), 1)^(1/4)",
+                    "0.8 c'_th C_B 2 E1 E2/((E1 + E2) 206 [GPa]) min(F_t/(100 [N/mm] b), \
+            1)^(1/4)",
                 ),
             ),
         ]),
-        ..STIFFNESS
-    },
-    Quantity {
-        key: "iso_mesh_stiffness",
-        symbol: "c_γα",
-        label: "ISO mesh stiffness",
-        value: |s| Some(s.figures?.stiffness.mesh),
-        meaning: "The mean stiffness of the mesh per width by ISO 6336-1. mesh_stiffness_per_width is that \
-            of the model.",
-        formula: Text("c' (0.75 ε + 0.25)"),
-        ..STIFFNESS
-    },
-    Quantity {
-        key: "iso_dynamic_factor",
-        symbol: "K_v",
-        label: "ISO dynamic factor",
-        equation: "ISO 6336-1",
-        value: |s| Some(s.figures?.dynamic.factor),
-        meaning: "The internal dynamic factor K_v-B of ISO 6336-1: the greatest force in the mesh over the \
-            nominal force. It contains base pitch deviations, form deviations and the tip relief at \
-            the entry. mesh_force_factor is that of the model without deviations.",
-        formula: Made(factor_of_range),
-        source: "ISO 6336-1:2019, 6.5, method B.",
-        assumptions: "Application factor K_A = 1, no allowance for running-in. Without a flank tolerance \
-            class the form deviation is as large as the base pitch deviation. C_a is the sum of the \
-            tip relief of the driven gear and the root relief of the driver; a class above 5 leaves it \
-            out, B_k = 1.",
-        checks: &[checks::iso_range, checks::contact_ratio],
-        ..FIGURE
-    },
+    ),
+    STIFFNESS.row(
+        ["iso_mesh_stiffness", "c_γα", "ISO mesh stiffness"],
+        ("N/m2", "N/(mm um)", 5),
+        |s| Some(s.figures?.stiffness.mesh),
+        "The mean stiffness of the mesh per width by ISO 6336-1. \
+            mesh_stiffness_per_width is that of the model.",
+        Text("c' (0.75 ε + 0.25)"),
+    ),
+    FIGURE
+        .row(
+            ["iso_dynamic_factor", "K_v", "ISO dynamic factor"],
+            ("1", "1", 4),
+            |s| Some(s.figures?.dynamic.factor),
+            "The internal dynamic factor K_v-B of ISO 6336-1: the greatest force in the \
+            mesh over the nominal force. It contains base pitch deviations, form \
+            deviations and the tip relief at the entry. mesh_force_factor is that of \
+            the model without deviations.",
+            Made(factor_of_range),
+        )
+        .equation("ISO 6336-1")
+        .source("ISO 6336-1:2019, 6.5, method B.")
+        .assumptions(
+            "Application factor K_A = 1, no allowance for running-in. Without a flank \
+            tolerance class the form deviation is as large as the base pitch \
+            deviation. C_a is the sum of the tip relief of the driven gear and the \
+            root relief of the driver; a class above 5 leaves it out, B_k = 1.",
+        )
+        .checks(&[checks::iso_range, checks::contact_ratio]),
 ];
 
 /// Active tip and root diameter of driver and driven gear, in m.
@@ -592,7 +570,8 @@ pub(super) const STEPS: &[Step] = &[
             (
                 any_class,
                 Words(
-                    "(0.55 m + 5) 2^((A - 5)/2) um, m in mm, rounded by ISO 1328-1; |f_pb| without a class",
+                    "(0.55 m + 5) 2^((A - 5)/2) um, m in mm, rounded by ISO 1328-1; |f_pb| \
+            without a class",
                 ),
             ),
             (always, Text("f_pe")),

@@ -8,22 +8,23 @@ use crate::model::explanation::Formula::{Cases, Difference, Text};
 use crate::model::explanation::{Step, step};
 
 /// A ratio.
-const RATIO: Quantity = Quantity { unit: "1", shown: "1", digits: 4, ..PLAIN };
+const RATIO: Quantity = Quantity { ..PLAIN };
 
 pub(super) const TABLE: &[Quantity] = &[
-    Quantity {
-        key: "friction_ratio",
-        symbol: "f",
-        label: "friction ratio",
-        equation: "Eq. 64",
-        stage: Friction,
-        value: |s| s.friction?.ratio,
-        meaning: "The averaged impact friction coefficient of the paper: the change of the \
-            sliding velocity over the change of the approach velocity from D to D', the end of \
-            the impact. D' is ",
-        formula: Difference("|ΔV_τ' - ΔV_τ|/|ΔV_n' - ΔV_n|"),
-        source: "Zhou & Chen 2014, Eqs. 29-45 and 61-64.",
-        corrections: &[
+    RATIO
+        .row(
+            ["friction_ratio", "f", "friction ratio"],
+            ("1", "1", 4),
+            |s| s.friction?.ratio,
+            "The averaged impact friction coefficient of the paper: the change of the \
+            sliding velocity over the change of the approach velocity from D to D', \
+            the end of the impact. D' is ",
+            Difference("|ΔV_τ' - ΔV_τ|/|ΔV_n' - ΔV_n|"),
+        )
+        .equation("Eq. 64")
+        .stage(Friction)
+        .source("Zhou & Chen 2014, Eqs. 29-45 and 61-64.")
+        .corrections(&[
             "Eq. 31",
             "Eq. 34",
             "Eq. 36",
@@ -31,56 +32,61 @@ pub(super) const TABLE: &[Quantity] = &[
             "Eqs. 27, 42, 60",
             "Eq. 64",
             "section 6",
-        ],
-        assumptions: "The velocities change mostly by the geometry of the gears and only slightly \
-            by friction. The ratio is not a material property, and the Coulomb coefficient does \
-            not limit the ratio.",
-        checks: &[checks::coulomb, checks::before_start],
-        variants: &[
+        ])
+        .assumptions(
+            "The velocities change mostly by the geometry of the gears and only \
+            slightly by friction. The ratio is not a material property, and the \
+            Coulomb coefficient does not limit the ratio.",
+        )
+        .checks(&[checks::coulomb, checks::before_start])
+        .variants(&[
             Variant::meaning(
                 paper,
                 "the point at which the triangle of Eq. 34 closes, after the time T_S,32.",
             ),
             Variant::meaning(always, "the position of the same tip at u', after the time T_S,32."),
-        ],
-        ..RATIO
-    },
-    Quantity {
-        key: "stick_limit",
-        symbol: "μ_stick",
-        label: "stick limit",
-        equation: "ΔVτ/(2ΔVn)",
-        stage: Velocity,
-        value: |s| Some(s.velocity?.stick_limit),
-        meaning: "The friction coefficient below which sliding continues throughout the impact. \
-            The tangential impulse is then μ times the normal impulse.",
-        formula: Text("ΔV_τ/(2 ΔV_n)"),
-        source: "Oblique elastic impact with Coulomb friction, ΔVτ/(2ΔVn): the tip rebounds at \
-            ΔV_n, so the normal impulse is 2 M ΔV_n.",
-        corrections: &["Eq. 64"],
-        assumptions: "The impact is elastic. The same mass applies along the normal and along the \
-            flank.",
-        checks: &[checks::coulomb],
-        ..RATIO
-    },
-    Quantity {
-        key: "impulse_ratio",
-        symbol: "κ",
-        label: "impulse ratio",
-        equation: "half-sine",
-        stage: Impact,
-        value: |s| Some(s.impact?.impulse_ratio),
-        meaning: "The ratio of the impulse of a half-sine force, with peak F_S and duration T_S, \
-            to the approach momentum M ΔV_n. An elastic impact gives 2, an impact without rebound \
-            gives 1. Outside 1 to 2, force and duration contradict each other.",
-        formula: Text("(2/π) F_S T_S/(M ΔV_n)"),
-        source: "Balance of momentum over the impact. It is a check and \
-            not part of Zhou & Chen 2014.",
-        corrections: &["Eq. 32"],
-        assumptions: "The force follows half a sine over time.",
-        checks: &[checks::possible],
-        ..RATIO
-    },
+        ]),
+    RATIO
+        .row(
+            ["stick_limit", "μ_stick", "stick limit"],
+            ("1", "1", 4),
+            |s| Some(s.velocity?.stick_limit),
+            "The friction coefficient below which sliding continues throughout the \
+            impact. The tangential impulse is then μ times the normal impulse.",
+            Text("ΔV_τ/(2 ΔV_n)"),
+        )
+        .equation("ΔVτ/(2ΔVn)")
+        .stage(Velocity)
+        .source(
+            "Oblique elastic impact with Coulomb friction, ΔVτ/(2ΔVn): the tip rebounds \
+            at ΔV_n, so the normal impulse is 2 M ΔV_n.",
+        )
+        .corrections(&["Eq. 64"])
+        .assumptions(
+            "The impact is elastic. The same mass applies along the normal and along \
+            the flank.",
+        )
+        .checks(&[checks::coulomb]),
+    RATIO
+        .row(
+            ["impulse_ratio", "κ", "impulse ratio"],
+            ("1", "1", 4),
+            |s| Some(s.impact?.impulse_ratio),
+            "The ratio of the impulse of a half-sine force, with peak F_S and duration \
+            T_S, to the approach momentum M ΔV_n. An elastic impact gives 2, an impact \
+            without rebound gives 1. Outside 1 to 2, force and duration contradict \
+            each other.",
+            Text("(2/π) F_S T_S/(M ΔV_n)"),
+        )
+        .equation("half-sine")
+        .stage(Impact)
+        .source(
+            "Balance of momentum over the impact. It is a check and not part of Zhou & \
+            Chen 2014.",
+        )
+        .corrections(&["Eq. 32"])
+        .assumptions("The force follows half a sine over time.")
+        .checks(&[checks::possible]),
 ];
 
 /// The end D' of the impact by the formulas of the page. The solver avoids their differences.

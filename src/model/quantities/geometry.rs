@@ -9,107 +9,101 @@ use crate::model::Stage::{Geometry, Load};
 use crate::model::explanation::Formula::{Cases, Difference, Given, Solved, Text};
 use crate::model::explanation::{Context, Equation, Step, step};
 
-const SPUR_PAIR: &str =
-    "External spur gears on parallel, rigid shafts, with involute flanks down to the contact.";
+const SPUR_PAIR: &str = "External spur gears on parallel, rigid shafts, with involute flanks down \
+            to the contact.";
 
 /// A row of the geometry.
 const GEOMETRY: Quantity =
-    Quantity { digits: 5, equation: "ISO 21771", stage: Geometry, assumptions: SPUR_PAIR, ..PLAIN };
+    Quantity { equation: "ISO 21771", stage: Geometry, assumptions: SPUR_PAIR, ..PLAIN };
 
 pub(super) const TABLE: &[Quantity] = &[
-    Quantity {
-        key: "contact_ratio",
-        symbol: "ε",
-        label: "contact ratio",
-        unit: "1",
-        shown: "1",
-        value: |s| Some(s.geometry.contact_ratio),
-        meaning: "The mean number of tooth pairs in contact: the length of the path of contact EB \
-            over the base pitch. Tip chamfers and tip radii shorten the path.",
-        formula: Text("(N1B - N1E)/p_b"),
-        source: "ISO 21771:2007, transverse contact ratio. Table 1 of Zhou & Chen 2014 has 1.5568.",
-        corrections: &["Eqs. 16, 20"],
-        checks: &[checks::start, checks::end, checks::contact_ratio],
-        ..GEOMETRY
-    },
-    Quantity {
-        key: "base_pitch",
-        symbol: "p_b",
-        label: "base pitch",
-        unit: "m",
-        shown: "mm",
-        value: |s| Some(s.geometry.base_pitch),
-        meaning: "The distance between neighbouring flanks along the line of action. Both gears \
-            need the same base pitch to mesh evenly.",
-        formula: Cases(&[(helical, Text("π m_t cos α_t")), (always, Text("π m cos α"))]),
-        source: "ISO 21771:2007, base pitch.",
-        ..GEOMETRY
-    },
-    Quantity {
-        key: "centre_distance",
-        symbol: "a",
-        label: "centre distance",
-        unit: "m",
-        shown: "mm",
-        value: |s| Some(s.geometry.centre_distance),
-        meaning: "The distance between the gear axes. Without a given value, the distance at \
+    GEOMETRY
+        .row(
+            ["contact_ratio", "ε", "contact ratio"],
+            ("1", "1", 5),
+            |s| Some(s.geometry.contact_ratio),
+            "The mean number of tooth pairs in contact: the length of the path of \
+            contact EB over the base pitch. Tip chamfers and tip radii shorten the \
+            path.",
+            Text("(N1B - N1E)/p_b"),
+        )
+        .source(
+            "ISO 21771:2007, transverse contact ratio. Table 1 of Zhou & Chen 2014 has \
+            1.5568.",
+        )
+        .corrections(&["Eqs. 16, 20"])
+        .checks(&[checks::start, checks::end, checks::contact_ratio]),
+    GEOMETRY
+        .row(
+            ["base_pitch", "p_b", "base pitch"],
+            ("m", "mm", 5),
+            |s| Some(s.geometry.base_pitch),
+            "The distance between neighbouring flanks along the line of action. Both \
+            gears need the same base pitch to mesh evenly.",
+            Cases(&[(helical, Text("π m_t cos α_t")), (always, Text("π m cos α"))]),
+        )
+        .source("ISO 21771:2007, base pitch."),
+    GEOMETRY
+        .row(
+            ["centre_distance", "a", "centre distance"],
+            ("m", "mm", 5),
+            |s| Some(s.geometry.centre_distance),
+            "The distance between the gear axes. Without a given value, the distance at \
             which the profile shifts leave no backlash.",
-        formula: Cases(&[
-            (distance_given, Given("pair.centre_distance")),
-            (always, Text("(r_b1 + r_b2)/cos α_w")),
-        ]),
-        source: "ISO 21771:2007, working centre distance. Zhou & Chen 2014 use r_1 + r_2, which \
-            is exact without profile shift.",
-        checks: &[checks::distance],
-        ..GEOMETRY
-    },
-    Quantity {
-        key: "working_pressure_angle",
-        symbol: "α_w",
-        label: "working pressure angle",
-        unit: "rad",
-        shown: "deg",
-        value: |s| Some(s.geometry.working_pressure_angle),
-        meaning: "The angle between the line of action and the common tangent of the pitch \
+            Cases(&[
+                (distance_given, Given("pair.centre_distance")),
+                (always, Text("(r_b1 + r_b2)/cos α_w")),
+            ]),
+        )
+        .source(
+            "ISO 21771:2007, working centre distance. Zhou & Chen 2014 use r_1 + r_2, \
+            which is exact without profile shift.",
+        )
+        .checks(&[checks::distance]),
+    GEOMETRY
+        .row(
+            ["working_pressure_angle", "α_w", "working pressure angle"],
+            ("rad", "deg", 5),
+            |s| Some(s.geometry.working_pressure_angle),
+            "The angle between the line of action and the common tangent of the pitch \
             circles at this centre distance.",
-        formula: Cases(&[
-            (distance_given, Difference("acos((r_b1 + r_b2)/a)")),
-            (helical, Solved(&HELICAL_INVOLUTE)),
-            (always, Solved(&INVOLUTE)),
-        ]),
-        source: "ISO 21771:2007, working pressure angle. Zhou & Chen 2014 use α, which is exact \
-            without profile shift.",
-        checks: &[checks::distance],
-        ..GEOMETRY
-    },
-    Quantity {
-        key: "mesh_force",
-        symbol: "F_0",
-        label: "mesh force",
-        unit: "N",
-        shown: "N",
-        digits: 5,
-        equation: "T1/rb1",
-        stage: Load,
-        value: |s| Some(s.mesh_force),
-        meaning: "The steady force along the line of action. ",
-        formula: Text("T1/r_b1"),
-        source: "Static balance of the driver, torque over base radius, T1/rb1.",
-        corrections: &["section 6"],
-        assumptions: "Constant torque and speed, no losses in the mesh.",
-        variants: &[
+            Cases(&[
+                (distance_given, Difference("acos((r_b1 + r_b2)/a)")),
+                (helical, Solved(&HELICAL_INVOLUTE)),
+                (always, Solved(&INVOLUTE)),
+            ]),
+        )
+        .source(
+            "ISO 21771:2007, working pressure angle. Zhou & Chen 2014 use α, which is \
+            exact without profile shift.",
+        )
+        .checks(&[checks::distance]),
+    PLAIN
+        .row(
+            ["mesh_force", "F_0", "mesh force"],
+            ("N", "N", 5),
+            |s| Some(s.mesh_force),
+            "The steady force along the line of action. ",
+            Text("T1/r_b1"),
+        )
+        .equation("T1/rb1")
+        .stage(Load)
+        .source("Static balance of the driver, torque over base radius, T1/rb1.")
+        .corrections(&["section 6"])
+        .assumptions("Constant torque and speed, no losses in the mesh.")
+        .variants(&[
             Variant::meaning(
                 deflection_used,
                 "The dynamic factor compares the impact force with it. The case gives the \
-                    deflection, so the load changes neither the place nor the force of the impact.",
+            deflection, so the load changes neither the place nor the force of the \
+            impact.",
             ),
             Variant::meaning(
                 always,
-                "It deflects the teeth, and the dynamic factor compares the impact force with it.",
+                "It deflects the teeth, and the dynamic factor compares the impact force \
+            with it.",
             ),
-        ],
-        ..PLAIN
-    },
+        ]),
 ];
 
 const INVOLUTE: Equation = Equation {
@@ -241,7 +235,8 @@ pub(super) const STEPS: &[Step] = &[
     ),
     step(
         "γ_2",
-        "angle at O2 from the centre line to the tip at E, or to the centre of its rounding",
+        "angle at O2 from the centre line to the tip at E, or to the centre of its \
+            rounding",
         "deg",
         Cases(&[
             (driven_rounded, Text("acos(r_b2/r_C2) - α_w")),

@@ -8,28 +8,19 @@ use crate::model::explanation::Formula::{Cases, Difference, Solved, Text};
 use crate::model::explanation::{Equation, Step, step};
 use crate::model::position::{gap, printed_turns};
 
-const TIP: &str = "The tip of the driven gear meets the involute of the driver: a sharp edge, or the \
-    arc of its tip radius. Both gears turn at their steady speeds up to D.";
+const TIP: &str = "The tip of the driven gear meets the involute of the driver: a sharp edge, \
+            or the arc of its tip radius. Both gears turn at their steady speeds up to \
+            D.";
 
-const PRINTED: &str = " by the printed equations, which are linear in Δ. They place D so close to E \
-    that the tip has closed only a small part of its gap: see closed_gap.";
+const PRINTED: &str = " by the printed equations, which are linear in Δ. They place D so close to \
+            E that the tip has closed only a small part of its gap: see closed_gap.";
 
 /// A length at D.
-const LENGTH: Quantity = Quantity {
-    unit: "m",
-    shown: "mm",
-    digits: 5,
-    stage: Position,
-    assumptions: TIP,
-    checks: &[checks::gap_closed],
-    ..PLAIN
-};
+const LENGTH: Quantity =
+    Quantity { stage: Position, assumptions: TIP, checks: &[checks::gap_closed], ..PLAIN };
 
 /// An angle from D to E.
 const ANGLE: Quantity = Quantity {
-    unit: "rad",
-    shown: "deg",
-    digits: 4,
     stage: Position,
     corrections: &["Eqs. 7-20", "Eq. 14", "Eqs. 16, 20"],
     assumptions: TIP,
@@ -37,173 +28,169 @@ const ANGLE: Quantity = Quantity {
 };
 
 /// A velocity at D.
-const VELOCITY: Quantity =
-    Quantity { unit: "m/s", shown: "m/s", digits: 5, stage: Velocity, assumptions: TIP, ..PLAIN };
+const VELOCITY: Quantity = Quantity { stage: Velocity, assumptions: TIP, ..PLAIN };
 
 pub(super) const TABLE: &[Quantity] = &[
-    Quantity {
-        key: "approach_angle_driver",
-        symbol: "θ_1",
-        label: "driver angle before E",
-        equation: "Eq. 12",
-        value: |s| Some(s.position?.approach_angle_driver),
-        meaning: "The angle through which the driver turns from the first contact D to E",
-        formula: Cases(&[(paper, Text("ε_e + ε_d")), (always, Text("i u"))]),
-        source: "Zhou & Chen 2014, Eqs. 11-20. Method exact: the contact condition S(u) = Δ of \
-            the two involutes (see approach_angle_driven), and Eq. 11.",
-        checks: &[checks::gap_closed, checks::on_flank],
-        variants: &[
+    ANGLE
+        .row(
+            ["approach_angle_driver", "θ_1", "driver angle before E"],
+            ("rad", "deg", 4),
+            |s| Some(s.position?.approach_angle_driver),
+            "The angle through which the driver turns from the first contact D to E",
+            Cases(&[(paper, Text("ε_e + ε_d")), (always, Text("i u"))]),
+        )
+        .equation("Eq. 12")
+        .source(
+            "Zhou & Chen 2014, Eqs. 11-20. Method exact: the contact condition S(u) = Δ \
+            of the two involutes (see approach_angle_driven), and Eq. 11.",
+        )
+        .checks(&[checks::gap_closed, checks::on_flank])
+        .variants(&[
             Variant::meaning(paper, PRINTED),
             Variant::meaning(always, ", where contact should begin."),
-        ],
-        by_static: Some("static_first_contact_angle_driver"),
-        by_dynamic: Some("dynamic_first_contact_angle_driver"),
-        ..ANGLE
-    },
-    Quantity {
-        key: "approach_angle_driven",
-        symbol: "u",
-        label: "driven angle before E",
-        equation: "Eq. 11",
-        value: |s| Some(s.position?.approach_angle_driven),
-        meaning: "The angle through which the driven gear turns from the first contact D to E",
-        formula: Cases(&[(paper, Text("θ_1/i")), (always, Solved(&CONTACT))]),
-        source: "Zhou & Chen 2014, Eq. 11. Method exact: the contact condition of the path of the \
-            tip and the involute of the driver, solved by Newton's method; dS/du = r_b2 - r_b2', \
-            so u grows with √Δ.",
-        checks: &[checks::start, checks::gap_closed, checks::on_flank],
-        variants: &[
+        ])
+        .counterparts("static_first_contact_angle_driver", "dynamic_first_contact_angle_driver"),
+    ANGLE
+        .row(
+            ["approach_angle_driven", "u", "driven angle before E"],
+            ("rad", "deg", 4),
+            |s| Some(s.position?.approach_angle_driven),
+            "The angle through which the driven gear turns from the first contact D to \
+            E",
+            Cases(&[(paper, Text("θ_1/i")), (always, Solved(&CONTACT))]),
+        )
+        .equation("Eq. 11")
+        .source(
+            "Zhou & Chen 2014, Eq. 11. Method exact: the contact condition of the path \
+            of the tip and the involute of the driver, solved by Newton's method; \
+            dS/du = r_b2 - r_b2', so u grows with √Δ.",
+        )
+        .checks(&[checks::start, checks::gap_closed, checks::on_flank])
+        .variants(&[
             Variant::meaning(paper, PRINTED),
             Variant::meaning(
                 always,
-                ". S(u) is the gap between its tip and the driver's flank along the contact normal. \
-                    At D the total deviation Δ has closed this gap.",
+                ". S(u) is the gap between its tip and the driver's flank along the contact \
+            normal. At D the total deviation Δ has closed this gap.",
             ),
-        ],
-        by_static: Some("static_first_contact_angle"),
-        by_dynamic: Some("dynamic_first_contact_angle"),
-        ..ANGLE
-    },
-    Quantity {
-        key: "contact_radius_driver",
-        symbol: "O1D",
-        label: "driver radius at D",
-        equation: "Eq. 7",
-        value: |s| Some(s.position?.contact.radius_driver),
-        meaning: "The radius of D on the driver. D is near the root, where the flank has its \
+        ])
+        .counterparts("static_first_contact_angle", "dynamic_first_contact_angle"),
+    LENGTH
+        .row(
+            ["contact_radius_driver", "O1D", "driver radius at D"],
+            ("m", "mm", 5),
+            |s| Some(s.position?.contact.radius_driver),
+            "The radius of D on the driver. D is near the root, where the flank has its \
             strongest curvature.",
-        formula: Cases(&[
-            (driven_rounded, Text("√(r_b1² + ρ_1²)")),
-            (always, Text("√(r_a2² + a² - 2 a r_a2 cos η)")),
-        ]),
-        source: "Zhou & Chen 2014, Eqs. 7-10, with a instead of r_1 + r_2.",
-        corrections: &["Eqs. 7-20"],
-        checks: &[checks::on_flank, checks::gap_closed],
-        ..LENGTH
-    },
-    Quantity {
-        key: "contact_radius_driven",
-        symbol: "O2D",
-        label: "driven radius at D",
-        equation: "rounding",
-        value: |s| Some(s.position?.contact.radius_driven),
-        meaning: "The radius of D on the driven gear, where the tooth takes the load: its tip \
-            radius, or a point on the rounding of its tip.",
-        formula: Cases(&[(driven_rounded, Text("√(r_b2'² + N2'D²)")), (always, Text("r_a2"))]),
-        source: "The geometry of the rounding, an arc tangent to the tip circle and to the flank.",
-        ..LENGTH
-    },
-    Quantity {
-        key: "contact_normal_radius_driven",
-        symbol: "r_b2'",
-        label: "normal's radius, driven",
-        equation: "Eq. 49",
-        value: |s| Some(s.position?.contact.normal_radius_driven),
-        meaning: "The distance from O2 to the contact normal at D, the lever arm of the driven \
-            gear. At E it equals r_b2. Its difference from r_b2 causes the approach velocity.",
-        formula: Text("a cos χ - r_b1"),
-        source: "Zhou & Chen 2014, Eqs. 24-28, 48 and 49, in closed form.",
-        corrections: &["Eqs. 27, 42, 60"],
-        ..LENGTH
-    },
-    Quantity {
-        key: "curvature_radius",
-        symbol: "ρ_S",
-        label: "radius of curvature",
-        equation: "Eq. 32",
-        value: |s| Some(s.position?.curvature_radius),
-        meaning: "The reduced radius of curvature of flank and tip at D. The width of the contact \
-            and its stress depend on it.",
-        formula: Text("ρ_1 ρ_2/(ρ_1 + ρ_2)"),
-        source: "Zhou & Chen 2014, below Eq. 32.",
-        assumptions: "A sharp tip has the curvature of its own flank, a rounded tip the radius of \
-            its edge. A sharp edge causes far higher pressure than either.",
-        checks: &[checks::edge],
-        ..LENGTH
-    },
-    Quantity {
-        key: "closed_gap",
-        symbol: "S(u)",
-        label: "gap closed by the tip",
-        shown: "um",
-        equation: "S(u) = Δ",
-        value: |s| Some(s.position?.closed_gap),
-        meaning: "The gap between tip and flank that is closed at D. It equals Δ at the exact \
-            position. At the printed position the difference from Δ is the error of that \
-            position.",
-        formula: Difference("Δρ_1 + r_b2 u - r_b1 Δχ"),
-        source: "Contact condition S(u) = Δ: the normal distance of the involutes, the integral \
-            of dS/du = r_b2 - r_b2'. Zhou & Chen 2014 have no such equation.",
-        corrections: &["Eqs. 7-20"],
-        ..LENGTH
-    },
-    Quantity {
-        key: "transit_time",
-        symbol: "t_DE",
-        label: "time from D to E",
-        unit: "s",
-        shown: "us",
-        digits: 5,
-        equation: "u/ω2",
-        stage: Velocity,
-        value: |s| Some(s.velocity?.transit_time),
-        meaning: "The time from the first contact D to E. A longer impact continues into the \
+            Cases(&[
+                (driven_rounded, Text("√(r_b1² + ρ_1²)")),
+                (always, Text("√(r_a2² + a² - 2 a r_a2 cos η)")),
+            ]),
+        )
+        .equation("Eq. 7")
+        .source("Zhou & Chen 2014, Eqs. 7-10, with a instead of r_1 + r_2.")
+        .corrections(&["Eqs. 7-20"])
+        .checks(&[checks::on_flank, checks::gap_closed]),
+    LENGTH
+        .row(
+            ["contact_radius_driven", "O2D", "driven radius at D"],
+            ("m", "mm", 5),
+            |s| Some(s.position?.contact.radius_driven),
+            "The radius of D on the driven gear, where the tooth takes the load: its \
+            tip radius, or a point on the rounding of its tip.",
+            Cases(&[(driven_rounded, Text("√(r_b2'² + N2'D²)")), (always, Text("r_a2"))]),
+        )
+        .equation("rounding")
+        .source(
+            "The geometry of the rounding, an arc tangent to the tip circle and to the \
+            flank.",
+        ),
+    LENGTH
+        .row(
+            ["contact_normal_radius_driven", "r_b2'", "normal's radius, driven"],
+            ("m", "mm", 5),
+            |s| Some(s.position?.contact.normal_radius_driven),
+            "The distance from O2 to the contact normal at D, the lever arm of the \
+            driven gear. At E it equals r_b2. Its difference from r_b2 causes the \
+            approach velocity.",
+            Text("a cos χ - r_b1"),
+        )
+        .equation("Eq. 49")
+        .source("Zhou & Chen 2014, Eqs. 24-28, 48 and 49, in closed form.")
+        .corrections(&["Eqs. 27, 42, 60"]),
+    LENGTH
+        .row(
+            ["curvature_radius", "ρ_S", "radius of curvature"],
+            ("m", "mm", 5),
+            |s| Some(s.position?.curvature_radius),
+            "The reduced radius of curvature of flank and tip at D. The width of the \
+            contact and its stress depend on it.",
+            Text("ρ_1 ρ_2/(ρ_1 + ρ_2)"),
+        )
+        .equation("Eq. 32")
+        .source("Zhou & Chen 2014, below Eq. 32.")
+        .assumptions(
+            "A sharp tip has the curvature of its own flank, a rounded tip the radius \
+            of its edge. A sharp edge causes far higher pressure than either.",
+        )
+        .checks(&[checks::edge]),
+    LENGTH
+        .row(
+            ["closed_gap", "S(u)", "gap closed by the tip"],
+            ("m", "um", 5),
+            |s| Some(s.position?.closed_gap),
+            "The gap between tip and flank that is closed at D. It equals Δ at the \
+            exact position. At the printed position the difference from Δ is the error \
+            of that position.",
+            Difference("Δρ_1 + r_b2 u - r_b1 Δχ"),
+        )
+        .equation("S(u) = Δ")
+        .source(
+            "Contact condition S(u) = Δ: the normal distance of the involutes, the \
+            integral of dS/du = r_b2 - r_b2'. Zhou & Chen 2014 have no such equation.",
+        )
+        .corrections(&["Eqs. 7-20"]),
+    PLAIN
+        .row(
+            ["transit_time", "t_DE", "time from D to E"],
+            ("s", "us", 5),
+            |s| Some(s.velocity?.transit_time),
+            "The time from the first contact D to E. A longer impact continues into the \
             normal mesh.",
-        formula: Text("u/ω_2"),
-        source: "Kinematics, u/ω2.",
-        corrections: &["Eqs. 7-20"],
-        assumptions: "Constant speed.",
-        checks: &[checks::within_approach],
-        ..PLAIN
-    },
-    Quantity {
-        key: "normal_velocity",
-        symbol: "ΔV_n",
-        label: "approach velocity at D",
-        equation: "Eq. 21",
-        value: |s| Some(s.velocity?.normal),
-        meaning: "The velocity at which the tip approaches the flank at D along the contact \
+            Text("u/ω_2"),
+        )
+        .equation("u/ω2")
+        .stage(Velocity)
+        .source("Kinematics, u/ω2.")
+        .corrections(&["Eqs. 7-20"])
+        .assumptions("Constant speed.")
+        .checks(&[checks::within_approach]),
+    VELOCITY
+        .row(
+            ["normal_velocity", "ΔV_n", "approach velocity at D"],
+            ("m/s", "m/s", 5),
+            |s| Some(s.velocity?.normal),
+            "The velocity at which the tip approaches the flank at D along the contact \
             normal. It causes the impact, and it is 0 at E.",
-        formula: Difference("ω_2 (r_b2 - r_b2')"),
-        source: "Zhou & Chen 2014, Eqs. 21, 23-28; equal to ω_1 r_b1 - ω_2 r_b2'.",
-        corrections: &["Eqs. 27, 42, 60", "Eqs. 7-20"],
-        checks: &[checks::gap_closed],
-        ..VELOCITY
-    },
-    Quantity {
-        key: "sliding_velocity",
-        symbol: "ΔV_τ",
-        label: "sliding velocity at D",
-        equation: "Eq. 22",
-        value: |s| Some(s.velocity?.sliding),
-        meaning: "The velocity at which the tip slides along the flank at D. A positive value \
-            points to the root of the driver.",
-        formula: Difference("ω_2 N2'D - ω_1 ρ_1"),
-        source: "Zhou & Chen 2014, Eqs. 22-28.",
-        corrections: &["Eq. 22", "Eqs. 27, 42, 60"],
-        checks: &[checks::gap_closed, checks::keeps_sliding],
-        ..VELOCITY
-    },
+            Difference("ω_2 (r_b2 - r_b2')"),
+        )
+        .equation("Eq. 21")
+        .source("Zhou & Chen 2014, Eqs. 21, 23-28; equal to ω_1 r_b1 - ω_2 r_b2'.")
+        .corrections(&["Eqs. 27, 42, 60", "Eqs. 7-20"])
+        .checks(&[checks::gap_closed]),
+    VELOCITY
+        .row(
+            ["sliding_velocity", "ΔV_τ", "sliding velocity at D"],
+            ("m/s", "m/s", 5),
+            |s| Some(s.velocity?.sliding),
+            "The velocity at which the tip slides along the flank at D. A positive \
+            value points to the root of the driver.",
+            Difference("ω_2 N2'D - ω_1 ρ_1"),
+        )
+        .equation("Eq. 22")
+        .source("Zhou & Chen 2014, Eqs. 22-28.")
+        .corrections(&["Eq. 22", "Eqs. 27, 42, 60"])
+        .checks(&[checks::gap_closed, checks::keeps_sliding]),
     figures::AT_CONTACT[0],
     figures::AT_CONTACT[1],
 ];
@@ -248,7 +235,8 @@ pub(super) const STEPS: &[Step] = &[
     ),
     step(
         "η",
-        "angle at O2 from the centre line to the tip at D, or to the centre of its rounding, Eq. 10",
+        "angle at O2 from the centre line to the tip at D, or to the centre of its \
+            rounding, Eq. 10",
         "deg",
         Text("γ_2 + u"),
         |k| Some(k.solution.position?.contact.polar_angle),

@@ -11,16 +11,18 @@ use crate::model::explanation::{Check, Context, Finding};
 use crate::model::static_load;
 
 const AT_REST: &str = "All pairs share the mesh force at rest. No pair has a deviation, so the \
-    transmission error repeats with every base pitch; the reliefs of all pairs count.";
+            transmission error repeats with every base pitch; the reliefs of all pairs \
+            count.";
 const IN_MOTION: &str = "One mass m_red moves on the springs and gaps of all pairs, with damping \
-    while a pair is in contact. No pair has a deviation, and the motion has become periodic: it \
-    repeats after one to four base pitches.";
-const SPECTRUM: &str = "Fourier series 2 |c_n| and max x − min x of the transmission error over a base \
-    pitch; transmission error as the cause of whine: Gregory, Harris & Munro 1963. Each smooth piece is integrated by the \
-    12-point Gauss-Legendre rule.";
-const MOTION: &str = "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988; steady motion \
-    with more than one base pitch per period: Kahraman & Singh 1990. Over the period: Fourier series 2 \
-    |c_n|, max x − min x, max ΣF.";
+            while a pair is in contact. No pair has a deviation, and the motion has \
+            become periodic: it repeats after one to four base pitches.";
+const SPECTRUM: &str = "Fourier series 2 |c_n| and max x − min x of the transmission error over a \
+            base pitch; transmission error as the cause of whine: Gregory, Harris & \
+            Munro 1963. Each smooth piece is integrated by the 12-point Gauss-Legendre \
+            rule.";
+const MOTION: &str = "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988; steady \
+            motion with more than one base pitch per period: Kahraman & Singh 1990. \
+            Over the period: Fourier series 2 |c_n|, max x − min x, max ΣF.";
 const STEADY: &[&str] = &["m_red", "f_n", "f_z", "F_0"];
 const CHECKS: &[Check] = &[checks::teeth, contact_kept];
 const PERIODIC_AT_REST: Formula =
@@ -30,9 +32,6 @@ const PERIODIC: Formula =
 
 /// A result of the steady motion.
 const STEADY_MOTION: Quantity = Quantity {
-    digits: 5,
-    unit: "1",
-    shown: "1",
     stage: SteadyMotion,
     source: MOTION,
     assumptions: IN_MOTION,
@@ -42,9 +41,6 @@ const STEADY_MOTION: Quantity = Quantity {
 
 /// A result of the transmission error at rest.
 const STATIC: Quantity = Quantity {
-    unit: "m",
-    shown: "um",
-    digits: 5,
     stage: StaticSpectrum,
     source: SPECTRUM,
     assumptions: AT_REST,
@@ -96,16 +92,15 @@ macro_rules! harmonic {
         ]
     };
     ($order:literal, $word:literal, $frequency:literal, $row:ident, $of:ident, $method:literal, $symbol:literal, $when:literal, $formula:expr) => {
-        Quantity {
-            key: concat!($method, "_te_harmonic_", $order),
-            symbol: concat!($symbol, $order),
-            label: concat!($method, ": TE harmonic ", $order),
-            unit: "m",
-            shown: "um",
-            digits: 4,
-            equation: concat!("2 |c_", $order, "|"),
-            value: |s| Some($of(s)?.spectrum.amplitudes[$order - 1]),
-            meaning: concat!(
+        $row.row(
+            [
+                concat!($method, "_te_harmonic_", $order),
+                concat!($symbol, $order),
+                concat!($method, ": TE harmonic ", $order),
+            ],
+            ("m", "um", 4),
+            |s| Some($of(s)?.spectrum.amplitudes[$order - 1]),
+            concat!(
                 "The amplitude of the ",
                 $word,
                 " mesh harmonic of the transmission error ",
@@ -114,9 +109,9 @@ macro_rules! harmonic {
                 $frequency,
                 "."
             ),
-            formula: $formula,
-            ..$row
-        }
+            $formula,
+        )
+        .equation(concat!("2 |c_", $order, "|"))
     };
 }
 
@@ -129,114 +124,97 @@ const HARMONICS: [[Quantity; 2]; 5] = [
 ];
 
 pub(super) const TABLE: &[Quantity] = &[
-    Quantity {
-        key: "static_te_peak_to_peak",
-        symbol: "TE_st,pp",
-        label: "static: TE peak to peak",
-        equation: "max x − min x",
-        value: |s| Some(at_rest(s)?.spectrum.peak_to_peak),
-        meaning: "The difference between the largest and the smallest transmission error over one \
-            base pitch at rest, of a pair in which no tooth deviates: the static excitation of \
-            whine.",
-        formula: PERIODIC_AT_REST,
-        ..STATIC
-    },
+    STATIC
+        .row(
+            ["static_te_peak_to_peak", "TE_st,pp", "static: TE peak to peak"],
+            ("m", "um", 5),
+            |s| Some(at_rest(s)?.spectrum.peak_to_peak),
+            "The difference between the largest and the smallest transmission error \
+            over one base pitch at rest, of a pair in which no tooth deviates: the \
+            static excitation of whine.",
+            PERIODIC_AT_REST,
+        )
+        .equation("max x − min x"),
     HARMONICS[0][0],
     HARMONICS[1][0],
     HARMONICS[2][0],
     HARMONICS[3][0],
     HARMONICS[4][0],
-    Quantity {
-        key: "dynamic_te_peak_to_peak",
-        symbol: "TE_d,pp",
-        label: "dynamic: TE peak to peak",
-        unit: "m",
-        shown: "um",
-        equation: "max x − min x",
-        value: |s| Some(steady(s)?.spectrum.peak_to_peak),
-        meaning: "The difference between the largest and the smallest transmission error in the \
-            steady motion of a pair in which no tooth deviates.",
-        formula: PERIODIC,
-        ..STEADY_MOTION
-    },
+    STEADY_MOTION
+        .row(
+            ["dynamic_te_peak_to_peak", "TE_d,pp", "dynamic: TE peak to peak"],
+            ("m", "um", 5),
+            |s| Some(steady(s)?.spectrum.peak_to_peak),
+            "The difference between the largest and the smallest transmission error in \
+            the steady motion of a pair in which no tooth deviates.",
+            PERIODIC,
+        )
+        .equation("max x − min x"),
     HARMONICS[0][1],
     HARMONICS[1][1],
     HARMONICS[2][1],
     HARMONICS[3][1],
     HARMONICS[4][1],
-    Quantity {
-        key: "mesh_force_factor",
-        symbol: "K_mesh",
-        label: "mesh dynamic factor",
-        equation: "max ΣF/F0",
-        value: |s| Some(steady(s)?.mesh_force / s.mesh_force),
-        meaning: "The greatest sum of the forces of all tooth pairs in the steady motion over the \
-            mesh force.",
-        formula: Found(
-            "max ΣF/F_0, ΣF over the base pitches after which the motion repeats",
-            STEADY,
-        ),
-        ..STEADY_MOTION
-    },
-    Quantity {
-        key: "tooth_force_factor",
-        symbol: "K_tooth",
-        label: "tooth dynamic factor",
-        equation: "max F/max F_st",
-        value: |s| Some(steady(s)?.tooth_force / at_rest(s)?.tooth_force),
-        meaning: "The greatest force on a tooth in the steady motion over its greatest force at \
-            rest, without deviations. The dynamic factor K_v of ISO 6336-1 applies to the whole \
-            mesh and includes deviations; compare mesh_force_factor.",
-        formula: Found("max F_k in the steady motion over max F_k at rest", STEADY),
-        ..STEADY_MOTION
-    },
-    Quantity {
-        key: "steady_contact_lost",
-        symbol: "lost_z",
-        label: "steady: contact lost",
-        shown: "yes/no",
-        digits: 1,
-        equation: "no pair touches",
-        value: |s| Some(f64::from(u8::from(steady(s)?.contact_lost))),
-        meaning: "Whether no pair touches at some moment of the steady motion of a pair without \
-            deviations.",
-        formula: Found("from the steady motion", STEADY),
-        checks: &[checks::teeth],
-        ..STEADY_MOTION
-    },
-    Quantity {
-        key: "steady_back_strikes",
-        symbol: "n_z,b",
-        label: "steady: back strikes",
-        digits: 4,
-        equation: "strikes per base pitch",
-        value: |s| {
-            let steady = steady(s)?;
-            Some(f64::from(steady.rattle?.strikes) / f64::from(steady.periods))
-        },
-        meaning: "The strikes of back flanks across the backlash per base pitch, in the steady motion \
-            of a pair without deviations: rattle. Without a backlash in the case the back flanks \
-            are far away, and this result does not exist.",
-        formula: Found("counted over the base pitches after which the motion repeats", STEADY),
-        assumptions: AT_BACK,
-        needs: Need::Backlash,
-        ..STEADY_MOTION
-    },
-    Quantity {
-        key: "steady_back_force",
-        symbol: "B_z,max",
-        label: "steady: back flank peak",
-        unit: "N",
-        shown: "N",
-        equation: "max B",
-        value: |s| Some(steady(s)?.rattle?.force),
-        meaning: "The greatest force max B on a pair of back flanks in the steady motion of a pair \
+    STEADY_MOTION
+        .row(
+            ["mesh_force_factor", "K_mesh", "mesh dynamic factor"],
+            ("1", "1", 5),
+            |s| Some(steady(s)?.mesh_force / s.mesh_force),
+            "The greatest sum of the forces of all tooth pairs in the steady motion \
+            over the mesh force.",
+            Found("max ΣF/F_0, ΣF over the base pitches after which the motion repeats", STEADY),
+        )
+        .equation("max ΣF/F0"),
+    STEADY_MOTION
+        .row(
+            ["tooth_force_factor", "K_tooth", "tooth dynamic factor"],
+            ("1", "1", 5),
+            |s| Some(steady(s)?.tooth_force / at_rest(s)?.tooth_force),
+            "The greatest force on a tooth in the steady motion over its greatest force \
+            at rest, without deviations. The dynamic factor K_v of ISO 6336-1 applies \
+            to the whole mesh and includes deviations; compare mesh_force_factor.",
+            Found("max F_k in the steady motion over max F_k at rest", STEADY),
+        )
+        .equation("max F/max F_st"),
+    STEADY_MOTION
+        .row(
+            ["steady_contact_lost", "lost_z", "steady: contact lost"],
+            ("1", "yes/no", 1),
+            |s| Some(f64::from(u8::from(steady(s)?.contact_lost))),
+            "Whether no pair touches at some moment of the steady motion of a pair \
             without deviations.",
-        formula: Found("max B over the base pitches after which the motion repeats", STEADY),
-        assumptions: AT_BACK,
-        needs: Need::Backlash,
-        ..STEADY_MOTION
-    },
+            Found("from the steady motion", STEADY),
+        )
+        .equation("no pair touches")
+        .checks(&[checks::teeth]),
+    STEADY_MOTION
+        .row(
+            ["steady_back_strikes", "n_z,b", "steady: back strikes"],
+            ("1", "1", 4),
+            |s| {
+                let steady = steady(s)?;
+                Some(f64::from(steady.rattle?.strikes) / f64::from(steady.periods))
+            },
+            "The strikes of back flanks across the backlash per base pitch, in the \
+            steady motion of a pair without deviations: rattle. Without a backlash in \
+            the case the back flanks are far away, and this result does not exist.",
+            Found("counted over the base pitches after which the motion repeats", STEADY),
+        )
+        .equation("strikes per base pitch")
+        .assumptions(AT_BACK)
+        .needs(Need::Backlash),
+    STEADY_MOTION
+        .row(
+            ["steady_back_force", "B_z,max", "steady: back flank peak"],
+            ("N", "N", 5),
+            |s| Some(steady(s)?.rattle?.force),
+            "The greatest force max B on a pair of back flanks in the steady motion of \
+            a pair without deviations.",
+            Found("max B over the base pitches after which the motion repeats", STEADY),
+        )
+        .equation("max B")
+        .assumptions(AT_BACK)
+        .needs(Need::Backlash),
 ];
 
 fn at_rest(solution: &Solution) -> Option<&static_load::StaticSpectrum> {
@@ -258,8 +236,8 @@ fn contact_kept(k: &Context) -> Option<Finding> {
         (false, periods) => format!("the motion repeats after {periods} base pitches"),
     };
     Finding::new(
-        "the teeth stay in contact; where contact is lost, a run from another speed may find another \
-            steady motion",
+        "the teeth stay in contact; where contact is lost, a run from another speed \
+            may find another steady motion",
         here,
         !steady.contact_lost,
     )
