@@ -62,12 +62,12 @@ impl Results for Trade {
 pub fn build(trade: &Trade) -> String {
     match &trade.build {
         Ok([driver, driven]) => format!(
-            "The fields of the finite elements are built once per gear: {} for the driver, {} for the driven gear. \
+            "The finite elements are solved once per gear: {} for the driver, {} for the driven gear. \
              The times of the settings do not include this.",
             duration(*driver),
             duration(*driven)
         ),
-        Err(refusal) => format!("There is no elastic field to compare with: {refusal}."),
+        Err(refusal) => format!("There are no finite elements to compare with: {refusal}."),
     }
 }
 

@@ -14,7 +14,7 @@ use tipstrike::report::explain::{CORRECTIONS, How, Page, Work, explain, lines, r
 type Settings = &'static [(&'static str, &'static str)];
 
 /// Settings for which a case has other formulas.
-const VARIANTS: [Settings; 8] = [
+const VARIANTS: [Settings; 9] = [
     &[],
     &[("model.method", "paper")],
     &[("model.deflection", "")],
@@ -43,6 +43,7 @@ const VARIANTS: [Settings; 8] = [
         ("driver.profile_shift", "-0.02"),
         ("model.method", "paper"),
     ],
+    &[("pair.helix_angle", "12 deg"), ("pair.driver_hand", "left"), ("model.method", "exact")],
 ];
 
 struct Explained {

@@ -3,8 +3,8 @@
 use super::{Need, PLAIN, Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{Geometry, Load, Static, StaticSpectrum};
-use crate::model::explanation::Check;
-use crate::model::explanation::Formula::{Found, Text};
+use crate::model::explanation::Formula::{Found, Made, Text};
+use crate::model::explanation::{Check, Context};
 use crate::model::helix::Helix;
 use crate::model::slices::load::{FaceCycle, FaceLoad, LinePeak};
 
@@ -56,6 +56,12 @@ fn cycle(solution: &Solution) -> Option<&FaceCycle> {
     solution.face_cycle.as_ref()
 }
 
+/// Above 0 for a right-hand driver.
+fn axial_force(k: &Context) -> String {
+    let sign = if k.inputs.driver_hand.sign() < 0.0 { "-" } else { "" };
+    format!("{sign}F_0 tan β_b")
+}
+
 fn line_load(peak: LinePeak) -> f64 {
     peak.line_load
 }
@@ -91,7 +97,7 @@ pub(super) const TABLE: &[Quantity] = &[
         |s| Some(helix(s)?.virtual_teeth[0]),
         "The number of teeth of the spur gear with the curvature of the normal \
             section; rounded, the gear whose compliance the driver has.",
-        Text("z1/(cos² β_b cos β)"),
+        Text("z1/((cos β_b)² cos β)"),
     ),
     HELIX.row(
         ["virtual_teeth_driven", "z_n2", "virtual teeth of the driven gear"],
@@ -99,7 +105,7 @@ pub(super) const TABLE: &[Quantity] = &[
         |s| Some(helix(s)?.virtual_teeth[1]),
         "The number of teeth of the spur gear with the curvature of the normal \
             section; rounded, the gear whose compliance the driven gear has.",
-        Text("z2/(cos² β_b cos β)"),
+        Text("z2/((cos β_b)² cos β)"),
     ),
     HELIX.row(
         ["axial_pitch", "p_x", "axial pitch"],
@@ -129,7 +135,7 @@ pub(super) const TABLE: &[Quantity] = &[
             |s| Some(helix(s)?.axial_force),
             "The force along the axis on the driver, towards +z above 0; the driver \
             turns positively about +z. The driven gear has the opposite force.",
-            Text("F_0 tan β_b"),
+            Made(axial_force),
         )
         .stage(Load)
         .signed(),

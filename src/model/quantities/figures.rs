@@ -350,10 +350,11 @@ pub(super) const TABLE: &[Quantity] = &[
         .equation("ISO 6336-1")
         .source("ISO 6336-1:2019, 6.5, method B.")
         .assumptions(
-            "Application factor K_A = 1, no allowance for running-in. Without a flank \
-            tolerance class the form deviation is as large as the base pitch \
-            deviation. C_a is the sum of the tip relief of the driven gear and the \
-            root relief of the driver; a class above 5 leaves it out, B_k = 1.",
+            "Application factor K_A = 1. The running-in allowances y_p and y_f are left out: they depend \
+                on the heat treatment, which a case does not have. Without a flank tolerance class the \
+                form deviation is as large as the base pitch deviation. C_a is the sum of the tip \
+                relief of the driven gear and the root relief of the driver; a class above 5 leaves \
+                it out, B_k = 1.",
         )
         .checks(&[checks::iso_range, checks::contact_ratio]),
 ];

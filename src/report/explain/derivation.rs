@@ -222,7 +222,8 @@ fn symbols_of(formula: Formula, known: &Known) -> Vec<String> {
 pub(super) const GLUE: &str = "\u{a0}";
 
 /// Names of functions; √ has no name.
-const FUNCTIONS: [&str; 9] = ["sin", "cos", "tan", "acos", "atan2", "ln", "inv", "min", "max"];
+const FUNCTIONS: [&str; 11] =
+    ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "ln", "inv", "min", "max"];
 
 const SUPERSCRIPTS: [char; 3] = ['²', '³', '⁴'];
 
