@@ -72,8 +72,8 @@ impl Worst {
 /// quantity over the relative change of the input.
 fn hold(row: &Row, accurate: bool, worst: &mut Worst) {
     let inputs = Inputs { accurate, ..row.inputs.clone() };
-    let solution = solve(&inputs, Stages::CLOSED_FORM)
-        .unwrap_or_else(|refusal| panic!("{refusal}: {inputs:?}"));
+    let solution =
+        solve(&inputs, row.stages()).unwrap_or_else(|refusal| panic!("{refusal}: {inputs:?}"));
     for key in row.answers.keys() {
         let found = value(&solution, key)
             .unwrap_or_else(|| panic!("no {key}, {:?}: {inputs:?}", solution.withheld));

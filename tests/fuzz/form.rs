@@ -91,40 +91,6 @@ fn any_typing_leaves_the_form_valid_and_the_screen_safe() {
     assert_eq!(*seen.borrow(), all, "the keys get too seldom to all that the workbench does");
 }
 
-#[test]
-fn control_characters_in_a_name_are_shown_as_marks() {
-    let mut bench = Bench::on(&texts::bases()[0], false);
-    for title in HOSTILE {
-        bench.take(Happening::Paste(title.to_owned()));
-        bench.app.tab.case.write(0, title);
-        bench.draw(Size { width: 80, height: 24 });
-    }
-}
-
-#[test]
-fn every_prompt_and_page_is_drawn_at_every_size() {
-    let openers = [
-        &[][..],
-        &[key(KeyCode::F(1))],
-        &[ctrl('o')],
-        &[key(KeyCode::F(2))],
-        &[ctrl('c')],
-        &[ctrl('u'), ctrl('q')],
-    ];
-    for (ascii, keys) in openers.into_iter().enumerate().map(|(index, keys)| (index % 2 == 1, keys))
-    {
-        let mut bench = Bench::on(&texts::bases()[0], ascii);
-        bench.feed(keys.iter().map(|key| Event::Input(Input::Key(*key))));
-        for (width, height) in (0..=200)
-            .step_by(7)
-            .flat_map(|width| (0..=60).step_by(3).map(move |height| (width, height)))
-        {
-            bench.draw(Size { width, height });
-            bench.take(Happening::Resize(width, height));
-        }
-    }
-}
-
 fn happenings() -> impl Strategy<Value = Vec<Happening>> {
     let size =
         prop_oneof![(0..=200u16, 0..=60u16), (60..=100u16, 16..=30u16), (0..=4u16, 0..=4u16)];

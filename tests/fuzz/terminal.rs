@@ -54,22 +54,6 @@ fn after_any_input_the_workbench_quits_and_restores_the_terminal() {
 }
 
 #[test]
-fn reports_that_nobody_asked_for_are_survived() {
-    for report in [
-        &b"\x1b[M5\x1b["[..],
-        b"\x1b[M   ",
-        b"\x1b[<0;0;0M",
-        b"\x1b[0;0R",
-        b"\x1b[32;0;0M",
-        b"\x1b[<",
-        b"\x1b[?",
-        b"\x1b[200~",
-    ] {
-        survive(&[report.to_vec()], &[]);
-    }
-}
-
-#[test]
 fn floods_are_survived() {
     let keys = [&b"7"[..], b"\x1b[B", b"\x7f", b"\x1b[C", b"\t", b"m"].concat();
     let flood = keys.repeat(100_000 / 6);

@@ -1,4 +1,4 @@
-//! During long work, the echo of a key is not delayed, and Esc ends the work.
+//! During long work, the echo of a key is not delayed, and Esc or Ctrl-C ends the work.
 use crate::tty;
 
 use std::fs;
@@ -137,4 +137,21 @@ fn esc_ends_long_work_and_keys_are_echoed_meanwhile() {
     );
     assert!(slowest <= MOST_FOR_ESC, "{slowest:.1?}");
     leave(tty);
+}
+
+#[test]
+fn a_trade_shows_its_progress_and_ctrl_c_ends_it() {
+    let launch = Launch::on_table_1();
+    fs::write(launch.case(), slow_case()).expect("room on the disk");
+    let case = launch.case();
+    let mut tty = Launch::of(launch.folder).argument("trade").argument(case).start();
+    tty.wait_for("settings, ");
+    tty.type_in("\x03");
+    let start = Instant::now();
+    tty.wait_until("no bar", |tty| !tty.shows("settings"));
+    let status = tty.wait_for_end();
+    println!("Ctrl-C ends a trade within {:.1?}", start.elapsed());
+    assert!(!status.success());
+    tty.assert_restored();
+    assert_eq!(tty.screen().contents().trim(), "", "no bar and no word are left");
 }

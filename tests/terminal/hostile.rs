@@ -106,10 +106,12 @@ fn no_command_prints_a_control_character() {
 
 /// The keys to every screen of the workbench.
 #[rustfmt::skip]
-const SCREENS: [&[&str]; 24] = [
+const SCREENS: [&[&str]; 33] = [
     &[], &["F1"], &["F1", "PageDown"], &["Ctrl-P"], &["Ctrl-O"], &["F2"], &["Ctrl-Q"], &["Ctrl-C"], &["Esc", "/"],
     &["Esc", "2"], &["Esc", "3"], &["Esc", "4"], &["Esc", "5"], &["Esc", "2", "Enter"], &["Ctrl-N"], &["Ctrl-S"],
     &["Alt-R"], &["Alt-N"], &["Alt-G"], &["Alt-L"], &["Esc", "2", "n"], &["Esc", "2", "Enter", "Tab"], &["Alt-W"], &["Esc", "?"],
+    &["Ctrl-P", "th"], &["Esc", "3", "l", "z"], &["Esc", "4", "Space"], &["Esc", "2", "G", "b"], &["Ctrl-N", "Ctrl-U", "Alt-1"],
+    &["Ctrl-U", "5 kg"], &["Ctrl-U", "Ctrl-Q"], &["F5", "F8"], &["Ctrl-End", "F4", "F4", "Ctrl-T"],
 ];
 
 fn on(text: &str, size: Size, look: Look) -> Desk {
@@ -184,11 +186,13 @@ fn every_size_is_drawn_on_every_screen() {
     for keys in SCREENS {
         let mut desk = on(TABLE_1, SMALL, Look::FULL);
         desk.keys(keys);
-        for (width, height) in
-            (0..=90u16).step_by(3).flat_map(|width| (0..=30u16).map(move |height| (width, height)))
+        let widths = (0..=90u16).step_by(3).chain([100, 140, 200]);
+        let heights = || (0..=30u16).step_by(2).chain([5, 15, 17, 35, 60, 80]);
+        for (width, height) in widths.flat_map(|width| heights().map(move |height| (width, height)))
         {
             let size = Size { width, height };
             desk.act(Action::Resize(size));
+            desk.app.look.ascii = !desk.app.look.ascii;
             let area = Rect::new(0, 0, width, height);
             let mut buffer = Buffer::empty(area);
             let cursor = view::draw(&desk.app, area, &mut buffer);

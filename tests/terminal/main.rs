@@ -24,4 +24,3 @@ mod pty;
 mod recovery;
 mod screen;
 mod soak;
-mod trade_terminal;

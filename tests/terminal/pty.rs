@@ -3,7 +3,6 @@ use crate::tty;
 
 use std::fs;
 use std::process::{Command, Stdio};
-use std::time::Duration;
 
 use tty::{Launch, PROGRAM, TABLE_1, Tty, journals};
 
@@ -87,68 +86,6 @@ fn the_workbench_suspends_and_resumes() {
 }
 
 #[test]
-fn nothing_is_written_while_idle() {
-    let mut tty = Tty::open();
-    tty.wait_for("quit");
-    while tty.take_output(Duration::from_millis(300)) > 0 {}
-    assert_eq!(tty.take_output(Duration::from_secs(2)), 0);
-    tty.quit();
-}
-
-#[test]
-fn a_flood_of_keys_does_not_block_the_workbench() {
-    let mut tty = Tty::open();
-    tty.wait_for("Corner contact");
-    tty.pour(vec!["7".repeat(100_000).into_bytes()], &[]);
-    tty.wait_for("777777");
-    tty.type_in("\x15");
-    tty.type_in("5 mm");
-    tty.wait_until("the end of the flood", |tty| tty.shows("5 mm") && !tty.shows("*unsaved*"));
-    tty.quit();
-}
-
-#[test]
-fn a_paste_presses_no_button() {
-    let mut tty = Tty::open();
-    tty.wait_for("Corner contact");
-    tty.type_in("\x15\x1b[200~3\x03\x11\rmm\x1b[201~");
-    tty.wait_for("3 mm");
-    assert!(!tty.has_ended());
-    tty.discard();
-}
-
-#[test]
-fn a_terminal_without_unicode_gets_ascii_and_no_color_no_colour() {
-    let mut tty = Launch::on_table_1().variable("TERM", "linux").variable("NO_COLOR", "1").start();
-    tty.wait_for("quit");
-    let screen = tty.screen();
-    assert!(screen.contents().is_ascii(), "{}", screen.contents());
-    let cells = (0..24).flat_map(|row| (0..80).filter_map(move |column| screen.cell(row, column)));
-    let (mut bold, mut inverse) = (0, 0);
-    for cell in cells {
-        assert_eq!(
-            (cell.fgcolor(), cell.bgcolor()),
-            (vt100::Color::Default, vt100::Color::Default)
-        );
-        bold += usize::from(cell.bold());
-        inverse += usize::from(cell.inverse());
-    }
-    assert!(bold > 0 && inverse > 0, "without colours, bold and reverse remain");
-    tty.quit();
-}
-
-#[test]
-fn a_terminal_that_changes_its_size_is_followed() {
-    let mut tty = Tty::open();
-    tty.wait_for("Corner contact");
-    for (rows, columns) in [(10, 30), (45, 140), (3, 200), (24, 80)] {
-        tty.resize(rows, columns);
-    }
-    tty.wait_for("Corner contact");
-    tty.quit();
-}
-
-#[test]
 fn the_last_case_is_opened_again_and_a_broken_one_is_reported() {
     let mut tty = Tty::open();
     tty.wait_for("Corner contact");
@@ -189,12 +126,4 @@ fn without_a_terminal_it_names_the_headless_command() {
             "{term:?}: {words}"
         );
     }
-}
-
-#[test]
-fn a_dumb_terminal_is_refused() {
-    let mut tty = Launch::on_table_1().variable("TERM", "dumb").start();
-    assert_eq!(tty.wait_for_end().exit_code(), 2);
-    tty.assert_restored();
-    assert!(tty.shows("tipstrike solve"));
 }

@@ -250,13 +250,14 @@ fn every_kind_of_terminal_gets_its_character_set_and_colours() {
                 let cells = (0..24)
                     .flat_map(|row| (0..80).filter_map(move |column| screen.cell(row, column)));
                 let plain = vt100::Color::Default;
-                let coloured =
-                    cells.filter(|cell| (cell.fgcolor(), cell.bgcolor()) != (plain, plain)).count();
-                assert_eq!(
-                    coloured == 0,
-                    !colour.is_empty(),
-                    "{term} {locale} NO_COLOR={colour:?}: {coloured}"
-                );
+                let (mut is_coloured, mut bold, mut inverse) = (false, 0, 0);
+                for cell in cells {
+                    is_coloured |= (cell.fgcolor(), cell.bgcolor()) != (plain, plain);
+                    bold += usize::from(cell.bold());
+                    inverse += usize::from(cell.inverse());
+                }
+                assert_eq!(is_coloured, colour.is_empty(), "{term} {locale} NO_COLOR={colour:?}");
+                assert!(bold > 0 && inverse > 0, "without colours, bold and reverse remain");
                 tty.quit();
             }
         }
@@ -267,6 +268,8 @@ fn every_kind_of_terminal_gets_its_character_set_and_colours() {
         assert_eq!(tty.wait_for_end().exit_code(), 2);
         let words = tty.written.clone().unwrap_or_default();
         assert!(!words.contains(&0x1b), "{words:?}");
+        tty.assert_restored();
+        assert!(tty.shows("tipstrike solve"));
     }
 }
 
@@ -308,6 +311,12 @@ fn a_reply_that_nobody_asked_for_and_an_unfinished_sequence_leave_the_keys_alive
         b"\x1b[M ",
         b"\x1bP1$r0",
         b"\x1b]11;rgb:00",
+        b"\x1b[M5\x1b[",
+        b"\x1b[M   ",
+        b"\x1b[<0;0;0M",
+        b"\x1b[0;0R",
+        b"\x1b[32;0;0M",
+        b"\x1b[?",
         b"\x1b[200~",
     ] {
         let mut tty = opened(Launch::on_table_1());

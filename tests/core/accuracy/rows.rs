@@ -6,7 +6,7 @@ use std::thread;
 
 use serde_json::Value;
 use tipstrike::model::inputs::{ContactCompliance, Drive, InertiaModel, Method, ToothCompliance};
-use tipstrike::model::{Inputs, QUANTITIES, Refusal, Stage, Stages, solve};
+use tipstrike::model::{Inputs, QUANTITIES, Quantity, Refusal, Stage, Stages, solve};
 
 use crate::envelope::{self, Corner, Random};
 use crate::oracle::{self, number};
@@ -52,6 +52,12 @@ impl Row {
                 .map(|(key, condition)| (key.to_owned(), short(condition)))
                 .collect(),
         })
+    }
+
+    /// The stages of the quantities that have an answer.
+    pub(crate) fn stages(&self) -> Stages {
+        let stage = |key: &String| Quantity::find(key).expect("a quantity").stage;
+        self.answers.keys().map(stage).map(Stages::of).fold(Stages::NONE, Stages::and)
     }
 
     /// A quantity as a double.
@@ -178,68 +184,68 @@ fn read(row: &Value, keys: &[&str]) -> Row {
 }
 
 /// A reference to a value of the inputs.
-enum LatestRequest<'a> {
+enum Slot<'a> {
     Count(&'a mut u32),
     Number(&'a mut f64),
     Perhaps(&'a mut Option<f64>),
 }
 
-impl LatestRequest<'_> {
+impl Slot<'_> {
     fn written(self) -> Option<String> {
         match self {
-            LatestRequest::Count(count) => Some(count.to_string()),
-            LatestRequest::Number(number) => Some(format!("{number:e}")),
-            LatestRequest::Perhaps(perhaps) => perhaps.map(|number| format!("{number:e}")),
+            Slot::Count(count) => Some(count.to_string()),
+            Slot::Number(number) => Some(format!("{number:e}")),
+            Slot::Perhaps(perhaps) => perhaps.map(|number| format!("{number:e}")),
         }
     }
 
     fn read(self, text: Option<&str>) {
         let number = text.map(|text| text.parse::<f64>().expect("a number"));
         match self {
-            LatestRequest::Count(count) => *count = number.expect("a count") as u32,
-            LatestRequest::Number(place) => *place = number.expect("a number"),
-            LatestRequest::Perhaps(place) => *place = number,
+            Slot::Count(count) => *count = number.expect("a count") as u32,
+            Slot::Number(place) => *place = number.expect("a number"),
+            Slot::Perhaps(place) => *place = number,
         }
     }
 }
 
 /// A number of the inputs: its name and its reference.
-type Field = (&'static str, fn(&mut Inputs) -> LatestRequest<'_>);
+type Field = (&'static str, fn(&mut Inputs) -> Slot<'_>);
 
 /// Every number of the inputs that differs between rows.
 const FIELDS: [Field; 30] = [
-    ("module", |i| LatestRequest::Number(&mut i.module)),
-    ("pressure_angle", |i| LatestRequest::Number(&mut i.pressure_angle)),
-    ("centre_distance", |i| LatestRequest::Perhaps(&mut i.centre_distance)),
+    ("module", |i| Slot::Number(&mut i.module)),
+    ("pressure_angle", |i| Slot::Number(&mut i.pressure_angle)),
+    ("centre_distance", |i| Slot::Perhaps(&mut i.centre_distance)),
     ("drive", |i| match &mut i.drive {
-        Drive::Power(drive) | Drive::Torque(drive) => LatestRequest::Number(drive),
+        Drive::Power(drive) | Drive::Torque(drive) => Slot::Number(drive),
     }),
-    ("speed", |i| LatestRequest::Number(&mut i.speed)),
-    ("base_pitch_deviation", |i| LatestRequest::Number(&mut i.base_pitch_deviation)),
-    ("deflection", |i| LatestRequest::Perhaps(&mut i.deflection)),
-    ("driver.teeth", |i| LatestRequest::Count(&mut i.driver.teeth)),
-    ("driver.profile_shift", |i| LatestRequest::Number(&mut i.driver.profile_shift)),
-    ("driver.addendum", |i| LatestRequest::Number(&mut i.driver.addendum)),
-    ("driver.face_width", |i| LatestRequest::Number(&mut i.driver.face_width)),
-    ("driver.bore_radius", |i| LatestRequest::Number(&mut i.driver.bore_radius)),
-    ("driver.young", |i| LatestRequest::Number(&mut i.driver.young)),
-    ("driver.poisson", |i| LatestRequest::Number(&mut i.driver.poisson)),
-    ("driver.density", |i| LatestRequest::Number(&mut i.driver.density)),
-    ("driver.root_relief", |i| LatestRequest::Number(&mut i.driver.root_relief)),
-    ("driver.tip_chamfer", |i| LatestRequest::Number(&mut i.driver.tip_chamfer)),
-    ("driver.tip_radius", |i| LatestRequest::Perhaps(&mut i.driver.tip_radius)),
-    ("driven.teeth", |i| LatestRequest::Count(&mut i.driven.teeth)),
-    ("driven.profile_shift", |i| LatestRequest::Number(&mut i.driven.profile_shift)),
-    ("driven.addendum", |i| LatestRequest::Number(&mut i.driven.addendum)),
-    ("driven.face_width", |i| LatestRequest::Number(&mut i.driven.face_width)),
-    ("driven.bore_radius", |i| LatestRequest::Number(&mut i.driven.bore_radius)),
-    ("driven.young", |i| LatestRequest::Number(&mut i.driven.young)),
-    ("driven.poisson", |i| LatestRequest::Number(&mut i.driven.poisson)),
-    ("driven.density", |i| LatestRequest::Number(&mut i.driven.density)),
-    ("driven.tip_relief", |i| LatestRequest::Number(&mut i.driven.tip_relief)),
-    ("driven.tip_chamfer", |i| LatestRequest::Number(&mut i.driven.tip_chamfer)),
-    ("driven.tip_radius", |i| LatestRequest::Perhaps(&mut i.driven.tip_radius)),
-    ("backlash", |i| LatestRequest::Number(&mut i.backlash)),
+    ("speed", |i| Slot::Number(&mut i.speed)),
+    ("base_pitch_deviation", |i| Slot::Number(&mut i.base_pitch_deviation)),
+    ("deflection", |i| Slot::Perhaps(&mut i.deflection)),
+    ("driver.teeth", |i| Slot::Count(&mut i.driver.teeth)),
+    ("driver.profile_shift", |i| Slot::Number(&mut i.driver.profile_shift)),
+    ("driver.addendum", |i| Slot::Number(&mut i.driver.addendum)),
+    ("driver.face_width", |i| Slot::Number(&mut i.driver.face_width)),
+    ("driver.bore_radius", |i| Slot::Number(&mut i.driver.bore_radius)),
+    ("driver.young", |i| Slot::Number(&mut i.driver.young)),
+    ("driver.poisson", |i| Slot::Number(&mut i.driver.poisson)),
+    ("driver.density", |i| Slot::Number(&mut i.driver.density)),
+    ("driver.root_relief", |i| Slot::Number(&mut i.driver.root_relief)),
+    ("driver.tip_chamfer", |i| Slot::Number(&mut i.driver.tip_chamfer)),
+    ("driver.tip_radius", |i| Slot::Perhaps(&mut i.driver.tip_radius)),
+    ("driven.teeth", |i| Slot::Count(&mut i.driven.teeth)),
+    ("driven.profile_shift", |i| Slot::Number(&mut i.driven.profile_shift)),
+    ("driven.addendum", |i| Slot::Number(&mut i.driven.addendum)),
+    ("driven.face_width", |i| Slot::Number(&mut i.driven.face_width)),
+    ("driven.bore_radius", |i| Slot::Number(&mut i.driven.bore_radius)),
+    ("driven.young", |i| Slot::Number(&mut i.driven.young)),
+    ("driven.poisson", |i| Slot::Number(&mut i.driven.poisson)),
+    ("driven.density", |i| Slot::Number(&mut i.driven.density)),
+    ("driven.tip_relief", |i| Slot::Number(&mut i.driven.tip_relief)),
+    ("driven.tip_chamfer", |i| Slot::Number(&mut i.driven.tip_chamfer)),
+    ("driven.tip_radius", |i| Slot::Perhaps(&mut i.driven.tip_radius)),
+    ("backlash", |i| Slot::Number(&mut i.backlash)),
 ];
 
 /// The choices of the inputs as text.

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use tipstrike::model::geometry::geometry;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::position::{gap_by_quadrature, tip_at};
-use tipstrike::model::{Quantity, Stages, solve};
+use tipstrike::model::{Quantity, solve};
 
 use super::naive::Naive;
 use super::rows::{self, Row};
@@ -157,7 +157,7 @@ impl Table {
 /// Per quantity the error of the printed formula and of tipstrike.
 fn errors_of(row: &Row) -> [[Option<f64>; 2]; 7] {
     let naive = Naive::of(&row.inputs);
-    let solution = solve(&row.inputs, Stages::CLOSED_FORM).expect("a solution");
+    let solution = solve(&row.inputs, row.stages()).expect("a solution");
     let angle = row.answer("approach_angle_driven").expect("an angle");
     let exact_gap = oracle::gap_at(&row.inputs, angle).expect("a gap");
     let plain = geometry::<f64>(&row.inputs.shape()).expect("a geometry");
