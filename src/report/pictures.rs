@@ -6,7 +6,7 @@ use super::charts::{
     NamedCase, SPECTRUM, SPEED, TOOTH_KEYS, graph_chart, spectrum_chart, speed_chart, tooth_chart,
 };
 use super::graphs::{GRAPHS, Graph};
-use super::relief::{RELIEF, relief_chart};
+use super::relief::{RELIEF, relief_chart, tolerances};
 use super::solve::{Part, Unsolved};
 use super::svg;
 use crate::model::Refusal;
@@ -119,7 +119,8 @@ impl Picture {
             }
             Drawing::Relief => {
                 let (_, report) = first()?;
-                relief_chart(&report.inputs, &report.solution.geometry)
+                let reliefs = report.inputs.reliefs();
+                relief_chart(&reliefs, &report.solution.geometry, tolerances(&report.case))
             }
             Drawing::Teeth => {
                 let (_, report) = first()?;

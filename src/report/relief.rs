@@ -5,7 +5,9 @@ use super::json::{Json, json};
 use super::layout::{WIDTH, item};
 use super::results::{Named, Results};
 use super::table::{Cell, Column, Table};
-use crate::case::units;
+use crate::case::fields::index_of;
+use crate::case::spread::Shape;
+use crate::case::{Case, units};
 use crate::model::Inputs;
 use crate::model::explanation::tidy;
 use crate::model::geometry::Geometry;
@@ -13,10 +15,10 @@ use crate::model::inputs::{Method, ReliefShape};
 use crate::model::relief::{GearReliefs, Relief, Reliefs};
 use crate::numeric::decimal::shortest;
 use crate::study::relief::{
-    Begin, Choice, Figures, MOST_LOAD, MapPoint, Specification, TipReliefs,
+    Begin, Choice, Figures, MOST_LOAD, MapPoint, Off, Specification, TipReliefs,
 };
 
-/// A relief to specify with the name of its case.
+/// A relief to specify with the method of its case.
 #[derive(Clone, Copy)]
 pub struct ReliefReport<'a> {
     /// The method of the case.
@@ -30,24 +32,20 @@ impl ReliefReport<'_> {
     /// unwrapped sentences.
     pub fn of_choice(&self, at: usize) -> Vec<String> {
         let found = self.found;
-        let mut lines = vec![self.demand(), String::new()];
-        lines.extend(self.drawing(at).lines());
-        lines.push(String::new());
-        lines.extend(self.sentences(at));
-        let force = if found.method == Method::Dynamic { "in motion" } else { "at rest" };
-        let greatest = percent(found.demand.greatest_load());
-        let figure = self.figure();
+        let is_moving = found.method == Method::Dynamic;
+        let (figure, greatest) = (self.figure(), percent(found.demand.greatest_load()));
         let within = match found.demand.minimise.worth() {
             0.0 => "without force before E".to_owned(),
             worth => {
                 format!("within {:.0} % of the least {}", 100.0 * worth, found.demand.minimise)
             }
         };
-        let costs: &[usize] = match found.method {
-            Method::Dynamic => &[11, 12, 13, 14, 15, 16, 8, 17],
-            _ => &[11, 12, 13, 14, 15, 8, 17],
-        };
-        for (title, table) in [
+        let costs = ["worst_transmission_error", "least_load_error", "least_load_change"];
+        let costs = costs.into_iter().chain(["unloaded_contact_ratio", "worst_entry_force"]);
+        let costs = costs.chain(["worst_peak_force"]).chain(is_moving.then_some("dynamic_factor"));
+        let costs: Vec<&str> = costs.chain(["margin", "greatest_load"]).collect();
+        let force = if is_moving { "in motion" } else { "at rest" };
+        let tables = [
             (
                 format!("Before and after, forces {force} at {greatest} % of the load"),
                 self.before_and_after(at),
@@ -66,7 +64,7 @@ impl ReliefReport<'_> {
                      gap in um, load at which it closes",
                     percent(found.loads[0])
                 ),
-                self.of_choices(costs),
+                self.of_choices(&costs),
             ),
             (
                 "Transmission error peak to peak over the load, um (Harris map)".into(),
@@ -79,7 +77,12 @@ impl ReliefReport<'_> {
                 ),
                 self.map(),
             ),
-        ] {
+        ];
+        let mut lines = vec![self.demand(), String::new()];
+        lines.extend(self.drawing(at).lines());
+        lines.push(String::new());
+        lines.extend(self.sentences(at));
+        for (title, table) in tables {
             lines.extend([String::new(), title]);
             lines.extend(table.lines());
         }
@@ -91,16 +94,21 @@ impl ReliefReport<'_> {
         // Why the method is not that of the case.
         let reason = match self.method {
             own if own == *method => String::new(),
+            _ if self.found.is_over_face => ", over the face width".to_owned(),
             Method::Auto => ", chosen by auto".to_owned(),
             own => {
                 let own = own.name();
                 format!(", because method {own} does not share the load among pairs")
             }
         };
-        let loads = demand.loads_text().replace("..", " to ");
+        let tilt = match demand.misalignment {
+            0.0 => String::new(),
+            tilt => format!(", misalignment +-{} um", tidy(tilt * 1e6, 3)),
+        };
         format!(
-            "Tip relief for {loads} of {} N m with the least {}, tolerances {} um on amounts and \
-             {} mm on lengths; computed by method {}{reason}.",
+            "Tip relief for {} of {} N m with the least {}, tolerances {} um on amounts and {} mm \
+             on lengths{tilt}; computed by method {}{reason}.",
+            demand.loads_text().replace("..", " to "),
             tidy(*torque, 4),
             demand.minimise,
             tidy(demand.tolerance * 1e6, 3),
@@ -120,33 +128,35 @@ impl ReliefReport<'_> {
 
     /// What a drawing states of a choice.
     fn drawing(&self, at: usize) -> Table {
-        let Specification { choices, demand, geometry, .. } = self.found;
-        let reliefs = choices[at].reliefs;
-        let off = self.tolerance_length();
-        let begins = reliefs.begins(geometry);
+        let Specification { choices, demand, geometry, is_over_face, .. } = self.found;
+        let (reliefs, off) = (choices[at].reliefs, self.tolerance_length());
         let shorter = TipReliefs { lengths: reliefs.lengths.map(|own| own - off), ..reliefs };
-        let above = shorter.begins(geometry);
+        let ends = [reliefs, shorter].map(|reliefs| reliefs.begins(geometry));
         let row = |title: &str, of: &dyn Fn(usize) -> String| {
             let cell = |at: usize| if reliefs.amounts[at] > 0.0 { of(at) } else { "-".to_owned() };
-            vec![title.to_owned(), cell(0), cell(1)]
+            vec![format!("  {title}"), cell(0), cell(1)]
         };
         let place = |of: fn(&Begin) -> f64, at: usize| {
-            let [own, other] = [begins, above].map(|begins| of(&begins[at]));
+            let [own, other] = ends.each_ref().map(|begins| of(&begins[at]));
             format!("{own:.2} +-{:.2}", other - own)
         };
-        let rows = [
-            row("  tip relief C_a, um", &|at| {
+        let mut rows = vec![
+            row("tip relief C_a, um", &|at| {
                 format!("{} +-{}", um(reliefs.amounts[at]), um(demand.tolerance))
             }),
-            row("  length along the path of contact L_Ca, mm", &|at| {
+            row("length along the path of contact L_Ca, mm", &|at| {
                 format!("{} +-{}", mm(reliefs.lengths[at]), mm(off))
             }),
-            row("  begins at roll angle, deg", &|at| {
+            row("begins at roll angle, deg", &|at| {
                 place(|begin| begin.roll_angle.to_degrees(), at)
             }),
-            row("  begins at diameter d_Ca, mm", &|at| place(|begin| 1e3 * begin.diameter, at)),
-            row("  shape", &|_| name(reliefs.shape).to_owned()),
+            row("begins at diameter d_Ca, mm", &|at| place(|begin| 1e3 * begin.diameter, at)),
+            row("shape", &|_| name(reliefs.shape).to_owned()),
         ];
+        if *is_over_face {
+            let crowning = um(reliefs.crowning);
+            rows.push(vec!["  crowning C_b, um".to_owned(), crowning, "as in the case".to_owned()]);
+        }
         let head = ["  For the drawing", "driver", "driven gear"].map(str::to_owned);
         let mut table = Table::of_texts(head.to_vec(), rows);
         table.columns[1..].iter_mut().for_each(|column| column.gap = 3);
@@ -159,73 +169,68 @@ impl ReliefReport<'_> {
         let (case, own) = (&found.choices[0], &found.choices[at]);
         let greatest = found.demand.greatest_load();
         let load = match own.greatest_load {
-            Some(load) => {
-                format!("the load can rise to {} %", percent((1e3 * load).floor() / 1e3))
-            }
+            Some(load) => format!("the load can rise to {} %", percent(floor(load))),
             None => {
                 format!("no load up to {} % causes corner contact", percent(MOST_LOAD * greatest))
             }
         };
         let Figures { gap, strikes, entry, .. } = own.worst;
-        let margin = match strikes {
-            false => format!(
-                "No corner contact at {} % of the load within the tolerances: a gap of {} um \
-                 remains; at rest, {load}.",
-                percent(greatest),
-                tidy(gap * 1e6, 2),
-            ),
+        let contact =
+            format!("orner contact at {} % of the load within the tolerances", percent(greatest));
+        let [remains, overlap] = [gap, -gap].map(|gap| tidy(gap * 1e6, 2));
+        let entry = tidy(entry, 3);
+        let mut lines = vec![match strikes {
+            false => {
+                format!("No c{contact}: a gap of {remains} um remains; at rest, {load}.")
+            }
             true if gap < 0.0 => format!(
-                "Corner contact at {} % of the load within the tolerances: the teeth overlap by {} \
-                 um at rest, the force before E is {} N.",
-                percent(greatest),
-                tidy(-gap * 1e6, 2),
-                tidy(entry, 3)
+                "C{contact}: the teeth overlap by {overlap} um at rest, the force before E is \
+                 {entry} N."
             ),
+            true if found.is_over_face => format!("C{contact} after B."),
             true => "Corner contact in motion within the tolerances.".to_owned(),
-        };
-        let mut lines = vec![margin];
+        }];
         if at > 0 {
-            let least = percent(found.loads[0]);
             let changed = |from: f64, to: f64| {
                 let [shown, other] = [from, to].map(|error| tidy(error * 1e6, 3));
                 format!("from {shown} to {other} um ({})", change(from, to))
             };
             lines.push(format!(
-                "The {} transmission error over the loads changes {}, at {least} % of the load {}.",
+                "The {} transmission error over the loads changes {}, at {} % of the load {}.",
                 self.figure(),
                 changed(case.nominal.error, own.nominal.error),
+                percent(found.loads[0]),
                 changed(case.errors[0], own.errors[0]),
             ));
             let [from, to] = [case, own].map(|choice| choice.nominal.peak);
             if (to / from - 1.0).abs() > 0.02 {
-                let (shown, change) = ([from, to].map(|force| tidy(force, 4)), change(from, to));
+                let [shown, other] = [from, to].map(|force| tidy(force, 4));
+                let change = change(from, to);
                 lines.push(format!(
-                    "The peak force of a tooth changes from {} to {} N ({change}).",
-                    shown[0], shown[1]
+                    "The peak force of a tooth changes from {shown} to {other} N ({change})."
                 ));
             }
         }
         let ratio = own.reliefs.unloaded_contact_ratio(&found.geometry);
-        if ratio < 1.0 {
+        if ratio < 1.0 && !found.is_over_face {
             lines.push(format!(
                 "The unrelieved flanks alone have a contact ratio of {ratio:.3}, below 1: under \
                  light load the pairs change on the reliefs."
             ));
         }
-        lines.extend(self.alternative(at));
+        lines.extend(self.alternative(own));
         if found.is_cut {
             lines.push("The search ended with its budget; a better relief may exist.".to_owned());
         }
         lines
     }
 
-    /// The choice with the best figure, if it is another one.
-    fn alternative(&self, at: usize) -> Option<String> {
+    /// The choice with the best figure, if it is another one than `own`.
+    fn alternative(&self, own: &Choice) -> Option<String> {
         let Specification { choices, demand, .. } = self.found;
         let figure = |choice: &Choice| choice.worst.of(demand.minimise);
         let best = choices.iter().filter(|choice| !choice.worst.strikes);
         let best = best.min_by(|one, other| figure(one).total_cmp(&figure(other)))?;
-        let own = &choices[at];
         let gain = 1.0 - figure(best) / figure(own);
         let cost = best.reliefs.removed() - own.reliefs.removed();
         (gain >= 0.005 && cost > 0.0).then(|| {
@@ -242,38 +247,47 @@ impl ReliefReport<'_> {
 
     /// The figures with the relief of the case, with a choice, and at the limits of its tolerances.
     fn before_and_after(&self, at: usize) -> Table {
-        let (case, own) = (&self.found.choices[0], &self.found.choices[at]);
-        let all = [&case.nominal, &own.nominal, &own.worst];
-        let row = |title: &str, of: &dyn Fn(&Figures) -> Option<f64>, digits: usize| {
-            let cell = |figures| of(figures).map_or_else(|| "-".to_owned(), |it| tidy(it, digits));
-            [vec![format!("  {title}")], all.map(cell).to_vec()].concat()
-        };
-        let force = self.found.mesh_force;
+        let Specification { choices, mesh_force, is_over_face, .. } = self.found;
+        let (case, own) = (&choices[0], &choices[at]);
         let error = format!("{} TE over the loads, um", self.figure());
-        let mut rows = vec![
-            row(&error, &|found| Some(found.error * 1e6), 3),
-            row("force before E, N", &|found| Some(found.entry), 4),
-            row("peak force of a tooth, N", &|found| Some(found.peak), 4),
-            row("peak force/mesh force", &|found| Some(found.peak / force), 3),
-            row("dynamic factor K_mesh", &|found| found.factor, 3),
-            row("gap before E and after B at rest, um", &|found| Some(found.gap * 1e6), 2),
+        let gap = if *is_over_face { "gap before E at rest, um" } else { BOTH_GAPS };
+        type Value<'v> = &'v dyn Fn(&Figures) -> Option<f64>;
+        let rows: [(&str, usize, Value); 7] = [
+            (&error, 3, &|found| Some(found.error * 1e6)),
+            ("force before E, N", 4, &|found| Some(found.entry)),
+            ("peak force of a tooth, N", 4, &|found| Some(found.peak)),
+            ("peak force/mesh force", 3, &|found| Some(found.peak / mesh_force)),
+            ("peak line load, N/mm", 4, &|found| Some(found.line_load? / 1e3)),
+            ("dynamic factor K_mesh", 3, &|found| found.factor),
+            (gap, 2, &|found| Some(found.gap * 1e6)),
         ];
-        if self.found.method != Method::Dynamic {
-            rows.remove(4);
-        }
+        let rows = rows.iter().filter_map(|(title, digits, of)| {
+            let values = [&case.nominal, &own.nominal, &own.worst].map(of);
+            let cell = |value: Option<f64>| value.map_or("-".to_owned(), |it| tidy(it, *digits));
+            let is_shown = values.iter().any(Option::is_some);
+            is_shown.then(|| [vec![format!("  {title}")], values.map(cell).to_vec()].concat())
+        });
         let head = ["", "case", "relief", "in tolerance"].map(str::to_owned).to_vec();
         Table::of_texts(head, rows)
     }
 
     /// One row per choice: the relief and its transmission error.
     pub fn gains(&self) -> Table {
-        self.of_choices(&[3, 4, 5, 6, 7, 9, 10])
+        let [amounts, lengths] = KEYS;
+        let reliefs = [amounts[0], lengths[0], amounts[1], lengths[1]].into_iter();
+        let crowning = self.found.is_over_face.then_some(CROWNING);
+        let errors = ["transmission_error", "change", "worst_transmission_error"];
+        self.of_choices(&reliefs.chain(crowning).chain(errors).collect::<Vec<_>>())
     }
 
     /// One row per choice with these columns of the whole table, and a mark at the relief to
     /// specify.
-    fn of_choices(&self, columns: &[usize]) -> Table {
-        let mut table = self.choices().of(&[&[0], columns].concat());
+    fn of_choices(&self, keys: &[&str]) -> Table {
+        let all = self.choices();
+        let place = |key| all.columns.iter().position(|column| column.key == key);
+        let columns: Vec<usize> =
+            [0].into_iter().chain(keys.iter().filter_map(|key| place(*key))).collect();
+        let mut table = all.of(&columns);
         for (at, row) in table.rows.iter_mut().enumerate() {
             row[0] = self.marked(at).into();
         }
@@ -285,82 +299,117 @@ impl ReliefReport<'_> {
         format!("{mark} {}", self.found.choices[at].name)
     }
 
+    /// The columns of numbers of the pair.
+    fn numbers(&self) -> &'static [Numbers] {
+        if self.found.is_over_face { &NUMBERS } else { &NUMBERS[..NUMBERS.len() - OVER_FACE] }
+    }
+
     /// Every result of each choice.
     fn choices(&self) -> Table {
         let texts = [("choice", "  relief"), ("best", ""), ("shape", "")];
-        let texts = texts.map(|(key, title)| Column::text(key, title).wide(0, 0));
-        let numbers = NUMBERS
-            .map(|(key, title, unit, shown, _)| Column::number(key, title, unit, shown).wide(1, 0));
+        let texts = texts.map(|(key, title)| Column::text(key, title).wide(0, 0)).into_iter();
+        let numbers = self.numbers().iter();
+        let columns = numbers.map(|&(key, title, unit, shown, _)| {
+            Column::number(key, title, unit, shown).wide(1, 0)
+        });
         let found = self.found;
         let rows = found.choices.iter().enumerate().map(|(at, choice)| {
             let best = if at == found.best { "true" } else { "false" };
             let texts = [choice.name, best, name(choice.reliefs.shape)].map(Cell::from);
-            let numbers = NUMBERS.map(|(.., (shown, digits), of)| {
+            let numbers = self.numbers().iter().map(|(.., (shown, digits), of)| {
                 let Some(value) = of(found, choice) else { return Cell::None("-".into()) };
-                let text = match shown {
+                let text = match *shown {
                     "%" => format!("{:+.0} %", 100.0 * value),
                     "% load" => percent(value) + " %",
-                    unit => tidy(value / units::factor(unit).unwrap_or(1.0), digits),
+                    unit => tidy(value / units::factor(unit).unwrap_or(1.0), *digits),
                 };
                 Cell::Shown(value, text)
             });
             texts.into_iter().chain(numbers).collect()
         });
-        Table::new("", texts.into_iter().chain(numbers).collect()).with(rows)
+        Table::new("", texts.chain(columns).collect()).with(rows)
     }
 
     /// One row per choice: the transmission error over the load.
     fn harris(&self) -> Table {
         let loads = self.found.loads.iter().map(|&load| format!("{} %", percent(load)));
         let rows = self.found.choices.iter().enumerate().map(|(at, choice)| {
-            let name = self.marked(at);
             let errors = choice.errors.iter().map(|error| tidy(error * 1e6, 3));
-            std::iter::once(name).chain(errors).collect()
+            [self.marked(at)].into_iter().chain(errors).collect()
         });
-        Table::of_texts(std::iter::once("  relief".to_owned()).chain(loads).collect(), rows)
+        Table::of_texts(["  relief".to_owned()].into_iter().chain(loads).collect(), rows)
     }
 
-    /// One row per length: the figure of the transmission error by amount.
+    /// One row per length: the figure of the transmission error by amount. The amounts are in one
+    /// row, or in one per gear.
     fn map(&self) -> Table {
         let (found, chosen) = (self.found, self.found.chosen().reliefs);
+        let near = |one: [f64; 2], other: [f64; 2]| (one[0] - other[0]).abs() < 1e-9;
         let cell = |point: &MapPoint| {
-            let same = |one: [f64; 2], other: [f64; 2]| (one[0] - other[0]).abs() < 1e-9;
-            let is_chosen = same(point.reliefs.amounts, chosen.amounts)
-                && same(point.reliefs.lengths, chosen.lengths);
             let error =
                 if point.margin < 0.0 { "-".to_owned() } else { tidy(point.error * 1e6, 2) };
+            let is_chosen = near(point.reliefs.amounts, chosen.amounts)
+                && near(point.reliefs.lengths, chosen.lengths);
             if is_chosen { format!("*{error}") } else { error }
         };
-        // The amounts in one row, or in one per gear.
         let points = found.map.first().map_or(&[][..], Vec::as_slice);
+        let amounts = |at: usize| points.iter().map(move |point| um(point.reliefs.amounts[at]));
         let head = |name: &str, at: usize| {
-            let amounts = points.iter().map(|point| um(point.reliefs.amounts[at]));
-            std::iter::once(format!("  amount{name}, um")).chain(amounts).collect::<Vec<_>>()
+            [format!("  amount{name}, um")].into_iter().chain(amounts(at)).collect::<Vec<_>>()
         };
-        let [both, driver, driven] =
-            [("", 0), (" driver", 0), (" driven", 1)].map(|(name, at)| head(name, at));
-        let is_alike = driver[1..] == driven[1..];
-        let (first, second) = if is_alike { (both, None) } else { (driver, Some(driven)) };
+        let (first, second) = if amounts(0).eq(amounts(1)) {
+            (head("", 0), None)
+        } else {
+            (head(" driver", 0), Some(head(" driven", 1)))
+        };
         let rows = found.map.iter().map(|row| {
-            let length = row.first().map(|point| length(point.reliefs.lengths));
-            std::iter::once(length.unwrap_or_default()).chain(row.iter().map(cell)).collect()
+            let [driver, driven] = row[0].reliefs.lengths.map(mm);
+            let both = if driver == driven { driver } else { format!("{driver}/{driven}") };
+            [format!("  length {both} mm")].into_iter().chain(row.iter().map(cell)).collect()
         });
         Table::of_texts(first, second.into_iter().chain(rows))
     }
 
     /// A relief with the points at which it begins.
     fn relief(&self, reliefs: &TipReliefs) -> Json {
-        let TipReliefs { shape, amounts, lengths } = reliefs;
         let begins = reliefs.begins(&self.found.geometry);
+        let crowning = self.found.is_over_face.then_some(reliefs.crowning);
         let gear = |at: usize| {
             json!({
-                "tip_relief": amounts[at],
-                "tip_relief_length": lengths[at],
+                "tip_relief": reliefs.amounts[at],
+                "tip_relief_length": reliefs.lengths[at],
                 "begin_roll_angle": begins[at].roll_angle,
                 "begin_diameter": begins[at].diameter,
+                "crowning": crowning.filter(|_| at == 0),
             })
         };
-        json!({"shape": name(*shape), "driver": gear(0), "driven": gear(1)})
+        json!({"shape": name(reliefs.shape), "driver": gear(0), "driven": gear(1)})
+    }
+
+    /// A choice as values of the fields of a case, rounded as the report prints them.
+    pub fn settings(&self, at: usize) -> Vec<(&'static str, String)> {
+        let ([amounts, lengths], reliefs) = (KEYS, &self.found.choices[at].reliefs);
+        let mut settings = vec![("model.relief_shape", name(reliefs.shape).to_owned())];
+        for at in 0..2 {
+            let has_relief = reliefs.amounts[at] > 0.0;
+            let in_mm = format!("{} mm", mm(reliefs.lengths[at]));
+            settings.push((amounts[at], format!("{} um", um(reliefs.amounts[at]))));
+            settings.push((lengths[at], if has_relief { in_mm } else { String::new() }));
+        }
+        if self.found.is_over_face {
+            settings.push((CROWNING, format!("{} um", um(reliefs.crowning))));
+        }
+        settings
+    }
+
+    /// The diagram of the relief to specify with its tolerances, on the pair of the case.
+    ///
+    /// # Errors
+    /// As [`relief_chart`].
+    pub fn chart(&self, inputs: &Inputs) -> Result<Chart, String> {
+        let (amount, length) = (self.found.demand.tolerance, self.tolerance_length());
+        let reliefs = self.found.chosen().reliefs.of(inputs).reliefs();
+        relief_chart(&reliefs, &self.found.geometry, [amount, amount, length, length])
     }
 }
 
@@ -377,7 +426,7 @@ impl Results for ReliefReport<'_> {
     fn json(&self) -> Json {
         let found = self.found;
         // The reliefs have members of their own.
-        let results: Vec<usize> = (7..3 + NUMBERS.len()).collect();
+        let results: Vec<usize> = (7..3 + self.numbers().len()).collect();
         let results = self.choices().of(&results).objects();
         let choice = |(choice, results): (&Choice, Json)| {
             let mut line = json!({
@@ -391,7 +440,10 @@ impl Results for ReliefReport<'_> {
             }
             line
         };
-        let point = |MapPoint { reliefs, error, margin }: &MapPoint| json!({"relief": self.relief(reliefs), "transmission_error": error, "margin": margin});
+        let point = |point: &MapPoint| {
+            let relief = self.relief(&point.reliefs);
+            json!({"relief": relief, "transmission_error": point.error, "margin": point.margin})
+        };
         let shares: Vec<f64> = found.demand.loads().into_iter().map(|(_, share)| share).collect();
         let chosen = found.chosen();
         json!({
@@ -401,6 +453,7 @@ impl Results for ReliefReport<'_> {
             "shares": (!found.demand.spectrum.is_empty()).then_some(shares),
             "tolerance": found.demand.tolerance,
             "tolerance_length": found.demand.tolerance_length,
+            "misalignment": found.is_over_face.then_some(found.demand.misalignment),
             "minimise": found.demand.minimise.name(),
             "relief": self.relief(&chosen.reliefs),
             "margin": chosen.worst.gap,
@@ -424,6 +477,7 @@ impl Results for ReliefReport<'_> {
                 (KEYS[0][1], reliefs.amounts[1]),
                 (KEYS[1][0], reliefs.lengths[0]),
                 (KEYS[1][1], reliefs.lengths[1]),
+                (CROWNING, reliefs.crowning),
                 ("transmission_error", *error),
                 ("margin", *margin),
                 ("driver.begin_diameter", begins[0].diameter),
@@ -434,22 +488,24 @@ impl Results for ReliefReport<'_> {
                 let known = known.iter().find(|(key, _)| *key == column.key);
                 Cell::number(known.map(|(_, value)| *value), "")
             };
-            let numbers = table.columns[3..].iter().map(number);
-            let row = texts.into_iter().chain(numbers).collect();
+            let row = texts.into_iter().chain(table.columns[3..].iter().map(number)).collect();
             table.rows.push(row);
         }
         table
     }
 }
 
-/// The value of a column of a choice, in SI.
-type Number = fn(&Specification, &Choice) -> Option<f64>;
+/// A column of numbers: key, header, unit in SI, unit and digits in text, value in SI.
+type Numbers = (
+    &'static str,
+    &'static str,
+    &'static str,
+    (&'static str, usize),
+    fn(&Specification, &Choice) -> Option<f64>,
+);
 
-/// A column of numbers.
-type Numbers = (&'static str, &'static str, &'static str, (&'static str, usize), Number);
-
-/// The columns of numbers: key, header, unit in SI, unit and digits in text, value.
-const NUMBERS: [Numbers; 19] = [
+/// The columns of numbers.
+const NUMBERS: [Numbers; 22] = [
     ("driver.tip_relief", "C_a1", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[0])),
     ("driver.tip_relief_length", "L_1", "m", ("mm", 4), |_, of| of.length(0)),
     ("driven.tip_relief", "C_a2", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[1])),
@@ -470,9 +526,7 @@ const NUMBERS: [Numbers; 19] = [
     ("worst_entry_force", "entry", "N", ("N", 3), |_, of| Some(of.worst.entry)),
     ("worst_peak_force", "peak", "N", ("N", 4), |_, of| Some(of.worst.peak)),
     ("dynamic_factor", "K", "1", ("1", 3), |_, of| of.nominal.factor),
-    ("greatest_load", "load", "1", ("% load", 0), |_, of| {
-        of.greatest_load.map(|load| (1e3 * load).floor() / 1e3)
-    }),
+    ("greatest_load", "load", "1", ("% load", 0), |_, of| of.greatest_load.map(floor)),
     ("entry_force", "", "N", ("N", 3), |_, of| Some(of.nominal.entry)),
     ("peak_force", "", "N", ("N", 4), |_, of| Some(of.nominal.peak)),
     ("driver.begin_diameter", "", "m", ("mm", 5), |all, of| {
@@ -481,73 +535,93 @@ const NUMBERS: [Numbers; 19] = [
     ("driven.begin_diameter", "", "m", ("mm", 5), |all, of| {
         Some(of.reliefs.begins(&all.geometry)[1].diameter)
     }),
+    (CROWNING, "C_b", "m", ("um", 3), |_, of| Some(of.reliefs.crowning)),
+    ("peak_line_load", "", "N/m", ("N/mm", 4), |_, of| of.nominal.line_load),
+    ("worst_peak_line_load", "", "N/m", ("N/mm", 4), |_, of| of.worst.line_load),
 ];
+/// The number of columns, at the end, of a load that varies over the face width.
+const OVER_FACE: usize = 3;
 
 /// The keys of the amounts and of the lengths of both gears.
 const KEYS: [[&str; 2]; 2] = [
     ["driver.tip_relief", "driven.tip_relief"],
     ["driver.tip_relief_length", "driven.tip_relief_length"],
 ];
-
-/// The reliefs as values of the fields of a case, rounded as the report prints them.
-pub fn settings(reliefs: &TipReliefs) -> Vec<(&'static str, String)> {
-    let [amounts, lengths] = KEYS;
-    let mut settings = vec![("model.relief_shape", name(reliefs.shape).to_owned())];
-    for at in 0..2 {
-        let has_relief = reliefs.amounts[at] > 0.0;
-        let in_mm = format!("{} mm", mm(reliefs.lengths[at]));
-        settings.push((amounts[at], format!("{} um", um(reliefs.amounts[at]))));
-        settings.push((lengths[at], if has_relief { in_mm } else { String::new() }));
-    }
-    settings
-}
+const CROWNING: &str = "driver.crowning";
+const BOTH_GAPS: &str = "gap before E and after B at rest, um";
 
 /// The key of the diagram of reliefs.
 pub const RELIEF: &str = "relief";
 
+/// The deviations of the tip reliefs by the distributions of a case: the half-width, or three standard
+/// deviations of a normal distribution.
+pub fn tolerances(case: &Case) -> Off {
+    const DEVIATIONS: f64 = 3.0;
+    let [[one, other], [from, to]] = KEYS;
+    [one, other, from, to].map(|key| {
+        let spread = case.spread.iter().find(|spread| spread.field == key);
+        let given = spread.filter(|_| index_of(key).and_then(|at| case.value(at)).is_some());
+        given.map_or(0.0, |spread| match spread.shape {
+            Shape::Normal => DEVIATIONS * spread.width,
+            _ => spread.width,
+        })
+    })
+}
+
 /// The diagram of the reliefs of a pair: the deviation of each profile from the involute over the
-/// roll angle of its gear, from the start to the end of contact (K-chart).
+/// roll angle of its gear, from the start to the end of contact (K-chart), with the band within which
+/// it is with deviations of the tip reliefs.
 ///
 /// # Errors
 /// The reason if the case has no relief.
-pub fn relief_chart(inputs: &Inputs, geometry: &Geometry) -> Result<Chart, String> {
+pub fn relief_chart(all: &Reliefs, geometry: &Geometry, off: Off) -> Result<Chart, String> {
     /// Points between the ends of contact.
     const POINTS: u32 = 200;
-    let all = inputs.reliefs();
     if all.sum() == 0.0 {
         return Err("the case has no relief".to_owned());
     }
     let none = GearReliefs { tip: 0.0, root: 0.0, ..all.driver };
     let Geometry { start, end, tangent_length, .. } = *geometry;
-    let series = |at: usize| {
-        let own = [Reliefs { driven: none, ..all }, Reliefs { driver: none, ..all }][at];
+    let curve = |at: usize, by: f64| {
+        let mut own = [Reliefs { driven: none, ..*all }, Reliefs { driver: none, ..*all }][at];
+        let gear = if at == 0 { &mut own.driver } else { &mut own.driven };
+        if by != 0.0 && gear.tip > 0.0 {
+            let length = gear.tip_length.unwrap_or(geometry.shared_length()) + by * off[2 + at];
+            gear.tip = (gear.tip + by * off[at]).max(0.0);
+            gear.tip_length = Some(length.max(f64::MIN_POSITIVE));
+        }
         let own = Relief::of(&own, geometry);
         let base = [geometry.driver.base, geometry.driven.base][at];
-        let points = (0..=POINTS).map(|point| {
+        let point = |point| {
             let driver = start + (end - start) * f64::from(point) / f64::from(POINTS);
             let driven = tangent_length - driver;
             let curvature = [driver, driven][at];
             ((curvature / base).to_degrees(), -1e6 * own.at(driver, driven))
-        });
-        let name = ["driver", "driven gear"][at].to_owned();
-        Series { name, pieces: vec![points.collect()], kind: Kind::Curve }
+        };
+        (0..=POINTS).map(point).collect::<Vec<_>>()
     };
+    let name = |at: usize| ["driver", "driven gear"][at];
+    let series = [0, 1].map(|at| {
+        let pieces = vec![curve(at, 0.0)];
+        Series { name: name(at).to_owned(), pieces, kind: Kind::Curve }
+    });
+    let has_band = |at: &usize| off[*at] > 0.0 || off[2 + at] > 0.0;
+    let bands = (0..2).filter(has_band).map(|at| {
+        let pieces = vec![curve(at, 1.0), curve(at, -1.0)];
+        Series { name: format!("{}, tolerance", name(at)), pieces, kind: Kind::Bound }
+    });
     Ok(Chart {
         title: "Reliefs over the roll angle (K-chart)".to_owned(),
         across: Axis::new("roll angle of the gear", "deg"),
         up: Axis::new("Deviation from the involute", "um"),
-        series: vec![series(0), series(1)],
+        series: series.into_iter().chain(bands).collect(),
         marks: Vec::new(),
     })
 }
 
-fn length(lengths: [f64; 2]) -> String {
-    let [driver, driven] = lengths.map(mm);
-    if driver == driven {
-        format!("  length {driver} mm")
-    } else {
-        format!("  length {driver}/{driven} mm")
-    }
+/// A load rounded down to 0.1 %.
+fn floor(load: f64) -> f64 {
+    (1e3 * load).floor() / 1e3
 }
 
 fn name(shape: ReliefShape) -> &'static str {

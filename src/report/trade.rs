@@ -16,12 +16,15 @@ impl Results for Trade {
     /// The results in 80 columns.
     fn lines(&self, case: Named) -> Vec<String> {
         let reference = match self.reference() {
-            Err(refusal) => format!("No reference: method dynamic refuses the case: {refusal}."),
+            Err(refusal) => {
+                let method = if self.is_over_face { "static" } else { "dynamic" };
+                format!("No reference: method {method} refuses the case: {refusal}.")
+            }
             Ok(reference) => format!("Reference: {}. {}", reference.setting, build(self)),
         };
         let mut lines = case.headings("accuracy against run time on this machine");
-        let sections = [item("", &reference), by_compliance(self), item("", &conclusion(self))];
-        for section in sections {
+        let tables = if self.is_over_face { by_slices(self) } else { by_compliance(self) };
+        for section in [item("", &reference), tables, item("", &conclusion(self))] {
             lines.push(String::new());
             lines.extend(section);
         }
@@ -42,6 +45,7 @@ impl Results for Trade {
                 "contact_compliance": contact(setting),
                 "stations": stations(setting),
                 "tolerance": setting.tolerance,
+                "slices": slices(trade, setting),
                 "quantities": sorted(Subject::ALL.into_iter().filter_map(quantity)),
             })
         });
@@ -201,6 +205,35 @@ fn by_compliance(trade: &Trade) -> Vec<String> {
     [item("", title), Table::of_texts(head, rows).lines()].concat()
 }
 
+/// Time and differences of each number of slices, coupled and independent.
+fn by_slices(trade: &Trade) -> Vec<String> {
+    const SUBJECTS: [(Subject, &str); 3] = [
+        (Subject::FirstContact, "first contact"),
+        (Subject::LineLoad, "peak line load"),
+        (Subject::TransmissionError, "TE"),
+    ];
+    let title = "Time of a solve and difference from the reference in %, by number of slices and \
+        their coupling. >: the setting of the case.";
+    let head = ["  slices", "coupling", "time"].into_iter().chain(SUBJECTS.map(|(_, name)| name));
+    let usual = trade.reference().ok().and_then(|reference| reference.setting.models);
+    let measured = trade.settings.iter().filter(|one| one.setting.models == usual);
+    let rows = measured.map(|measured| {
+        let Setting { coupled, .. } = measured.setting;
+        let mark = if measured.is_current { '>' } else { ' ' };
+        let slices = format!("{mark} {}", measured.setting.slices_text());
+        let coupling = if coupled { "coupled" } else { "independent" };
+        let figures = measured.found.as_ref();
+        let time = figures.map_or("refused".to_owned(), |it| duration(it.time.seconds));
+        let errors = SUBJECTS.map(|(subject, _)| {
+            let total = figures.ok().and_then(|figures| figures.total[subject as usize]);
+            total.map_or("-".to_owned(), percent)
+        });
+        [slices, coupling.to_owned(), time].into_iter().chain(errors).collect()
+    });
+    let table = Table::of_texts(head.map(str::to_owned).collect(), rows);
+    [item("", title), table.lines()].concat()
+}
+
 /// The models of tooth and contact in at most 22 characters.
 pub fn compliance_name(models: StiffnessModels) -> String {
     let contact = models.contact.map(|contact| format!(" {}", contact.name()));
@@ -219,6 +252,12 @@ fn contact(setting: &Setting) -> Option<&'static str> {
 
 fn stations(setting: &Setting) -> Json {
     setting.stations.map_or_else(|| json!(setting.stations_text()), |stations| json!(stations))
+}
+
+/// The number of slices, if the load varies over the face width.
+fn slices(trade: &Trade, setting: &Setting) -> Option<Json> {
+    let count = setting.slices.map_or_else(|| json!(setting.slices_text()), |count| json!(count));
+    trade.is_over_face.then_some(count)
 }
 
 fn setting(trade: &Trade, measured: &MeasuredSetting) -> Json {
@@ -241,6 +280,8 @@ fn setting(trade: &Trade, measured: &MeasuredSetting) -> Json {
         "stations": stations(setting),
         "tolerance": setting.tolerance,
         "accurate": setting.accurate,
+        "slices": slices(trade, setting),
+        "slice_coupling": trade.is_over_face.then_some(setting.coupled),
         "current": measured.is_current,
         "seconds": time.map(|time| time.seconds),
         "spread": time.map(|time| time.spread),

@@ -1,7 +1,9 @@
 //! The tip relief to specify: amounts and lengths on both gears that can be made, without corner
-//! contact at the greatest load, and the best by a criterion even at the limits of the tolerances.
+//! contact at the greatest load, and the best by a criterion even at the limits of the tolerances. For
+//! a load that varies over the face width also the crowning.
 
 pub mod demand;
+mod face;
 mod search;
 
 use std::cell::Cell;
@@ -11,8 +13,9 @@ use std::fmt;
 use crate::model::geometry::Geometry;
 use crate::model::inputs::{Drive, Gear, Method, ReliefShape};
 use crate::model::profile::{Profile, Rack};
+use crate::model::slices::Face;
 use crate::model::static_load::{lead_after_end, lead_before_start};
-use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve, solve_while};
+use crate::model::{Inputs, Outcome, Refusal, Solution, Stage, Stages, solve, solve_while};
 pub use demand::{Criterion, Demand};
 use search::{Bench, Grid, MOST_TRIES, Search};
 
@@ -27,7 +30,7 @@ pub const MOST_LOAD: f64 = 64.0;
 const SEARCH: f64 = 0.7;
 
 /// Deviations in m: of the amounts on driver and driven gear, then of the lengths.
-type Off = [f64; 4];
+pub type Off = [f64; 4];
 
 /// The tip reliefs of both gears.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +41,8 @@ pub struct TipReliefs {
     pub amounts: [f64; 2],
     /// Lengths along the path of contact, in m.
     pub lengths: [f64; 2],
+    /// Crowning of the driver, in m.
+    pub crowning: f64,
 }
 
 /// The point of a flank at which a relief begins.
@@ -55,7 +60,8 @@ pub struct Begin {
 pub struct Figures {
     /// The figure of the demand over the peak-to-peak transmission errors at its loads, in m.
     pub error: f64,
-    /// The gap that remains before E and after B at rest, in m; below 0 the overlap.
+    /// The gap that remains before E and after B at rest, in m; below 0 the overlap. Over the face
+    /// width before E alone.
     pub gap: f64,
     /// Whether a tip touches off the path of contact, at rest or in motion.
     pub strikes: bool,
@@ -65,6 +71,8 @@ pub struct Figures {
     pub peak: f64,
     /// Dynamic factor of the mesh in steady motion; only nominal and of method `dynamic`.
     pub factor: Option<f64>,
+    /// Greatest line load, in N/m, if the load varies over the face width.
+    pub line_load: Option<f64>,
 }
 
 /// Reliefs with their results.
@@ -108,6 +116,8 @@ pub struct Specification {
     pub torque: f64,
     /// Mesh force at the greatest load of the demand, in N.
     pub mesh_force: f64,
+    /// Whether the load varies over the face width.
+    pub is_over_face: bool,
     /// The geometry of the pair.
     pub geometry: Geometry,
     /// The loads, relative to the load of the case.
@@ -126,7 +136,7 @@ pub struct Specification {
 
 impl TipReliefs {
     /// The reliefs with deviations. A tip without relief has no deviation.
-    fn off(&self, by: Off) -> TipReliefs {
+    pub fn off(&self, by: Off) -> TipReliefs {
         let amount = |at: usize| {
             if self.amounts[at] > 0.0 { (self.amounts[at] + by[at]).max(0.0) } else { 0.0 }
         };
@@ -155,14 +165,14 @@ impl TipReliefs {
     }
 
     /// The case with these reliefs.
-    fn of(&self, inputs: &Inputs) -> Inputs {
+    pub fn of(&self, inputs: &Inputs) -> Inputs {
         let gear = |gear: &Gear, at: usize| Gear {
             tip_relief: self.amounts[at],
             tip_relief_length: Some(self.lengths[at]),
             ..gear.clone()
         };
         Inputs {
-            driver: gear(&inputs.driver, 0),
+            driver: Gear { crowning: self.crowning, ..gear(&inputs.driver, 0) },
             driven: gear(&inputs.driven, 1),
             relief_shape: self.shape,
             ..inputs.clone()
@@ -198,12 +208,13 @@ impl Figures {
             entry: self.entry.max(other.entry),
             peak: self.peak.max(other.peak),
             factor: None,
+            line_load: self.line_load.max(other.line_load),
         }
     }
 
-    /// The figure that a criterion compares.
+    /// The figure that a criterion compares: of forces over the face width the line load.
     pub fn of(&self, criterion: Criterion) -> f64 {
-        [self.error, self.peak, self.entry][criterion as usize]
+        [self.error, self.line_load.unwrap_or(self.peak), self.entry][criterion as usize]
     }
 }
 
@@ -220,14 +231,16 @@ impl Specification {
 /// ```text
 /// least over C1, L1, C2, L2, shape of  max over the tolerances of  figure
 /// figure:  te     max over the loads of (max x − min x), or its mean over a load spectrum
-///          peak   greatest tooth force at the greatest load
+///          peak   greatest tooth force at the greatest load; over the face its line load
 ///          entry  greatest tooth force before E at the greatest load
 /// with x + e − S <= 0 before E and after B at the greatest load, for each C and L ± its tolerance
 /// ```
 /// x is the transmission error of the static balance. If the method of the case is `dynamic`, the
 /// amounts grow until the motion has no corner contact either. Of the kinds of relief whose figures
 /// differ by no more than [`Criterion::worth`], the one with the smallest amounts is chosen. If no relief
-/// prevents corner contact, the criterion `entry` chooses the one with the least overlap.
+/// prevents corner contact, the criterion `entry` chooses the one with the least overlap. If the load
+/// varies over the face width, both gears have the same relief, the crowning of the driver is found
+/// together with it, and the misalignment ± its deviation is one of the tolerances.
 ///
 /// # Source
 /// Harris maps of the transmission error over the load: Harris 1958; long and short relief: Munro,
@@ -241,40 +254,52 @@ pub fn specify(
     demand: &Demand,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Specification, NoRelief> {
-    if inputs.face().is_some() {
-        return Err(NoRelief::Refused(Refusal::ReliefOverFace));
-    }
     let torque = inputs.torque();
     let inputs = Inputs { drive: Drive::Torque(torque), ..inputs.clone() };
-    let method = governing(&inputs, go_on)?;
+    let is_over_face = inputs.face().is_some() || demand.misalignment > 0.0;
+    let method = if is_over_face { Method::Static } else { governing(&inputs, go_on)? };
     // No figure reads the stations.
     let at_rest = Inputs { method: Method::Static, stations: Some(1), ..inputs };
     let at_most = loaded(&at_rest, demand.greatest_load());
     let solution = solve(&at_most, Stages::of(Stage::Static))?;
     let step = length_step(&solution.geometry);
     let tolerance_length = demand.tolerance_length.unwrap_or(step);
-    let demand = Demand { tolerance_length: Some(tolerance_length), ..demand.clone() };
-    let grid = grid(&at_rest, &solution, &demand, step)?;
-    let bench = Bench::new(&at_rest, &solution, &demand, &grid)?;
+    let demand = &Demand { tolerance_length: Some(tolerance_length), ..demand.clone() };
+    let mut loads = demand.loads();
+    if is_over_face && demand.spectrum.is_empty() && loads.len() > 2 {
+        // Whole solves over the face take long.
+        loads.drain(1..loads.len() - 1);
+    }
+    let grid = grid(&at_rest, &solution, demand, step)?;
+    let bench =
+        if is_over_face { None } else { Some(Bench::new(&at_rest, &solution, demand, &grid)?) };
     let pair = WholeSolves {
         is_in_motion: method == Method::Dynamic,
         inputs: &at_rest,
         at_most: &at_most,
+        demand,
+        loads: &loads,
         grid: &grid,
-        bench: &bench,
+        bench: bench.as_ref(),
         go_on,
         part: Cell::new(SEARCH),
     };
-    let peak = |reliefs: &TipReliefs| Ok(pair.figures(reliefs, pair.is_in_motion)?.peak);
-    let mut search = Search::new(&bench, &grid, go_on);
-    let peak = (demand.minimise == Criterion::Peak).then_some(&peak as search::Peak<'_>);
-    let found = search.best_of_each_kind(peak)?;
+    let (found, tries) = match &bench {
+        None => face::search(&pair)?,
+        Some(bench) => {
+            let peak = |reliefs: &TipReliefs| Ok(pair.figures(reliefs, pair.is_in_motion)?.peak);
+            let peak = (demand.minimise == Criterion::Peak).then_some(&peak as search::Peak<'_>);
+            let mut search = Search::new(bench, &grid, go_on);
+            (search.best_of_each_kind(peak)?, search.tries())
+        }
+    };
     let usual = solution.geometry.shared_length();
     let gears = [&at_rest.driver, &at_rest.driven];
     let present = TipReliefs {
         shape: at_rest.relief_shape,
         amounts: gears.map(|gear| gear.tip_relief),
         lengths: gears.map(|gear| gear.tip_relief_length.unwrap_or(usual)),
+        crowning: at_rest.driver.crowning,
     };
     let mut choices = vec![pair.choice("relief of the case", present)?];
     let (kinds, mut beyond) = (found.len() as f64, None);
@@ -297,14 +322,15 @@ pub fn specify(
         method,
         torque,
         mesh_force: solution.mesh_force,
+        is_over_face,
         geometry: solution.geometry,
-        loads: demand.loads().into_iter().map(|(load, _)| load).collect(),
-        map: bench.map(&choices[best].reliefs, &grid),
+        map: pair.map(&choices[best].reliefs)?,
+        loads: loads.into_iter().map(|(load, _)| load).collect(),
         choices,
         best,
-        tries: search.tries(),
-        is_cut: search.tries() >= MOST_TRIES,
-        demand,
+        tries,
+        is_cut: tries >= MOST_TRIES,
+        demand: demand.clone(),
     })
 }
 
@@ -398,6 +424,7 @@ fn grid(
         least_length,
         most_length,
         most_amounts: tips.map(|tip| steps(tip.min(MOST * needed), AMOUNT_STEP)),
+        needed,
         tips,
     })
 }
@@ -424,14 +451,36 @@ struct WholeSolves<'a> {
     is_in_motion: bool,
     /// The case under the greatest load of the demand.
     at_most: &'a Inputs,
+    demand: &'a Demand,
+    /// Loads with their shares.
+    loads: &'a [(f64, f64)],
     grid: &'a Grid,
-    bench: &'a Bench<'a>,
+    /// The prepared mesh; `None` if the load varies over the face width.
+    bench: Option<&'a Bench<'a>>,
     go_on: &'a dyn Fn(f64) -> bool,
     /// The progress so far.
     part: Cell<f64>,
 }
 
 impl WholeSolves<'_> {
+    /// The limits of the tolerances, over the face width those with equal gears; each with every
+    /// misalignment, in m.
+    fn limits(&self) -> Vec<(Off, f64)> {
+        let mut limits = self.demand.corners();
+        if self.bench.is_none() {
+            limits.retain(is_alike);
+            limits.retain(|off| off[0] * off[2] >= 0.0);
+        }
+        let misalignments = self.misalignments();
+        limits.iter().flat_map(|&off| misalignments.iter().map(move |&by| (off, by))).collect()
+    }
+
+    /// The misalignment of the case, and its limits, in m.
+    fn misalignments(&self) -> Vec<f64> {
+        let (own, by) = (self.inputs.misalignment, self.demand.misalignment);
+        if by > 0.0 { vec![own - by, own, own + by] } else { vec![own] }
+    }
+
     /// Increases a relief until no whole solve finds corner contact. The criterion `entry` accepts
     /// the contact of a relief that cannot prevent it.
     fn cleared(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
@@ -446,7 +495,7 @@ impl WholeSolves<'_> {
             }
             (greatest, last) = (greater, worst.gap);
         }
-        if self.bench.demand.minimise == Criterion::Entry {
+        if self.demand.minimise == Criterion::Entry {
             return self.choice(name, reliefs);
         }
         let most = greatest.amounts[0].max(greatest.amounts[1]);
@@ -458,21 +507,19 @@ impl WholeSolves<'_> {
     }
 
     /// The peak-to-peak transmission error at each load, in m.
-    fn errors(&self, reliefs: &TipReliefs) -> Result<Vec<f64>, NoRelief> {
-        let loads = self.bench.demand.loads().into_iter();
-        loads
-            .map(|(part, _)| {
-                let inputs = reliefs.of(&loaded(self.inputs, part));
-                let solution = self.solve(&inputs, Stage::StaticSpectrum)?;
-                let found = solution.static_spectrum.transpose()?;
-                Ok(found.map_or(0.0, |found| found.spectrum.peak_to_peak))
-            })
-            .collect()
+    fn errors(&self, reliefs: &TipReliefs, misalignment: f64) -> Result<Vec<f64>, NoRelief> {
+        let error = |&(part, _): &(f64, f64)| {
+            let inputs = Inputs { misalignment, ..reliefs.of(&loaded(self.inputs, part)) };
+            let solution = self.solve(&inputs, Stage::StaticSpectrum)?;
+            let found = solution.static_spectrum.transpose()?;
+            Ok(found.map_or(0.0, |found| found.spectrum.peak_to_peak))
+        };
+        self.loads.iter().map(error).collect()
     }
 
     fn choice(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
-        let demand = self.bench.demand;
-        let errors = self.errors(&reliefs)?;
+        let (demand, own) = (self.demand, self.inputs.misalignment);
+        let errors = self.errors(&reliefs, own)?;
         let factor = if self.is_in_motion {
             // A motion that does not become steady has no factor.
             let solution = self.solve(&self.moving(&reliefs), Stage::SteadyMotion)?;
@@ -484,9 +531,9 @@ impl WholeSolves<'_> {
         let error = demand.figure(errors.iter().copied());
         let nominal = Figures { error, factor, ..self.figures(&reliefs, self.is_in_motion)? };
         let mut worst = nominal.worst(self.worst(&reliefs)?);
-        for off in demand.corners() {
-            let error = demand.figure(self.errors(&reliefs.off(off))?.into_iter());
-            worst.error = worst.error.max(error);
+        for (off, misalignment) in self.limits() {
+            let errors = self.errors(&reliefs.off(off), misalignment)?;
+            worst.error = worst.error.max(demand.figure(errors.into_iter()));
         }
         let greatest_load = self.greatest_load(&reliefs)?;
         Ok(Choice { name, reliefs, errors, nominal, worst, greatest_load })
@@ -496,29 +543,48 @@ impl WholeSolves<'_> {
     /// is computed where both gears have equal deviations.
     fn worst(&self, reliefs: &TipReliefs) -> Result<Figures, NoRelief> {
         let none = Figures { gap: f64::INFINITY, ..Figures::default() };
-        self.bench.demand.corners().into_iter().try_fold(none, |worst, off| {
-            let is_alike = off[..2] == [off[0]; 2] && off[2..] == [off[2]; 2];
-            let found = self.figures(&reliefs.off(off), self.is_in_motion && is_alike)?;
+        self.limits().into_iter().try_fold(none, |worst, (off, misalignment)| {
+            let in_motion = self.is_in_motion && is_alike(&off);
+            let found = self.figures_at(&reliefs.off(off), misalignment, 1.0, in_motion)?;
             Ok(worst.worst(found))
         })
     }
 
     /// The figures of a relief without the error, by the motion if that is wanted.
     fn figures(&self, reliefs: &TipReliefs, in_motion: bool) -> Result<Figures, NoRelief> {
-        let solution = self.solve(&reliefs.of(self.at_most), Stage::Static)?;
-        let leads = match &solution.mesh {
-            Some(mesh) => [lead_before_start(mesh)?, lead_after_end(mesh)?],
-            None => [f64::NEG_INFINITY; 2],
+        self.figures_at(reliefs, self.inputs.misalignment, 1.0, in_motion)
+    }
+
+    /// The same with a misalignment in m, under a multiple of the greatest load.
+    fn figures_at(
+        &self,
+        reliefs: &TipReliefs,
+        misalignment: f64,
+        times: f64,
+        in_motion: bool,
+    ) -> Result<Figures, NoRelief> {
+        let inputs = Inputs { misalignment, ..reliefs.of(&loaded(self.at_most, times)) };
+        let solution = self.solve(&inputs, Stage::Static)?;
+        let lead = match (&solution.mesh, inputs.face()) {
+            (Some(mesh), Some(face)) => {
+                Face::new(&face, &solution.geometry, mesh)?.lead_before_start()?
+            }
+            (Some(mesh), None) => lead_before_start(mesh)?.max(lead_after_end(mesh)?),
+            (None, _) => f64::NEG_INFINITY,
         };
+        let strikes_at_end = solution.face_load.is_some()
+            && solution.static_load.as_ref().is_some_and(|load| load.last_contact_angle.is_some());
+        let enters = solution.outcome == Outcome::CornerContact;
+        let line_load = solution.face_load.as_ref().map(|load| load.peak.line_load);
         let found = solution.static_load.unwrap_or_default();
-        let gap = -leads[0].max(leads[1]);
         let at_rest = Figures {
             error: 0.0,
-            gap,
-            strikes: gap < 0.0,
-            entry: if leads[0] > 0.0 { found.force_at_start } else { 0.0 },
+            gap: -lead,
+            strikes: lead > 0.0 || strikes_at_end,
+            entry: if enters { found.force_at_start } else { 0.0 },
             peak: found.peak_force,
             factor: None,
+            line_load,
         };
         if !in_motion {
             return Ok(at_rest);
@@ -542,33 +608,91 @@ impl WholeSolves<'_> {
         Ok(solve_while(inputs, Stages::of(stage), &|_| (self.go_on)(self.part.get()))?)
     }
 
+    /// Whether no tolerance leads to overlap at rest under a multiple of the greatest load.
+    fn clears(&self, reliefs: &TipReliefs, times: f64) -> Result<bool, NoRelief> {
+        if !(self.go_on)(self.part.get()) {
+            return Err(NoRelief::Refused(Refusal::Stopped));
+        }
+        if let Some(bench) = self.bench {
+            return Ok(bench.overlap_under(reliefs, times)? <= 0.0);
+        }
+        let mut limits = self.limits().into_iter();
+        limits.try_fold(true, |clears, (off, misalignment)| {
+            let found = match clears {
+                true => self.figures_at(&reliefs.off(off), misalignment, times, false),
+                false => return Ok(false),
+            };
+            match found {
+                Err(NoRelief::Refused(refusal)) if refusal != Refusal::Stopped => Ok(false),
+                found => Ok(!found?.strikes),
+            }
+        })
+    }
+
     /// The greatest load without overlap at rest, relative to the load of the case. `None` if even
     /// [`MOST_LOAD`] times the greatest load of the range has no overlap.
     fn greatest_load(&self, reliefs: &TipReliefs) -> Result<Option<f64>, NoRelief> {
-        const CLOSE: f64 = 1e-3;
-        let clears = |times: f64| {
-            if !(self.go_on)(self.part.get()) {
-                return Err(NoRelief::Refused(Refusal::Stopped));
-            }
-            Ok(self.bench.overlap_under(reliefs, times)? <= 0.0)
-        };
+        let close = if self.bench.is_some() { 1e-3 } else { 1e-2 };
         let (mut low, mut high) = (0.0, 1.0);
-        while clears(high)? {
+        while self.clears(reliefs, high)? {
             if high >= MOST_LOAD {
                 return Ok(None);
             }
             (low, high) = (high, 2.0 * high);
         }
-        while high - low > CLOSE * high.max(CLOSE) {
+        while high - low > close * high.max(close) {
             let middle = f64::midpoint(low, high);
-            if clears(middle)? {
+            if self.clears(reliefs, middle)? {
                 low = middle;
             } else {
                 high = middle;
             }
         }
-        Ok(Some(self.bench.demand.greatest_load() * low))
+        Ok(Some(self.demand.greatest_load() * low))
     }
+
+    /// The map around a relief over both amounts and both lengths in proportion; the map contains
+    /// the relief itself.
+    fn map(&self, reliefs: &TipReliefs) -> Result<Vec<Vec<MapPoint>>, NoRelief> {
+        const AMOUNTS: [f64; 7] = [0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6];
+        const LENGTHS: [f64; 6] = [0.25, 0.4, 0.55, 0.7, 0.85, 1.0];
+        /// A length of the map this close to the length of the relief is omitted.
+        const CLOSE: f64 = 0.03;
+        let longest = self.grid.length_step * f64::from(self.grid.most_length);
+        let greatest = reliefs.lengths[0].max(reliefs.lengths[1]);
+        let own = greatest / longest;
+        let [amounts, lengths] = match self.bench {
+            Some(_) => [&AMOUNTS[..], &LENGTHS[..]],
+            None => [&AMOUNTS[1..6], &LENGTHS[1..5]],
+        };
+        let mut parts = lengths.to_vec();
+        parts.retain(|part| (part - own).abs() > CLOSE);
+        parts.push(own);
+        parts.sort_by(f64::total_cmp);
+        let point = |part: f64, times: f64| {
+            let scale = part * longest / greatest;
+            let reliefs = TipReliefs {
+                amounts: reliefs.amounts.map(|amount| times * amount),
+                lengths: reliefs.lengths.map(|length| scale * length),
+                ..*reliefs
+            };
+            let (error, margin) = match self.bench {
+                Some(bench) => (bench.error(&reliefs), -bench.worst_overlap(&reliefs)),
+                None => {
+                    let errors = self.errors(&reliefs, self.inputs.misalignment)?;
+                    (self.demand.figure(errors.into_iter()), self.figures(&reliefs, false)?.gap)
+                }
+            };
+            Ok(MapPoint { reliefs, error, margin })
+        };
+        let row = |part| amounts.iter().map(|&times| point(part, times)).collect();
+        parts.into_iter().map(row).collect()
+    }
+}
+
+/// Whether both gears have equal deviations.
+fn is_alike(off: &Off) -> bool {
+    off[..2] == [off[0]; 2] && off[2..] == [off[2]; 2]
 }
 
 /// Why there is no relief.

@@ -24,8 +24,10 @@ pub struct Trade {
     pub planned: usize,
     /// The settings measured so far.
     pub settings: Vec<MeasuredSetting>,
-    /// The finest setting of each method; that of `dynamic` is the reference.
+    /// The finest setting of each method, or with coupled and with independent slices.
     pub finest: Vec<Finest>,
+    /// Whether the load varies over the face width: slices are compared in place of methods.
+    pub is_over_face: bool,
     /// Seconds to build the fields of driver and driven gear, or the reason why one has none. Later
     /// solves read the cached fields.
     pub build: Result<[f64; 2], Refusal>,
@@ -34,8 +36,8 @@ pub struct Trade {
 /// Relative differences in the order of [`Subject::ALL`]; `None` if a method has no such quantity.
 pub type Differences = [Option<f64>; Subject::ALL.len()];
 
-/// The finest setting of a method. That of `dynamic` by the default compliance is the reference: the
-/// elastic field if both gears have one.
+/// The finest setting of a method. That of `dynamic` by the default compliance is the reference: by
+/// finite elements if both gears have them. Over the face width it is that with coupled slices.
 #[derive(Debug, Clone)]
 pub struct Finest {
     /// The setting.
@@ -101,14 +103,20 @@ pub fn trade(
     let current = Setting::of(inputs);
     let settings = distinct(Setting::all(inputs).into_iter().chain([current]));
     let own = (current.models.is_some() && current.method != Method::Auto).then(|| current.best());
-    let finest = METHODS.map(|method| Setting::usual(method, inputs).best());
+    let is_over_face = inputs.face().is_some();
+    let finest = if is_over_face {
+        [true, false].map(|coupled| Setting::finest_slices(inputs, coupled)).to_vec()
+    } else {
+        METHODS.map(|method| Setting::usual(method, inputs).best()).to_vec()
+    };
+    let own = own.filter(|_| !is_over_face);
     let finest = distinct(finest.into_iter().chain(own));
     let answer = |setting: Setting| {
         let solution = stopped(solve(&setting.inputs(inputs), go_on))?;
         Ok((setting, solution.map(|solution| Answer::of(&solution))))
     };
     let finest = finest.into_iter().map(answer).collect::<Result<Vec<_>, Refusal>>()?;
-    let truth = &finest[REFERENCE].1;
+    let truth = &finest[reference(is_over_face)].1;
     let off = |found: &Answer, truth: &Result<Answer, Refusal>| {
         let truth = truth.as_ref().ok();
         Subject::ALL.map(|subject| found.off(truth?, subject))
@@ -131,6 +139,7 @@ pub fn trade(
         // The capacity is exact, because a measurement stays in memory with its case.
         settings: Vec::with_capacity(settings.len()),
         finest: finest.iter().map(model).collect(),
+        is_over_face,
         build,
     };
     show(&trade);
@@ -161,7 +170,9 @@ pub fn trade(
 }
 
 /// The index of the reference among the finest settings.
-const REFERENCE: usize = 3;
+fn reference(is_over_face: bool) -> usize {
+    if is_over_face { 0 } else { METHODS.len() - 1 }
+}
 
 /// Passes on a stop as an error, and any other refusal as a result.
 fn stopped<T>(found: Result<T, Refusal>) -> Result<Result<T, Refusal>, Refusal> {
@@ -216,9 +227,9 @@ impl Trade {
     /// The reference, or the refusal.
     ///
     /// # Errors
-    /// The refusal of the case by method `dynamic`.
+    /// The refusal of the case by the method of the reference.
     pub fn reference(&self) -> Result<&Finest, Refusal> {
-        let reference = &self.finest[REFERENCE];
+        let reference = &self.finest[reference(self.is_over_face)];
         reference.outcome.map(|_| reference)
     }
 
@@ -304,6 +315,10 @@ pub const METHODS: [Method; 4] = [Method::Paper, Method::Exact, Method::Static, 
 pub const STATIONS: [usize; 8] = [8, 16, 32, 64, 128, 256, 512, 1024];
 /// The compared tolerances besides the default one.
 const TOLERANCES: [f64; 7] = [1e-3, 1e-4, 1e-5, 1e-7, 1e-8, 1e-9, 1e-10];
+/// The compared numbers of slices.
+pub const SLICES: [usize; 5] = [9, 17, 33, 65, 129];
+/// Number of slices of the finest setting.
+const BEST_SLICES: usize = 513;
 /// Number of intervals of the finest setting of a method.
 const BEST_STATIONS: usize = 4096;
 /// Tolerance of the finest setting.
@@ -322,13 +337,28 @@ pub struct Setting {
     pub tolerance: Option<f64>,
     /// Geometry and position in double-double arithmetic.
     pub accurate: bool,
+    /// Number of slices of the face width; `None` for as many as the pair needs.
+    pub slices: Option<usize>,
+    /// Whether a force on a slice displaces the slices beside it.
+    pub coupled: bool,
 }
 
 impl Setting {
     /// Every compared setting: each method coarse and fine with the default compliance, then the
-    /// default setting of each method with every other compliance that covers the pair.
+    /// default setting of each method with every other compliance that covers the pair. Over the face
+    /// width, each number of slices with and without coupling.
     pub fn all(inputs: &Inputs) -> Vec<Setting> {
         let usual = |method| Setting::usual(method, inputs);
+        if inputs.face().is_some() {
+            let counts = || SLICES.into_iter().map(Some).chain([None]);
+            let slices = |coupled| {
+                let usual = usual(Method::Static);
+                counts().map(move |slices| Setting { slices, coupled, ..usual })
+            };
+            let others = StiffnessModels::covering(inputs)
+                .map(|models| Setting::of_method(Method::Static, Some(models)));
+            return distinct(slices(true).chain(slices(false)).chain(others));
+        }
         let dynamic = usual(Method::Dynamic);
         let tolerances =
             TOLERANCES.map(|tolerance| Setting { tolerance: Some(tolerance), ..dynamic });
@@ -351,9 +381,10 @@ impl Setting {
 
     /// A method and compliance with the default fineness.
     fn of_method(method: Method, models: Option<StiffnessModels>) -> Setting {
-        let Inputs { stations, tolerance, .. } = Inputs::default();
+        let Inputs { stations, tolerance, slices, slice_coupling, .. } = Inputs::default();
         let tolerance = (method == Method::Dynamic).then_some(tolerance);
-        Setting { method, models, stations, tolerance, accurate: false }
+        let coupled = slice_coupling;
+        Setting { method, models, stations, tolerance, accurate: false, slices, coupled }
     }
 
     /// The setting of a case that sets only the method.
@@ -372,14 +403,20 @@ impl Setting {
         }
     }
 
+    /// The finest setting over the face width.
+    fn finest_slices(inputs: &Inputs, coupled: bool) -> Setting {
+        let usual = Setting::usual(Method::Static, inputs);
+        Setting { slices: Some(BEST_SLICES), coupled, ..usual }
+    }
+
     /// Whether both settings differ only in their fineness.
     pub fn is_finer_or_coarser(&self, other: &Setting) -> bool {
-        (self.method, self.models) == (other.method, other.models)
+        (self.method, self.models, self.coupled) == (other.method, other.models, other.coupled)
     }
 
     /// The setting of some inputs.
     pub fn of(inputs: &Inputs) -> Setting {
-        let Inputs { method, stations, accurate, .. } = *inputs;
+        let Inputs { method, stations, accurate, slices, slice_coupling, .. } = *inputs;
         let is_left_to_auto = method == Method::Auto && inputs.tooth_compliance.is_none();
         Setting {
             method,
@@ -387,6 +424,8 @@ impl Setting {
             stations,
             tolerance: (method == Method::Dynamic).then_some(inputs.tolerance),
             accurate,
+            slices,
+            coupled: slice_coupling,
         }
     }
 
@@ -397,6 +436,8 @@ impl Setting {
             stations: self.stations,
             tolerance: self.tolerance.unwrap_or(inputs.tolerance),
             accurate: self.accurate,
+            slices: self.slices,
+            slice_coupling: self.coupled,
             ..match self.models {
                 Some(models) => models.in_place_of(inputs),
                 None => Inputs { tooth_compliance: None, ..inputs.clone() },
@@ -406,7 +447,12 @@ impl Setting {
 
     /// The number of stations in the syntax of a case file.
     pub fn stations_text(&self) -> String {
-        self.stations.map_or_else(|| AUTO.to_owned(), |stations| stations.to_string())
+        or_auto(self.stations)
+    }
+
+    /// The number of slices in the syntax of a case file.
+    pub fn slices_text(&self) -> String {
+        or_auto(self.slices)
     }
 
     /// Writes the setting into a case. If the case names no compliance and the setting has the
@@ -418,14 +464,23 @@ impl Setting {
         write(case, "model.accurate", Some(accurate));
         let tolerance = self.tolerance.map(|tolerance| format!("{tolerance:e}"));
         write(case, "model.tolerance", tolerance.as_deref());
-        let own = case.inputs().ok().and_then(|inputs| Setting::of(&inputs).models);
-        if own != self.models {
+        let own = case.inputs().ok().map(|inputs| Setting::of(&inputs));
+        if own.is_none_or(|own| (own.slices, own.coupled) != (self.slices, self.coupled)) {
+            let coupled = if self.coupled { "true" } else { "false" };
+            write(case, "model.slices", Some(&self.slices_text()));
+            write(case, "model.slice_coupling", Some(coupled));
+        }
+        if own.and_then(|own| own.models) != self.models {
             let tooth = self.models.map_or("", |models| models.tooth.name());
             write(case, "model.tooth_compliance", Some(tooth));
             let contact = self.models.and_then(|models| Some(models.contact?.name()));
             write(case, "model.contact_compliance", contact);
         }
     }
+}
+
+fn or_auto(count: Option<usize>) -> String {
+    count.map_or_else(|| AUTO.to_owned(), |count| count.to_string())
 }
 
 fn write(case: &mut Case, key: &str, text: Option<&str>) {
@@ -455,12 +510,17 @@ impl fmt::Display for Setting {
         if let Some(tolerance) = self.tolerance {
             write!(f, " and tolerance {tolerance:e}")?;
         }
+        match (self.slices, self.coupled) {
+            (None, true) => {}
+            (_, true) => write!(f, ", {} slices", self.slices_text())?,
+            (_, false) => write!(f, ", {} independent slices", self.slices_text())?,
+        }
         if self.accurate { f.write_str(", accurate") } else { Ok(()) }
     }
 }
 
 /// A result that several methods compute, each as a quantity of its own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd)]
 pub enum Subject {
     /// Driven gear's angle before E at the first contact.
     FirstContact,
@@ -474,17 +534,23 @@ pub enum Subject {
     FrictionRatio,
     /// The force over the driver's roll angle from D to E.
     Curve,
+    /// The greatest line load over the face width.
+    LineLoad,
+    /// The transmission error of a passage, of a load that varies over the face width.
+    TransmissionError,
 }
 
 impl Subject {
     /// Every subject, in order.
-    pub const ALL: [Subject; 6] = [
+    pub const ALL: [Subject; 8] = [
         Subject::FirstContact,
         Subject::PeakForce,
         Subject::PeakApproachForce,
         Subject::Duration,
         Subject::FrictionRatio,
         Subject::Curve,
+        Subject::LineLoad,
+        Subject::TransmissionError,
     ];
     /// The subjects that a setting must answer to qualify.
     pub const NEEDED: [Subject; 3] = [Subject::FirstContact, Subject::PeakForce, Subject::Curve];
@@ -498,6 +564,8 @@ impl Subject {
             Subject::Duration => ("impact_duration", "impact_duration"),
             Subject::FrictionRatio => ("friction_ratio", "friction_ratio"),
             Subject::Curve => ("curve", ""),
+            Subject::LineLoad => ("peak_line_load", "static_peak_line_load"),
+            Subject::TransmissionError => ("transmission_error", "static_transmission_error"),
         }
     }
 
@@ -512,6 +580,10 @@ impl Subject {
         match (self, method) {
             (Subject::PeakForce, Method::Static) => Quantity::find("static_peak_force"),
             (Subject::PeakForce, Method::Dynamic) => Quantity::find("dynamic_peak_force"),
+            (Subject::LineLoad | Subject::TransmissionError, Method::Static) => {
+                Quantity::find(self.names().1)
+            }
+            (Subject::LineLoad | Subject::TransmissionError, _) => None,
             _ => Quantity::find(self.names().1)?.by(method),
         }
     }
@@ -566,8 +638,10 @@ impl Answer {
     /// The answer of a solve.
     pub fn of(solution: &Solution) -> Answer {
         let Solution { method, outcome, .. } = *solution;
-        let value =
-            |subject: Subject| subject.quantity(method).and_then(|known| (known.value)(solution));
+        let value = |subject: Subject| match subject {
+            Subject::TransmissionError if solution.face_load.is_none() => None,
+            _ => subject.quantity(method).and_then(|known| (known.value)(solution)),
+        };
         let stations = solution.own_stations().iter();
         let before_end = stations.filter(|station| station.roll_angle_driver >= 0.0);
         let curve = before_end.map(|station| (station.roll_angle_driver, station.force));
@@ -590,6 +664,7 @@ impl Answer {
         Some(match (values, strikes) {
             (_, [true, true]) if subject == Subject::Curve => self.curve_error(truth),
             ([Some(found), Some(expected)], _) => relative(found - expected, expected),
+            ([None, None], _) if subject > Subject::Curve => return None,
             ([None, None], _) if subject != Subject::Curve => 0.0,
             (_, [false, false]) => 0.0,
             _ => 1.0,
@@ -669,13 +744,14 @@ mod tests {
     fn an_answer_differs_from_others_and_not_from_itself() {
         let (shared, impact) = (answer(Method::Static, 16), answer(Method::Exact, 16));
         for subject in Subject::ALL {
-            assert_eq!(shared.off(&shared, subject), subject.is_of(Method::Static).then_some(0.0));
+            let has_value = subject.is_of(Method::Static) && subject <= Subject::Curve;
+            assert_eq!(shared.off(&shared, subject), has_value.then_some(0.0), "{subject:?}");
         }
         assert_eq!(impact.off(&shared, Subject::Duration), None);
         assert!(impact.off(&shared, Subject::Curve).unwrap() > 0.5);
         let on_time = Answer {
             outcome: Outcome::NoCornerContact,
-            values: [None; 6],
+            values: [None; Subject::ALL.len()],
             curve: Vec::new(),
             ..impact.clone()
         };

@@ -143,6 +143,7 @@ fn no_relief_of_a_grid_is_better() {
                     shape,
                     amounts: [0, 1].map(|at| amounts[at] * best.reliefs.amounts[at]),
                     lengths: lengths.map(|part| (part * longest).min(longest)),
+                    crowning: 0.0,
                 };
                 assert!(
                     exceeds(&inputs, &found, &reliefs, ROUND * best.worst.error)

@@ -95,7 +95,7 @@ fn every_method_is_compared_with_every_compliance_of_the_pair() {
     assert!(build.iter().all(|&seconds| seconds > 0.0));
     let (text, json) = (text(trade), json(trade));
     assert!(text.contains("> kuang-yang logarithmic"), "{text}");
-    assert!(text.contains("are built once per gear"), "{text}");
+    assert!(text.contains("are solved once per gear"), "{text}");
     assert_eq!(json["reference"]["tooth_compliance"], "finite-element");
     assert_eq!(json["field_seconds"].as_array().unwrap().len(), 2);
     let has =
@@ -115,7 +115,7 @@ fn a_pair_without_a_field_is_compared_with_the_beam_and_the_page_says_why() {
     assert_eq!(models.tooth.name(), ToothCompliance::BEAM.name());
     assert!(matches!(trade.build, Err(Refusal::NoField { .. })), "{:?}", trade.build);
     let words = text(&trade).replace('\n', " ");
-    assert!(words.contains("There is no elastic field to compare with: "), "{words}");
+    assert!(words.contains("There are no finite elements to compare with: "), "{words}");
     assert!(json(&trade).get("field_seconds").is_none());
 }
 

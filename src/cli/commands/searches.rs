@@ -11,6 +11,7 @@ use crate::numeric::decimal::shortest;
 use crate::report::relief::ReliefReport;
 use crate::report::seek::SeekReport;
 use crate::report::stiffness::{StiffnessReport, no_field};
+use crate::report::svg::draw;
 use crate::study::axis::{AxisRange, Sampling, with_unit};
 use crate::study::condition::Condition;
 use crate::study::relief::{Criterion, Demand, NoRelief, demand, specify};
@@ -19,6 +20,7 @@ use crate::study::shard::Format;
 use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare_flanks, compare_path};
 use crate::study::trade::{self as study, STEADY};
 use clap::{Args, ValueHint};
+use std::io::Write;
 use std::path::PathBuf;
 
 /// The options of the command.
@@ -117,6 +119,15 @@ pub struct Relief {
         allow_hyphen_values = true
     )]
     pub tolerance_length: Option<f64>,
+    /// Deviation of the misalignment over the face width, plus and minus, such as '10 um'
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        default_value = "0 um",
+        value_parser = demand::tolerance,
+        allow_hyphen_values = true
+    )]
+    pub misalignment: f64,
     /// The figure to minimise
     #[arg(long, value_name = "FIGURE", default_value = "te")]
     pub minimise: Criterion,
@@ -145,13 +156,16 @@ impl Relief {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let Relief { input, destination, .. } = self;
         destination.check(&input.case)?;
-        destination.fits(self.format)?;
+        if !destination.is_picture() {
+            destination.fits(self.format)?;
+        }
         let opened = input.open(&[], streams)?;
         let demand = Demand {
             loads: self.load,
             spectrum: self.spectrum.as_ref().map_or(Vec::new(), |spectrum| spectrum.0.clone()),
             tolerance: self.tolerance,
             tolerance_length: self.tolerance_length,
+            misalignment: self.misalignment,
             minimise: self.minimise,
         };
         let found = follow("% of the budget", |go_on| {
@@ -162,6 +176,11 @@ impl Relief {
             none => opened.failed(&none),
         })?;
         let report = ReliefReport { method: opened.inputs.method, found: &found };
+        if destination.is_picture() {
+            let chart = report.chart(&opened.inputs).map_err(|reason| opened.failed(&reason))?;
+            let picture = draw(&chart);
+            return destination.write(streams, |sink| sink.write_all(picture.as_bytes()));
+        }
         destination.write(streams, |sink| opened.named().write(&report, self.format, sink))
     }
 }

@@ -10,6 +10,9 @@ use crate::numeric::decimal::shortest;
 /// Number of loads of a range.
 const LOADS: u32 = 6;
 
+/// The word before the deviation of the misalignment.
+const MISALIGNMENT: &str = "misalignment";
+
 /// The figure that the relief minimises.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -17,7 +20,7 @@ pub enum Criterion {
     /// Peak-to-peak transmission error at rest
     #[default]
     Te,
-    /// Greatest force of a tooth
+    /// Greatest force of a tooth; over the face width its greatest line load
     Peak,
     /// Greatest force of the incoming tooth before E; without such a force the least amounts
     Entry,
@@ -56,6 +59,8 @@ pub struct Demand {
     pub tolerance: f64,
     /// Deviation of each length in both directions, in m. `None` for one step of a length.
     pub tolerance_length: Option<f64>,
+    /// Deviation of the misalignment in both directions, in m.
+    pub misalignment: f64,
     /// The figure to minimise.
     pub minimise: Criterion,
 }
@@ -68,6 +73,7 @@ impl Default for Demand {
             spectrum: Vec::new(),
             tolerance: 5e-6,
             tolerance_length: None,
+            misalignment: 0.0,
             minimise: Criterion::Te,
         }
     }
@@ -116,8 +122,9 @@ impl Demand {
         corners
     }
 
-    /// Parses a text such as `25..110 %, 5 um, 0.1 mm, te`: a range of loads or a spectrum, the
-    /// tolerances of amounts and lengths, the criterion. All but the loads are optional.
+    /// Parses a text such as `25..110 %, 5 um, 0.1 mm, misalignment 8 um, te`: a range of loads or a
+    /// spectrum, the tolerances of amounts, lengths and misalignment, the criterion. All but the
+    /// loads are optional.
     ///
     /// # Errors
     /// Returns the correct syntax.
@@ -127,6 +134,8 @@ impl Demand {
             let criterion = Criterion::ALL.into_iter().find(|known| known.name() == item);
             if let Some(criterion) = criterion {
                 demand.minimise = criterion;
+            } else if let Some(length) = item.strip_prefix(MISALIGNMENT) {
+                demand.misalignment = tolerance(length)?;
             } else if item.contains(':') {
                 demand.spectrum.extend(spectrum(item)?);
             } else if at == 0 {
@@ -149,7 +158,9 @@ impl Demand {
         let tolerances = [(Some(self.tolerance), "um"), (self.tolerance_length, "mm")];
         let tolerances = tolerances.into_iter();
         let tolerances = tolerances.filter_map(|(length, unit)| Some(units::text(length?, unit)));
-        let all = std::iter::once(self.loads_text()).chain(tolerances);
+        let tilt = Some(self.misalignment).filter(|tilt| *tilt > 0.0);
+        let tilt = tilt.map(|tilt| format!("{MISALIGNMENT} {}", units::text(tilt, "um")));
+        let all = std::iter::once(self.loads_text()).chain(tolerances).chain(tilt);
         all.chain([self.minimise.name().to_owned()]).collect::<Vec<_>>().join(", ")
     }
 
@@ -226,7 +237,9 @@ mod tests {
         assert_eq!(Demand::default().text(), "25..110 %, 5 um, te");
         let own = Demand::parse("50..100%").expect("a range");
         assert_eq!((own.loads, own.tolerance), ((0.5, 1.0), 5e-6));
-        let own = Demand::parse("50%:1, 130%:3, 4 um, 0.2 mm, peak").expect("a spectrum");
+        let own = Demand::parse("50%:1, 130%:3, 4 um, 0.2 mm, misalignment 8 um, peak");
+        let own = own.expect("a spectrum");
+        assert!((own.misalignment - 8e-6).abs() < 1e-18);
         assert_eq!(own.loads(), [(0.5, 0.25), (1.3, 0.75)]);
         assert_eq!((own.minimise, own.tolerance_length), (Criterion::Peak, Some(2e-4)));
         assert_eq!(Demand::parse(&own.text()), Ok(own));

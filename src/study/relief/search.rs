@@ -4,7 +4,7 @@ use std::array::from_fn;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 
-use super::{AMOUNT_STEP, Criterion, Demand, MapPoint, NoRelief, Off, TipReliefs, decimal};
+use super::{AMOUNT_STEP, Criterion, Demand, NoRelief, Off, TipReliefs, decimal};
 use crate::model::geometry::{Geometry, PairShape, geometry};
 use crate::model::inputs::{Gear, ReliefShape};
 use crate::model::mesh::Mesh;
@@ -14,7 +14,7 @@ use crate::model::relief::{Relief, Reliefs};
 use crate::model::{Inputs, Refusal, Solution};
 
 /// A relief in whole steps: amounts on driver and driven gear, then lengths.
-type Steps = [i32; 4];
+pub(super) type Steps = [i32; 4];
 
 /// A relief with its cost, which is infinite with corner contact.
 type Tried = (Steps, f64);
@@ -23,12 +23,12 @@ type Tried = (Steps, f64);
 pub(super) type Peak<'a> = &'a dyn Fn(&TipReliefs) -> Result<f64, NoRelief>;
 
 /// The kinds of relief: the shape, the name, and the name if both gears have the same relief.
-const KINDS: [(ReliefShape, [&str; 2]); 2] = [
+pub(super) const KINDS: [(ReliefShape, [&str; 2]); 2] = [
     (ReliefShape::Linear, ["linear", "linear, both alike"]),
     (ReliefShape::Parabolic, ["parabolic", "parabolic, both alike"]),
 ];
 /// The name of the relief that removes no more than corner contact requires.
-const LEAST: &str = "least amount";
+pub(super) const LEAST: &str = "least amount";
 /// The name of the relief with the least overlap, if none prevents corner contact.
 const LEAST_OVERLAP: &str = "least overlap";
 
@@ -64,6 +64,8 @@ pub(super) struct Grid {
     pub(super) most_length: i32,
     /// Greatest amounts on driver and driven gear, in steps.
     pub(super) most_amounts: [i32; 2],
+    /// Deflection and deviation at the greatest load with the tolerances, in m.
+    pub(super) needed: f64,
     /// Greatest amounts that the tips may lose, in m.
     pub(super) tips: [f64; 2],
 }
@@ -78,16 +80,17 @@ impl Grid {
         Some(TipReliefs { amounts: [more(0)?, more(1)?], ..*reliefs })
     }
 
-    fn reliefs(&self, shape: ReliefShape, [one, other, from, to]: Steps) -> TipReliefs {
+    pub(super) fn reliefs(&self, shape: ReliefShape, [one, other, from, to]: Steps) -> TipReliefs {
         TipReliefs {
             shape,
             amounts: [one, other].map(|steps| decimal(AMOUNT_STEP * f64::from(steps))),
             lengths: [from, to].map(|steps| decimal(self.length_step * f64::from(steps))),
+            crowning: 0.0,
         }
     }
 
     /// The same amount on both gears, as far as the tips allow it.
-    fn equal(&self, amount: i32, [one, other]: [i32; 2]) -> Steps {
+    pub(super) fn equal(&self, amount: i32, [one, other]: [i32; 2]) -> Steps {
         let [driver, driven] = self.most_amounts.map(|most| amount.min(most));
         [driver, driven, one, other]
     }
@@ -343,7 +346,7 @@ impl<'a> Search<'a> {
 
     /// A figure, computed once for each relief; infinite after the last try.
     fn figure(&mut self, of: Figure, reliefs: &TipReliefs) -> Result<f64, NoRelief> {
-        let TipReliefs { shape, amounts: [one, other], lengths: [from, to] } = *reliefs;
+        let TipReliefs { shape, amounts: [one, other], lengths: [from, to], .. } = *reliefs;
         let [one, other, from, to] =
             [one, other, from, to].map(|length| (length * 1e10).round() as i64);
         let key = [i64::from(shape == ReliefShape::Linear), one, other, from, to];
@@ -474,10 +477,15 @@ impl<'a> Bench<'a> {
     /// Refusals of the mesh.
     pub(super) fn overlap_under(&self, reliefs: &TipReliefs, times: f64) -> Result<f64, Refusal> {
         let most = reliefs.removed() + 2.0 * self.demand.tolerance;
-        Ok(self.worst_overlap(reliefs, &self.corners(most, times)?))
+        Ok(self.worst_at(reliefs, &self.corners(most, times)?))
     }
 
-    fn worst_overlap(&self, reliefs: &TipReliefs, corners: &Corners) -> f64 {
+    /// The overlap at the greatest load with the least favourable tolerance, in m.
+    pub(super) fn worst_overlap(&self, reliefs: &TipReliefs) -> f64 {
+        self.worst_at(reliefs, &self.corners)
+    }
+
+    fn worst_at(&self, reliefs: &TipReliefs, corners: &Corners) -> f64 {
         let all = self.demand.corners().into_iter();
         let all = all.map(|off| self.overlap_at(&reliefs.off(off), corners));
         all.fold(f64::NEG_INFINITY, f64::max)
@@ -488,34 +496,6 @@ impl<'a> Bench<'a> {
         let leads = corners.places.iter();
         let leads = leads.map(|place| place.eased(&relief).lead(0, corners.force));
         leads.fold(f64::NEG_INFINITY, f64::max)
-    }
-
-    /// The map around a relief over both amounts and both lengths in proportion; the map contains
-    /// the relief itself.
-    pub(super) fn map(&self, reliefs: &TipReliefs, grid: &Grid) -> Vec<Vec<MapPoint>> {
-        const AMOUNTS: [f64; 7] = [0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6];
-        const LENGTHS: [f64; 6] = [0.25, 0.4, 0.55, 0.7, 0.85, 1.0];
-        /// A length of the map this close to the length of the relief is omitted.
-        const CLOSE: f64 = 0.03;
-        let longest = grid.length_step * f64::from(grid.most_length);
-        let greatest = reliefs.lengths[0].max(reliefs.lengths[1]);
-        let own = greatest / longest;
-        let mut parts = LENGTHS.to_vec();
-        parts.retain(|part| (part - own).abs() > CLOSE);
-        parts.push(own);
-        parts.sort_by(f64::total_cmp);
-        let point = |part: f64, times: f64| {
-            let scale = part * longest / greatest;
-            let reliefs = TipReliefs {
-                shape: reliefs.shape,
-                amounts: reliefs.amounts.map(|amount| times * amount),
-                lengths: reliefs.lengths.map(|length| scale * length),
-            };
-            let overlap = self.worst_overlap(&reliefs, &self.corners);
-            MapPoint { reliefs, error: self.error(&reliefs), margin: -overlap }
-        };
-        let row = |part| AMOUNTS.map(|times| point(part, times)).to_vec();
-        parts.into_iter().map(row).collect()
     }
 
     /// The reliefs of the pair with other tip reliefs.

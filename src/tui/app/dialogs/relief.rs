@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::{Dialog, Prompt, Surroundings, boxes};
 use crate::model::{Inputs, Refusal};
-use crate::report::relief::{ReliefReport, settings};
+use crate::report::relief::ReliefReport;
 use crate::study::relief::{Demand, NoRelief, Specification, specify};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Running, Slot, Work};
@@ -166,7 +166,8 @@ impl Dialog for ReliefDialog {
             let search = self.search()?;
             return Some(Change::of(|app| app.start_all([search])));
         }
-        let values = settings(&self.found()?.choices[self.selected].reliefs);
+        let report = ReliefReport { method: self.inputs.method, found: self.found()? };
+        let values = report.settings(self.selected);
         let take_over = self.take_over;
         Some(Change::of(move |app| take_over(app, &values)))
     }

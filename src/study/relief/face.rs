@@ -1,0 +1,238 @@
+//! The search over slices: tip relief and crowning together, by whole solves on a grid that becomes
+//! finer.
+
+use std::collections::HashMap;
+
+use super::search::{KINDS, LEAST};
+use super::{AMOUNT_STEP, Criterion, NoRelief, TipReliefs, WholeSolves, decimal, loaded};
+use crate::case::Problem;
+use crate::model::inputs::ReliefShape;
+use crate::model::{Inputs, Outcome, Quantity, Refusal};
+use crate::study::batch::{Batch, Control, PointOutcome, Points, Row, solve_all};
+
+/// Amount on both gears and crowning in um, length in steps: the axes of the search.
+type Place = [i32; 3];
+
+/// The first amounts, relative to the deflection and deviation at the greatest load.
+const AMOUNTS: [f64; 5] = [0.4, 0.7, 1.0, 1.4, 2.0];
+/// The first lengths, relative to the longest.
+const LENGTHS: [f64; 3] = [0.4, 0.7, 1.0];
+/// The first crownings, relative to the misalignment with its deviation.
+const CROWNINGS: [f64; 3] = [0.0, 0.5, 1.0];
+/// The directions of the search.
+const DIRECTIONS: [Place; 5] = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [1, 0, -1]];
+/// Least strides; a crowning in whole um.
+const LAST: Place = [1, 1, 1];
+
+/// Solves of the pair: reliefs, part of the load, misalignment in m.
+struct Trials<'a> {
+    inputs: &'a Inputs,
+    all: Vec<(TipReliefs, f64, f64)>,
+}
+
+impl Points for Trials<'_> {
+    fn count(&self) -> usize {
+        self.all.len()
+    }
+
+    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
+        let (reliefs, load, misalignment) = self.all[index];
+        *inputs = Inputs { misalignment, ..reliefs.of(&loaded(self.inputs, load)) };
+        Ok(())
+    }
+}
+
+struct Search<'a> {
+    pair: &'a WholeSolves<'a>,
+    shape: ReliefShape,
+    /// The costs of the evaluated places.
+    known: HashMap<Place, f64>,
+    /// The least amount without corner contact.
+    least: Option<Place>,
+}
+
+/// The best relief of each shape with its crowning, then the one with the least amounts; and the
+/// number of evaluated reliefs.
+///
+/// # Errors
+/// [`NoRelief::Beyond`] if no relief prevents corner contact, [`Refusal::Stopped`] if the user stops.
+pub(super) fn search(
+    pair: &WholeSolves<'_>,
+) -> Result<(Vec<(&'static str, TipReliefs)>, u64), NoRelief> {
+    let (mut found, mut least, mut tries) = (Vec::new(), None, 0);
+    for (shape, [_, name]) in KINDS {
+        let mut search = Search { pair, shape, known: HashMap::new(), least: None };
+        if let Some(best) = search.best()? {
+            found.push((name, search.reliefs(best)));
+        }
+        least = least.or(search.least.map(|place| (LEAST, search.reliefs(place))));
+        tries += search.known.len() as u64;
+        pair.part.set(pair.part.get() + 0.1);
+    }
+    found.extend(least);
+    if found.is_empty() {
+        let [one, other] = pair.grid.most_amounts;
+        let steps = [one, other, pair.grid.most_length, pair.grid.most_length];
+        let most = pair.grid.reliefs(ReliefShape::Linear, steps);
+        let overlap = -pair.worst(&most)?.gap;
+        return Err(NoRelief::Beyond { most: AMOUNT_STEP * f64::from(one.max(other)), overlap });
+    }
+    Ok((found, tries))
+}
+
+impl Search<'_> {
+    /// The best place: that of a coarse grid, then by steps that are halved where none is better.
+    fn best(&mut self) -> Result<Option<Place>, NoRelief> {
+        let (grid, inputs) = (self.pair.grid, self.pair.inputs);
+        let needed = grid.needed / AMOUNT_STEP;
+        let tilt = inputs.misalignment.abs() + self.pair.demand.misalignment;
+        let crownings = CROWNINGS.map(|part| steps(part * tilt.max(inputs.driver.crowning)));
+        let places = AMOUNTS.iter().flat_map(|amount| {
+            LENGTHS.iter().flat_map(move |length| {
+                crownings.map(|crowning| {
+                    let length = length * f64::from(grid.most_length);
+                    [(amount * needed).round() as i32, length.round() as i32, crowning]
+                })
+            })
+        });
+        let mut places: Vec<Place> = places.map(|place| self.inside(place)).collect();
+        places.sort_unstable();
+        places.dedup();
+        self.evaluate(&places)?;
+        let mut best = self.cheapest(&places);
+        let mut strides =
+            [needed / 5.0, f64::from(grid.most_length) / 8.0, f64::from(crownings[1]) / 2.0]
+                .map(|stride| (stride.round() as i32).max(1));
+        while best.1.is_finite() {
+            let around = DIRECTIONS.iter().flat_map(|by| [1, -1].map(|sign| (by, sign)));
+            let around = around.map(|(by, sign)| {
+                self.inside([0, 1, 2].map(|axis| best.0[axis] + sign * by[axis] * strides[axis]))
+            });
+            let around: Vec<Place> = around.collect();
+            self.evaluate(&around)?;
+            let next = self.cheapest(&around);
+            if next.1 < best.1 {
+                best = next;
+            } else if strides == LAST {
+                return Ok(Some(best.0));
+            } else {
+                strides = strides.map(|stride| (stride / 2).max(1));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The nearest place of the grid.
+    fn inside(&self, [amount, length, crowning]: Place) -> Place {
+        let grid = self.pair.grid;
+        let most = grid.most_amounts[0].max(grid.most_amounts[1]);
+        // A crowning that no case needs.
+        const MOST_CROWNING: i32 = 200;
+        [
+            amount.clamp(0, most),
+            length.clamp(grid.least_length, grid.most_length),
+            crowning.clamp(0, MOST_CROWNING),
+        ]
+    }
+
+    fn reliefs(&self, [amount, length, crowning]: Place) -> TipReliefs {
+        let grid = self.pair.grid;
+        TipReliefs {
+            crowning: decimal(AMOUNT_STEP * f64::from(crowning)),
+            ..grid.reliefs(self.shape, grid.equal(amount, [length; 2]))
+        }
+    }
+
+    fn cheapest(&self, places: &[Place]) -> (Place, f64) {
+        let all = places.iter().map(|place| (*place, self.known[place]));
+        all.min_by(|one, other| one.1.total_cmp(&other.1)).unwrap_or(([0; 3], f64::INFINITY))
+    }
+
+    /// Computes the costs of new places: the figure of the criterion at its least favourable
+    /// misalignment, infinite with corner contact at a limit of the tolerances. For the criterion
+    /// `entry` the amount, or the force before E.
+    fn evaluate(&mut self, places: &[Place]) -> Result<(), NoRelief> {
+        let (pair, demand) = (self.pair, self.pair.demand);
+        let mut new: Vec<Place> =
+            places.iter().copied().filter(|place| !self.known.contains_key(place)).collect();
+        new.sort_unstable();
+        new.dedup();
+        let (limits, most) = (pair.limits(), demand.greatest_load());
+        let keys = ["static_last_contact_angle", "static_force_at_start", "static_peak_line_load"];
+        let rows = self.solved(&keys, &new, &|reliefs| {
+            limits.iter().map(|&(off, by)| (reliefs.off(off), most, by)).collect()
+        })?;
+        let mut clear = Vec::new();
+        for (place, rows) in new.into_iter().zip(rows.chunks(limits.len())) {
+            let strikes = |row: &Row| {
+                row.outcome != PointOutcome::Solved(Outcome::NoCornerContact)
+                    || row.values[0].is_some()
+            };
+            let value = |at: usize| {
+                rows.iter().map(|row| row.values[at].unwrap_or(0.0)).fold(0.0, f64::max)
+            };
+            let is_refused = rows.iter().any(|row| row.refusal.is_some());
+            let strikes = rows.iter().any(strikes);
+            if !strikes && self.least.is_none_or(|least| place < least) {
+                self.least = Some(place);
+            }
+            let cost = match demand.minimise {
+                _ if is_refused => f64::INFINITY,
+                // Any force is worse than any amount.
+                Criterion::Entry if strikes => 1.0 + value(1),
+                Criterion::Entry => {
+                    self.reliefs(place).removed() + 0.01 * self.reliefs(place).crowning
+                }
+                _ if strikes => f64::INFINITY,
+                Criterion::Peak => value(2),
+                Criterion::Te => {
+                    clear.push(place);
+                    continue;
+                }
+            };
+            self.known.insert(place, cost);
+        }
+        let misalignments = pair.misalignments();
+        let rows = self.solved(&["static_te_peak_to_peak"], &clear, &|reliefs| {
+            let loads = pair.loads.iter();
+            let all = loads.flat_map(|&(load, _)| misalignments.iter().map(move |&by| (load, by)));
+            all.map(|(load, by)| (reliefs, load, by)).collect()
+        })?;
+        let each = pair.loads.len() * misalignments.len();
+        for (place, rows) in clear.into_iter().zip(rows.chunks(each)) {
+            let of_load = rows.chunks(misalignments.len()).map(|rows| {
+                let errors = rows.iter().map(|row| row.values[0].unwrap_or(f64::INFINITY));
+                errors.fold(0.0, f64::max)
+            });
+            self.known.insert(place, demand.figure(of_load));
+        }
+        Ok(())
+    }
+
+    /// Solves each place under its conditions; the rows of each place follow each other.
+    fn solved(
+        &self,
+        keys: &[&str],
+        places: &[Place],
+        conditions: &dyn Fn(TipReliefs) -> Vec<(TipReliefs, f64, f64)>,
+    ) -> Result<Vec<Row>, NoRelief> {
+        let pair = self.pair;
+        let all = places.iter().flat_map(|&place| conditions(self.reliefs(place))).collect();
+        let trials = Trials { inputs: pair.inputs, all };
+        let quantities: Vec<_> = keys.iter().filter_map(|key| Quantity::find(key)).collect();
+        let batch = Batch { inputs: pair.inputs, points: &trials, quantities: &quantities };
+        let control = Control { jobs: None, go_on: &|_, _| (pair.go_on)(pair.part.get()) };
+        let mut found = Vec::with_capacity(trials.count());
+        solve_all(&batch, 0..trials.count(), &control, &mut |_, rows| {
+            found.extend_from_slice(rows);
+            true
+        })
+        .map_err(|_| NoRelief::Refused(Refusal::Stopped))?;
+        Ok(found)
+    }
+}
+
+/// A length in whole um.
+fn steps(length: f64) -> i32 {
+    (length / AMOUNT_STEP).round() as i32
+}
