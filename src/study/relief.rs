@@ -208,7 +208,7 @@ impl Figures {
             entry: self.entry.max(other.entry),
             peak: self.peak.max(other.peak),
             factor: None,
-            line_load: self.line_load.max(other.line_load),
+            line_load: self.line_load.into_iter().chain(other.line_load).reduce(f64::max),
         }
     }
 
