@@ -1,5 +1,7 @@
 //! The tip relief to specify, compared with whole solves and with every relief of a grid.
+use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use crate::support;
 
@@ -15,8 +17,15 @@ fn inputs(path: &str) -> Inputs {
     Inputs { method: Method::Static, ..support::inputs(&format!("{path}.toml")) }
 }
 
-fn specified(inputs: &Inputs, demand: &Demand) -> Specification {
-    specify(inputs, demand, &|_| true).unwrap_or_else(|none| panic!("{none}"))
+/// The answer of a search, which takes a second. Tests with the same demand share one search.
+fn specified(inputs: &Inputs, demand: &Demand) -> Arc<Specification> {
+    type Search = Arc<OnceLock<Arc<Specification>>>;
+    static SEARCHES: Mutex<BTreeMap<String, Search>> = Mutex::new(BTreeMap::new());
+    let key = format!("{inputs:?} {demand:?}");
+    let search = Arc::clone(SEARCHES.lock().unwrap().entry(key).or_default());
+    let run =
+        || Arc::new(specify(inputs, demand, &|_| true).unwrap_or_else(|none| panic!("{none}")));
+    Arc::clone(search.get_or_init(run))
 }
 
 /// The case with other reliefs, off by amounts and lengths, under a load.
@@ -254,11 +263,11 @@ fn if_auto_chooses_dynamic_the_relief_is_that_of_dynamic() {
     let (_, zhou_chen) = &pairs()[1];
     let by = |method| {
         let inputs = Inputs { method, within: 0.05, ..zhou_chen.clone() };
-        specify(&inputs, &demand((0.25, 1.1)), &|_| true)
+        specified(&inputs, &demand((0.25, 1.1)))
     };
     let (chosen, motion) = (by(Method::Auto), by(Method::Dynamic));
     assert_eq!(chosen, motion);
-    assert_eq!(motion.unwrap().method, Method::Dynamic);
+    assert_eq!(motion.method, Method::Dynamic);
 }
 
 fn pointed(dias: &Inputs) -> Inputs {

@@ -11,10 +11,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use ratatui::Terminal;
-use ratatui::backend::TestBackend;
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::Size;
+use ratatui::layout::{Position, Rect, Size};
 use tempfile::TempDir;
 use tipstrike::case::Document;
 use tipstrike::study::trade::Time;
@@ -281,15 +279,10 @@ impl Desk {
 
     /// The screen with its styles.
     pub(crate) fn buffer(&self, size: Size) -> Buffer {
-        let mut terminal =
-            Terminal::new(TestBackend::new(size.width, size.height)).expect("a test terminal");
-        let frame = terminal.draw(|frame| {
-            let area = frame.area();
-            if let Some(cursor) = view::draw(&self.app, area, frame.buffer_mut()) {
-                frame.set_cursor_position(cursor);
-            }
-        });
-        frame.expect("a frame").buffer.clone()
+        let area = Rect::from((Position::ORIGIN, size));
+        let mut buffer = Buffer::empty(area);
+        view::draw(&self.app, area, &mut buffer);
+        buffer
     }
 }
 

@@ -15,8 +15,7 @@ use tipstrike::tui::testing::jobs::Slot;
 use tipstrike::tui::testing::theme::{Look, MONO};
 
 /// The lines inside the box on the screen.
-fn in_box(desk: &Desk) -> Vec<String> {
-    let screen = desk.screen();
+fn in_box(screen: &str) -> Vec<String> {
     let lines = screen
         .lines()
         .filter(|line| line.ends_with(['█', '│']) || line.contains("│ ") || line.contains("█ "));
@@ -27,14 +26,14 @@ fn in_box(desk: &Desk) -> Vec<String> {
 
 /// The whole page, line by line.
 fn read_through(desk: &mut Desk) -> Vec<String> {
-    let mut page = in_box(desk);
+    let mut screen = desk.screen();
+    let mut page = in_box(&screen);
     loop {
-        let before = desk.screen();
-        desk.keys(&["Down"]);
-        if desk.screen() == before {
+        let before = std::mem::replace(&mut screen, desk.keys(&["Down"]).screen());
+        if screen == before {
             return page;
         }
-        page.extend(in_box(desk).pop());
+        page.extend(in_box(&screen).pop());
     }
 }
 
