@@ -17,93 +17,82 @@ pub enum Absence {
     OtherMethod(Method, Stage),
     /// No corner contact: the reason, and the total deviation in m.
     NoContact(&'static str, f64),
-    /// The closed form finds no first contact, but the method does.
-    NoFreeImpact,
-    /// The quantity needs a friction coefficient, and the case has none.
-    NoFriction,
-    /// The quantity needs a backlash, and the case has none.
-    NoBacklash,
-    /// The quantity needs a tip radius, and the tips are sharp.
-    NoTipRadius,
-    /// The event does not occur.
-    NotReached,
     /// No contact after the end of the path of contact.
     NoExit,
-    /// The load of the pair is even over the face width.
-    NoSlices,
     /// The model withholds the quantity.
     Withheld(Refusal),
-    /// The impact has no end, because the triangle of Eq. 34 does not close.
-    Unclosed,
+    /// Another reason.
+    Because(&'static str),
 }
+
+const NO_EVENT: &str = "the event does not occur";
 
 impl Absence {
     /// Why the quantity has no value in a solution.
     #[must_use]
     pub fn of(quantity: &Quantity, solution: &Solution) -> Absence {
+        let stage = quantity.stage;
         if let Some(Err(refusal)) = solution.beside
-            && !solution.method.stages().has(quantity.stage)
+            && !solution.method.stages().has(stage)
         {
             return Absence::Withheld(refusal);
         }
-        let solution = solution.having(quantity.stage);
-        let is_without = solution.outcome == Outcome::NoCornerContact;
-        let no_contact = Absence::NoContact(without_contact(solution), solution.deviation.total);
+        let solution = solution.having(stage);
         if let Some(absence) = Absence::by_method(quantity, solution.method) {
             return absence;
         }
-        match (quantity.stage, solution.withheld) {
-            _ if quantity.needs == Need::Slices
-                && solution.helix.is_none()
-                && solution.face_load.is_none() =>
-            {
-                Absence::NoSlices
+        let is_shared = matches!(stage, Stage::Static | Stage::Dynamic);
+        let is_without = solution.outcome == Outcome::NoCornerContact;
+        let no_contact = Absence::NoContact(without_contact(solution), solution.deviation.total);
+        let refused = match stage {
+            Stage::SteadyMotion => solution.steady.as_ref().and_then(|it| it.as_ref().err()),
+            Stage::SpeedRun => solution.over_speed.as_ref().and_then(|it| it.as_ref().err()),
+            Stage::StaticSpectrum => {
+                solution.static_spectrum.as_ref().and_then(|it| it.as_ref().err())
             }
-            (Stage::Static | Stage::Dynamic, _) if quantity.key.contains("last_contact") => {
-                Absence::NoExit
+            _ => None,
+        };
+        let has_motion = match stage {
+            Stage::Dynamic => solution.dynamic.is_some(),
+            Stage::SteadyMotion => matches!(solution.steady, Some(Ok(_))),
+            _ => false,
+        };
+        let has_friction = || solution.mesh.as_ref().is_some_and(|mesh| mesh.friction() > 0.0);
+        match (stage, quantity.needs) {
+            (_, Need::Slices) if solution.helix.is_none() && solution.face_load.is_none() => {
+                Absence::Because("only a helical, misaligned or crowned pair has this quantity")
             }
+            _ if is_shared && quantity.key.contains("last_contact") => Absence::NoExit,
             _ if is_without && !solution.method.shares_load() => no_contact,
-            (Stage::Static | Stage::Dynamic, _)
-                if quantity.needs == Need::Friction && !has_friction(solution) =>
+            (_, Need::Friction) if is_shared && !has_friction() => {
+                Absence::Because("the case has no operation.friction_coefficient")
+            }
+            (_, Need::TipRadius)
+                if (is_shared || stage == Stage::Impact) && solution.has_sharp_tips() =>
             {
-                Absence::NoFriction
+                Absence::Because(
+                    "the tip is sharp, and no pressure at an edge is finite; give driven.tip_radius",
+                )
             }
-            (Stage::Impact | Stage::Static | Stage::Dynamic, _)
-                if quantity.needs == Need::TipRadius && solution.has_sharp_tips() =>
-            {
-                Absence::NoTipRadius
-            }
-            (Stage::Dynamic, _)
-                if quantity.needs == Need::Backlash && solution.dynamic.is_some() =>
-            {
-                Absence::NoBacklash
-            }
-            (Stage::SteadyMotion, _)
-                if quantity.needs == Need::Backlash && matches!(solution.steady, Some(Ok(_))) =>
-            {
-                Absence::NoBacklash
-            }
-            (Stage::Static | Stage::Dynamic, _) if is_without => no_contact,
-            (Stage::SteadyMotion, _) if let Some(Err(refusal)) = solution.steady => {
-                Absence::Withheld(refusal)
-            }
-            (Stage::SpeedRun, _) if let Some(Err(refusal)) = solution.over_speed => {
-                Absence::Withheld(refusal)
-            }
-            (Stage::Static | Stage::Dynamic | Stage::SteadyMotion | Stage::SpeedRun, _) => {
-                Absence::NotReached
-            }
-            (Stage::StaticSpectrum, _) if let Some(Err(refusal)) = solution.static_spectrum => {
-                Absence::Withheld(refusal)
-            }
+            (_, Need::Backlash) if has_motion => Absence::Because(
+                "the case has no deviations.backlash; without it the back flanks are far away",
+            ),
+            _ if is_shared && is_without => no_contact,
+            _ if let Some(refusal) = refused => Absence::Withheld(*refusal),
+            (Stage::SteadyMotion | Stage::SpeedRun, _) => Absence::Because(NO_EVENT),
+            _ if is_shared => Absence::Because(NO_EVENT),
             (Stage::Clearing, _) if !is_without => {
                 let withheld = solution.clearing.and_then(|clearing| clearing.withheld);
-                withheld.map_or(Absence::NotReached, Absence::Withheld)
+                withheld.map_or(Absence::Because(NO_EVENT), Absence::Withheld)
             }
-            (_, Some(refusal)) => Absence::Withheld(refusal),
+            _ if let Some(refusal) = solution.withheld => Absence::Withheld(refusal),
             _ if is_without => no_contact,
-            _ if solution.position.is_none() => Absence::NoFreeImpact,
-            _ => Absence::Unclosed,
+            _ if solution.position.is_none() => {
+                Absence::Because("the closed form finds no first contact at D")
+            }
+            _ => {
+                Absence::Because("the impact has no end D': the triangle of Eq. 34 does not close")
+            }
         }
     }
 
@@ -161,10 +150,6 @@ pub fn listed(names: &[&str]) -> String {
     }
 }
 
-fn has_friction(solution: &Solution) -> bool {
-    solution.mesh.as_ref().is_some_and(|mesh| mesh.friction() > 0.0)
-}
-
 impl fmt::Display for Absence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -177,28 +162,14 @@ impl fmt::Display for Absence {
                 let own = method.name();
                 write!(f, "method {own} does not compute this quantity; {methods} do")
             }
-            Absence::NoSlices => {
-                f.write_str("only a helical, misaligned or crowned pair has this quantity")
-            }
             // A deviation above 0 belongs to the load at rest and is not the reason.
             Absence::NoContact(why, total) if *total > 0.0 => write!(f, "no corner contact: {why}"),
             Absence::NoContact(why, total) => {
                 write!(f, "no corner contact: {why}, Δ = {} um", significant(total * 1e6, 5))
             }
-            Absence::NoFreeImpact => f.write_str("the closed form finds no first contact at D"),
-            Absence::NoFriction => f.write_str("the case has no operation.friction_coefficient"),
-            Absence::NoBacklash => f.write_str(
-                "the case has no deviations.backlash; without it the back flanks are far away",
-            ),
-            Absence::NoTipRadius => f.write_str(
-                "the tip is sharp, and no pressure at an edge is finite; give driven.tip_radius",
-            ),
-            Absence::NotReached => f.write_str("the event does not occur"),
             Absence::NoExit => f.write_str("no contact after B, the end of the path of contact"),
             Absence::Withheld(refusal) => write!(f, "{refusal}; {}", refusal.fix()),
-            Absence::Unclosed => {
-                f.write_str("the impact has no end D': the triangle of Eq. 34 does not close")
-            }
+            Absence::Because(reason) => f.write_str(reason),
         }
     }
 }
