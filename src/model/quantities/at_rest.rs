@@ -92,7 +92,7 @@ pub(super) const TABLE: &[Quantity] = &[
             ("rad", "deg", 4),
             |s| Some(of_driver(s, s.static_load.as_ref()?.first_contact_angle?)),
             "The angle of the driver before E at which the incoming tooth begins to \
-            carry load at rest. The verdict of method static gives this angle.",
+                carry load at rest.",
             Text("i u_st"),
         )
         .corrections(&["Eqs. 7-20"]),
@@ -164,7 +164,7 @@ pub(super) const TABLE: &[Quantity] = &[
             ("m", "um", 5),
             |s| Some(s.static_load.as_ref()?.transmission_error),
             "The difference between the largest and the smallest lead of the driver \
-            while the tooth carries load. The transmission error causes gear whine.",
+                while the tooth carries load.",
             Found("max x - min x from the first contact to the last, x by Σ w_k F_k = F_0", SHARED),
         )
         .equation("max x − min x")
@@ -179,16 +179,16 @@ pub(super) const TABLE: &[Quantity] = &[
             ("N", "N", 4),
             |s| s.static_load.as_ref()?.pitch_jump,
             "The change of the sum of all pair forces where the incoming tooth passes \
-            the pitch point. Before the pitch point, friction drives the driver; after \
-            the pitch point, friction brakes the driver.",
+                the pitch point. Friction drives the driver before the pitch point and \
+                brakes it after.",
             PITCH_JUMP,
         )
         .equation("friction reverses")
         .stage(Static)
         .source(
-            "Friction in the balance of the driver, ΣF = F0 with weights. The \
-            introduction of Zhou & Chen 2014 names pitch corner contact as the third \
-            kind of contact; the friction force reverses at the pitch point.",
+            "Friction in the balance of the driver, ΣF = F0 with weights. Zhou & Chen \
+                2014 name pitch corner contact in their introduction; friction reverses \
+                there.",
         )
         .assumptions(SPRINGS)
         .checks(&[checks::at_rest])

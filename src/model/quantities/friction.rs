@@ -34,9 +34,8 @@ pub(super) const TABLE: &[Quantity] = &[
             "section 6",
         ])
         .assumptions(
-            "The velocities change mostly by the geometry of the gears and only \
-            slightly by friction. The ratio is not a material property, and the \
-            Coulomb coefficient does not limit the ratio.",
+            "The velocities change mostly by the geometry. The ratio is not a material \
+                property, and the Coulomb coefficient does not limit it.",
         )
         .checks(&[checks::coulomb, checks::before_start])
         .variants(&[
@@ -73,17 +72,13 @@ pub(super) const TABLE: &[Quantity] = &[
             ("1", "1", 4),
             |s| Some(s.impact?.impulse_ratio),
             "The ratio of the impulse of a half-sine force, with peak F_S and duration \
-            T_S, to the approach momentum M ΔV_n. An elastic impact gives 2, an impact \
-            without rebound gives 1. Outside 1 to 2, force and duration contradict \
-            each other.",
+                T_S, to the approach momentum M ΔV_n. An elastic impact gives 2, an impact \
+                without rebound gives 1.",
             Text("(2/π) F_S T_S/(M ΔV_n)"),
         )
         .equation("half-sine")
         .stage(Impact)
-        .source(
-            "Balance of momentum over the impact. It is a check and not part of Zhou & \
-            Chen 2014.",
-        )
+        .source("Balance of momentum over the impact, not part of Zhou & Chen 2014.")
         .corrections(&["Eq. 32"])
         .assumptions("The force follows half a sine over time.")
         .checks(&[checks::possible]),

@@ -12,12 +12,11 @@ use crate::model::inputs::InertiaModel;
 use crate::model::{Inputs, Stages};
 
 const SPRING: &str = "The effective mass strikes the pair at D as a mass strikes a spring, \
-            without damping and without another pair in contact. The place and the \
-            stiffness of the pair stay constant during the impact.";
+                without damping and without another pair in contact. Place and stiffness \
+                stay constant.";
 const BAND: &str = "Every tooth compliance that covers the pair is combined with every contact \
-            compliance. Each combination uses the given deflection, or else its own \
-            deflection. The mass is the same for all models. No measurement shows \
-            which model is correct.";
+                compliance, with the given deflection or its own, and with the same mass. \
+                No measurement shows which model is correct.";
 const SPHERES: &str = "Two spheres collide. The bending of the teeth is neglected.";
 const BODY: &str = "Each gear is a solid body of its own width from the bore to its outline, \
             or to the base circle with model.inertia = \"base-circle\", without web, \
@@ -28,8 +27,7 @@ const BODY: &str = "Each gear is a solid body of its own width from the bore to 
 const FORCE: Quantity = Quantity {
     equation: "models in range",
     stage: Band,
-    source: "Zhou & Chen 2014, Eq. 57, with all stiffness models in range: the models \
-            in range combine a tooth compliance and a contact compliance.",
+    source: "Zhou & Chen 2014, Eq. 57, with all stiffness models in range.",
     corrections: &["Eq. 56"],
     assumptions: BAND,
     checks: &[checks::teeth],
@@ -141,8 +139,8 @@ pub(super) const TABLE: &[Quantity] = &[
         .source("Zhou & Chen 2014, section 6: the ratio F_S/F_0.")
         .corrections(&["section 6"])
         .assumptions(
-            "The ratio compares the impact alone with the steady load alone. It is not \
-            the factor K_v of ISO 6336, which includes the whole mesh.",
+            "The impact alone is compared with the steady load alone. K_v of ISO 6336 \
+                includes the whole mesh.",
         )
         .checks(&[checks::gap_closed, checks::within_approach]),
     DURATION
@@ -163,8 +161,7 @@ pub(super) const TABLE: &[Quantity] = &[
             Variant::words(
                 paper,
                 "Eq. 32 as printed.",
-                "Two spheres collide. The bending of the teeth, which determines the force, \
-            is neglected.",
+                "Two spheres collide. The bending of the teeth is neglected.",
             ),
             Variant::meaning(always, "the method of the case."),
         ]),
@@ -173,8 +170,8 @@ pub(super) const TABLE: &[Quantity] = &[
             ["impact_duration_printed", "T_S,32", "  by Eq. 32 as printed"],
             ("s", "us", 4),
             |s| Some(s.impact?.duration_printed),
-            "The duration of Eq. 32 as printed. Methods paper and exact compute the \
-            friction ratio with it, as published.",
+            "The duration of Eq. 32 as printed, with which the friction ratio is \
+                computed, as published.",
             Text("(m_red²/(π² ΔV_n ρ_S E'²))^(1/5)"),
         )
         .equation("Eq. 32")
@@ -218,8 +215,8 @@ pub(super) const TABLE: &[Quantity] = &[
         ["reduced_mass", "m_red", "reduced mass"],
         ("kg", "kg", 5),
         |s| Some(s.reduced_mass),
-        "The masses of both gears on the line of action, combined in series. Eqs. \
-            31 and 32 use it. The impact force uses the effective mass at D.",
+        "The masses of both gears on the line of action, combined in series. The \
+                impact force uses the effective mass at D.",
         Text("m_1 m_2/(m_1 + m_2)"),
     )
     .equation("Eq. 33")
@@ -279,8 +276,7 @@ pub(super) const TABLE: &[Quantity] = &[
             ("Pa", "MPa", 5),
             |s| s.impact?.corner_pressure,
             "The Hertz pressure of the rounded tip edge on the driver's flank under the \
-            impact force. A sharp edge has no finite pressure: this result needs the \
-            tip radius of the driven gear.",
+                impact force.",
             Text("2 F_S/(π a_H b)"),
         )
         .stage(Impact)
@@ -304,8 +300,8 @@ pub(super) const TABLE: &[Quantity] = &[
             ["sliding_energy", "W_f", "sliding energy"],
             ("J", "J", 5),
             |s| Some(s.impact?.sliding_energy),
-            "The energy of the sliding at D by Eq. 51, over the whole width. Friction \
-            can absorb only a part of it: see stick_limit.",
+            "The energy of the sliding at D, over the whole width. Friction can absorb \
+                only a part of it: see stick_limit.",
             Text("M ΔV_τ²/2"),
         )
         .equation("Eq. 51")

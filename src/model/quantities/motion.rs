@@ -69,7 +69,7 @@ pub(super) const TABLE: &[Quantity] = &[
             ("rad", "deg", 4),
             |s| Some(of_driver(s, s.dynamic.as_ref()?.first_contact_angle?)),
             "The angle of the driver before E at which the incoming tooth first touches \
-            in motion. The verdict of method dynamic gives this angle.",
+                in motion.",
             Text("i u_d"),
         )
         .corrections(&["Eqs. 7-20"]),
@@ -105,12 +105,10 @@ pub(super) const TABLE: &[Quantity] = &[
         .corrections(&["Eq. 54"])
         .variants(&[Variant::meaning(
             conditions::driven_rounded,
-            " At E the contact passes from the tip radius to the flank, and the \
-            stiffness of the pair rises in one step, but the displacement does not: \
-            the force rises by the same ratio at any speed, and the peak can stay \
-            above F_st,max as the speed falls. In a real pair the stiffness rises \
-            while the contact moves by its own width, so that the model overstates the \
-            peak at low speed.",
+            " At E the contact passes from the tip radius to the flank: the stiffness \
+                of the pair rises in one step, and with it the force at any speed. In a \
+                real pair it rises while the contact moves by its own width, so that the \
+                model overstates the peak at low speed.",
         )]),
     IN_MOTION
         .row(
@@ -151,8 +149,7 @@ pub(super) const TABLE: &[Quantity] = &[
         ("1", "1", 4),
         |s| Some(f64::from(s.dynamic.as_ref()?.rattle?.strikes)),
         "How often the back flanks strike across the backlash, from one base pitch \
-            before E until the incoming tooth leaves. Without a backlash in the case \
-            the back flanks are far away, and this result does not exist.",
+                before E until the incoming tooth leaves.",
         BY_MOTION,
     )
     .equation("back flanks touch"),

@@ -139,9 +139,8 @@ pub(super) const TABLE: &[Quantity] = &[
             ["closed_gap", "S(u)", "gap closed by the tip"],
             ("m", "um", 5),
             |s| Some(s.position?.closed_gap),
-            "The gap between tip and flank that is closed at D. It equals Δ at the \
-            exact position. At the printed position the difference from Δ is the error \
-            of that position.",
+            "The gap between tip and flank that is closed at D: Δ at the exact \
+                position. At the printed position the difference from Δ is its error.",
             Difference("Δρ_1 + r_b2 u - r_b1 Δχ"),
         )
         .equation("S(u) = Δ")

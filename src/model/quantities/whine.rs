@@ -171,8 +171,8 @@ pub(super) const TABLE: &[Quantity] = &[
             ("1", "1", 5),
             |s| Some(steady(s)?.tooth_force / at_rest(s)?.tooth_force),
             "The greatest force on a tooth in the steady motion over its greatest force \
-            at rest, without deviations. The dynamic factor K_v of ISO 6336-1 applies \
-            to the whole mesh and includes deviations; compare mesh_force_factor.",
+                at rest, without deviations. K_v of ISO 6336-1 is of the whole mesh with \
+                deviations; compare mesh_force_factor.",
             Found("max F_k in the steady motion over max F_k at rest", STEADY),
         )
         .equation("max F/max F_st"),
@@ -196,8 +196,7 @@ pub(super) const TABLE: &[Quantity] = &[
                 Some(f64::from(steady.rattle?.strikes) / f64::from(steady.periods))
             },
             "The strikes of back flanks across the backlash per base pitch, in the \
-            steady motion of a pair without deviations: rattle. Without a backlash in \
-            the case the back flanks are far away, and this result does not exist.",
+                steady motion of a pair without deviations: rattle.",
             Found("counted over the base pitches after which the motion repeats", STEADY),
         )
         .equation("strikes per base pitch")
