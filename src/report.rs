@@ -39,6 +39,7 @@ use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Solution, Stage, St
 use crate::numeric::decimal::significant;
 #[cfg(all(unix, feature = "tui"))]
 pub(crate) use layout::with_units;
+use serde::{Serialize, Serializer};
 
 /// A value as text with its unit.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,6 +48,12 @@ pub struct Shown {
     pub number: String,
     /// The unit; empty for a bare number.
     pub unit: &'static str,
+}
+
+impl Serialize for Shown {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
 }
 
 impl std::fmt::Display for Shown {

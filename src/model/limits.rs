@@ -111,8 +111,6 @@ pub enum Refusal {
         /// The method.
         method: Method,
     },
-    /// The search for a relief knows only pairs whose load is even over the face width.
-    ReliefOverFace,
     /// The bore leaves no gear body.
     BoreTooLarge {
         /// The gear.
@@ -488,15 +486,6 @@ impl Refusal {
                     method.name()
                 ),
                 "set model.method to static",
-            ),
-            Refusal::ReliefOverFace => (
-                "relief-over-face",
-                driven("tip_relief"),
-                "the search for a relief knows no pair whose load varies over the face width: a \
-                    helical, misaligned or crowned pair"
-                    .to_owned(),
-                "give driven.tip_relief; solve names the additional tip relief that prevents corner \
-                    contact",
             ),
             Refusal::BoreTooLarge { gear, bore, circle, limit } => (
                 "bore-too-large",

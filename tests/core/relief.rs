@@ -380,6 +380,40 @@ fn with_the_stiffness_of_the_source_the_pair_of_dias_needs_the_published_relief(
     assert!((needed - PUBLISHED).abs() < 1e-6, "{needed:e}");
 }
 
+/// A misaligned pair in few slices, so that whole solves are fast.
+fn misaligned(helix: f64) -> Inputs {
+    let (_, zhou_chen) = pairs().into_iter().nth(1).unwrap();
+    Inputs {
+        misalignment: 6e-6,
+        helix_angle: f64::to_radians(helix),
+        slices: Some(9),
+        ..zhou_chen
+    }
+}
+
+#[test]
+fn relief_and_crowning_are_sought_together_over_load_and_misalignment() {
+    for helix in [0.0, 12.0] {
+        let inputs = misaligned(helix);
+        let demand = Demand { misalignment: 8e-6, minimise: Criterion::Peak, ..demand((0.5, 1.1)) };
+        let found = specified(&inputs, &demand);
+        assert!(found.is_over_face && found.method == Method::Static);
+        let (case, chosen) = (&found.choices[0], found.chosen());
+        assert!(chosen.reliefs.crowning > 0.0 && !chosen.worst.strikes && chosen.worst.gap >= 0.0);
+        let line_load = |choice: &tipstrike::study::relief::Choice| choice.worst.line_load.unwrap();
+        assert!(line_load(chosen) < line_load(case), "{helix}: {chosen:?} {case:?}");
+        for (misalignment, off) in [(-2e-6, -1.0), (6e-6, -1.0), (14e-6, 1.0), (14e-6, -1.0)] {
+            let off = [3e-6, 3e-6, 1e-4, 1e-4].map(|by| off * by);
+            let reliefs = with(&inputs, &chosen.reliefs, off, 1.1);
+            let mut reliefs = Inputs { misalignment, ..reliefs };
+            reliefs.driver.crowning = chosen.reliefs.crowning;
+            let solution = solved(&reliefs);
+            assert_eq!(solution.outcome, Outcome::NoCornerContact, "{helix} {misalignment:e}");
+            assert!(solution.static_load.unwrap().last_contact_angle.is_none());
+        }
+    }
+}
+
 #[test]
 fn the_user_can_stop_a_search() {
     let (_, dias) = &pairs()[0];

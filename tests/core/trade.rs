@@ -314,6 +314,40 @@ fn json_has_every_setting_with_its_errors() {
     assert_eq!(object["recommended"]["qualifies"], true);
 }
 
+/// Over the face width slices are compared: coupled slices converge, and independent slices have a
+/// model error of the greatest line load.
+#[test]
+fn slices_of_a_helical_pair_are_compared_coupled_and_independent() {
+    let helical = Inputs {
+        helix_angle: 20f64.to_radians(),
+        tooth_compliance: Some(ToothCompliance::KUANG_YANG),
+        method: Method::Static,
+        deflection: None,
+        ..table_1()
+    };
+    let mut inputs = helical;
+    (inputs.driver.face_width, inputs.driven.face_width) = (30e-3, 30e-3);
+    let trade = traded(&inputs, 0.05);
+    let off = |slices: usize, is_coupled: bool| {
+        let is_it = |one: &&MeasuredSetting| {
+            (one.setting.slices, one.setting.coupled) == (Some(slices), is_coupled)
+        };
+        let found = trade.settings.iter().find(is_it).expect("a setting");
+        let figures = found.found.as_ref().expect("a solve");
+        let of = |subject: Subject| figures.total[subject as usize].expect("a value");
+        [Subject::FirstContact, Subject::LineLoad, Subject::TransmissionError].map(of)
+    };
+    let (few, many) = (off(9, true), off(129, true));
+    assert!(many.iter().zip(few).all(|(many, few)| *many <= few), "{few:?} {many:?}");
+    assert!(many[1] < 0.02 && off(129, false)[1] > 0.05, "{many:?} {:?}", off(129, false));
+    let (text, json) = (text(&trade), json(&trade));
+    assert!(text.contains("independent") && text.lines().all(|line| line.chars().count() <= 80));
+    let line = &json["settings"][0];
+    assert_eq!((&line["slices"], &line["slice_coupling"]), (&9.into(), &true.into()));
+    assert!(line["errors"]["peak_line_load"]["total"].is_number());
+    assert_eq!(json["reference"]["slices"], 513);
+}
+
 #[test]
 fn the_page_is_eighty_columns_wide() {
     for line in text(traded_table_1()).lines() {

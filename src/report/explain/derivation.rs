@@ -11,9 +11,8 @@ use crate::model::impact::StiffnessModels;
 use crate::model::quantities::{spread_force, steps};
 use crate::model::{QUANTITIES, Quantity};
 use crate::numeric::decimal::significant;
-use crate::report::json::{Json, json};
 use crate::report::{Shown, shown, value};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Significant digits of a step.
 const STEP_DIGITS: usize = 5;
@@ -28,30 +27,35 @@ const DIFFERENCE_DIGITS: usize = 10;
 const BOUNDS: [f64; 3] = [1e-12, 1e-9, 1e-6];
 
 /// A value and how it is computed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Work {
     /// The symbol in formulas.
     pub symbol: &'static str,
     /// The meaning of a step; empty for the quantity itself.
+    #[serde(skip_serializing_if = "str::is_empty")]
     pub meaning: &'static str,
     /// The right-hand side, the equation, or a description.
     pub formula: String,
     /// How the formula gives the value.
     pub how: How,
     /// The right-hand side with numbers. No line ends between a number and its unit.
+    #[serde(serialize_with = "without_glue")]
     pub numbers: Option<String>,
     /// The value as text.
     pub shown: Option<Shown>,
     /// Its significant digits.
+    #[serde(skip)]
     pub digits: usize,
     /// The value in SI.
+    #[serde(skip)]
     pub value: Option<f64>,
     /// The agreement of both sides of an equation at its root.
     pub residual: Option<String>,
 }
 
 /// How a formula gives a value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum How {
     /// The value is the right-hand side.
     Equals,
@@ -78,23 +82,6 @@ pub struct Leaf {
 }
 
 impl Work {
-    pub(super) fn json(&self) -> Json {
-        let how = match self.how {
-            How::Equals => "equals",
-            How::Solves => "solves",
-            How::Described => "described",
-        };
-        json!({
-            "symbol": self.symbol,
-            "meaning": (!self.meaning.is_empty()).then_some(self.meaning),
-            "how": how,
-            "formula": self.formula,
-            "numbers": self.numbers.as_ref().map(|numbers| numbers.replace(GLUE, " ")),
-            "shown": self.shown.as_ref().map(Shown::to_string),
-            "residual": self.residual,
-        })
-    }
-
     /// A step before it has a formula.
     fn step(
         symbol: &'static str,
@@ -108,10 +95,7 @@ impl Work {
             formula: String::new(),
             how: How::Described,
             numbers: None,
-            shown: value.map(|value| Shown {
-                number: tidy(value / factor(unit).unwrap_or(1.0), STEP_DIGITS),
-                unit: if unit == "1" { "" } else { unit },
-            }),
+            shown: value.map(|value| in_unit(value, unit, STEP_DIGITS)),
             digits: STEP_DIGITS,
             value,
             residual: None,
@@ -227,9 +211,15 @@ const FUNCTIONS: [&str; 11] =
 
 const SUPERSCRIPTS: [char; 3] = ['²', '³', '⁴'];
 
-/// A number and its unit, if it has one.
-fn with_unit(number: &str, unit: &str) -> String {
-    if matches!(unit, "" | "1") { number.to_owned() } else { format!("{number} {unit}") }
+#[expect(clippy::ref_option, reason = "the form that serde requires")]
+fn without_glue<S: Serializer>(numbers: &Option<String>, to: S) -> Result<S::Ok, S::Error> {
+    numbers.as_ref().map(|numbers| numbers.replace(GLUE, " ")).serialize(to)
+}
+
+/// A value in SI in a unit.
+fn in_unit(value: f64, unit: &'static str, digits: usize) -> Shown {
+    let number = tidy(value / factor(unit).unwrap_or(1.0), digits);
+    Shown { number, unit: if unit == "1" { "" } else { unit } }
 }
 
 /// A part of a formula, as written.
@@ -487,7 +477,7 @@ impl Known<'_> {
         let value = value?;
         Some(match origin {
             Origin::Field(field) => self.field_text(field, value),
-            _ => with_unit(&tidy(value / factor(unit).unwrap_or(1.0), digits), unit),
+            _ => in_unit(value, unit, digits).to_string(),
         })
     }
 
@@ -500,7 +490,7 @@ impl Known<'_> {
         };
         match self.case.effective(field) {
             Some(text) => plainly_written(text).unwrap_or_else(|| units::text(value, usual)),
-            None => with_unit(&tidy(value / factor(usual).unwrap_or(1.0), DERIVED_DIGITS), usual),
+            None => in_unit(value, usual, DERIVED_DIGITS).to_string(),
         }
     }
 }
@@ -518,7 +508,7 @@ fn plainly_written(text: &str) -> Option<String> {
         && number.parse::<f64>().is_ok();
     let is_unit = unit.bytes().all(|byte| byte.is_ascii_alphanumeric() || b" /".contains(&byte))
         && units::factor(unit).is_some();
-    (is_number && is_unit).then(|| with_unit(number, unit))
+    (is_number && is_unit).then(|| format!("{number} {unit}").trim_end().to_owned())
 }
 
 #[cfg(test)]
