@@ -15,7 +15,7 @@ use crate::model::inputs::{Drive, Gear, Method, ReliefShape};
 use crate::model::profile::{Profile, Rack};
 use crate::model::slices::Face;
 use crate::model::static_load::{lead_after_end, lead_before_start};
-use crate::model::{Inputs, Outcome, Refusal, Solution, Stage, Stages, solve, solve_while};
+use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve, solve_while};
 pub use demand::{Criterion, Demand};
 use search::{Bench, Grid, MOST_TRIES, Search};
 
@@ -565,23 +565,25 @@ impl WholeSolves<'_> {
     ) -> Result<Figures, NoRelief> {
         let inputs = Inputs { misalignment, ..reliefs.of(&loaded(self.at_most, times)) };
         let solution = self.solve(&inputs, Stage::Static)?;
-        let lead = match (&solution.mesh, inputs.face()) {
+        // Over the face width the contact after B is known without its lead.
+        let (leads, strikes_after) = match (&solution.mesh, inputs.face()) {
             (Some(mesh), Some(face)) => {
-                Face::new(&face, &solution.geometry, mesh)?.lead_before_start()?
+                let before = Face::new(&face, &solution.geometry, mesh)?.lead_before_start()?;
+                let load = solution.static_load.as_ref();
+                let last = load.and_then(|load| load.last_contact_angle);
+                ([before, f64::NEG_INFINITY], last.is_some())
             }
-            (Some(mesh), None) => lead_before_start(mesh)?.max(lead_after_end(mesh)?),
-            (None, _) => f64::NEG_INFINITY,
+            (Some(mesh), None) => ([lead_before_start(mesh)?, lead_after_end(mesh)?], false),
+            (None, _) => ([f64::NEG_INFINITY; 2], false),
         };
-        let strikes_at_end = solution.face_load.is_some()
-            && solution.static_load.as_ref().is_some_and(|load| load.last_contact_angle.is_some());
-        let enters = solution.outcome == Outcome::CornerContact;
         let line_load = solution.face_load.as_ref().map(|load| load.peak.line_load);
         let found = solution.static_load.unwrap_or_default();
+        let gap = -leads[0].max(leads[1]);
         let at_rest = Figures {
             error: 0.0,
-            gap: -lead,
-            strikes: lead > 0.0 || strikes_at_end,
-            entry: if enters { found.force_at_start } else { 0.0 },
+            gap,
+            strikes: gap < 0.0 || strikes_after,
+            entry: if leads[0] > 0.0 { found.force_at_start } else { 0.0 },
             peak: found.peak_force,
             factor: None,
             line_load,

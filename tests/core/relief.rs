@@ -383,12 +383,7 @@ fn with_the_stiffness_of_the_source_the_pair_of_dias_needs_the_published_relief(
 /// A misaligned pair in few slices, so that whole solves are fast.
 fn misaligned(helix: f64) -> Inputs {
     let (_, zhou_chen) = pairs().into_iter().nth(1).unwrap();
-    Inputs {
-        misalignment: 6e-6,
-        helix_angle: f64::to_radians(helix),
-        slices: Some(9),
-        ..zhou_chen
-    }
+    Inputs { misalignment: 6e-6, helix_angle: f64::to_radians(helix), slices: Some(9), ..zhou_chen }
 }
 
 #[test]

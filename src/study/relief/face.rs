@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use super::search::{KINDS, LEAST};
-use super::{AMOUNT_STEP, Criterion, NoRelief, TipReliefs, WholeSolves, decimal, loaded};
+use super::{AMOUNT_STEP, Criterion, NoRelief, SEARCH, TipReliefs, WholeSolves, decimal, loaded};
 use crate::case::Problem;
 use crate::model::inputs::ReliefShape;
 use crate::model::{Inputs, Outcome, Quantity, Refusal};
@@ -14,15 +14,19 @@ use crate::study::batch::{Batch, Control, PointOutcome, Points, Row, solve_all};
 type Place = [i32; 3];
 
 /// The first amounts, relative to the deflection and deviation at the greatest load.
-const AMOUNTS: [f64; 5] = [0.4, 0.7, 1.0, 1.4, 2.0];
+const AMOUNTS: [f64; 6] = [0.4, 0.7, 1.0, 1.4, 2.0, 3.0];
 /// The first lengths, relative to the longest.
 const LENGTHS: [f64; 3] = [0.4, 0.7, 1.0];
 /// The first crownings, relative to the misalignment with its deviation.
 const CROWNINGS: [f64; 3] = [0.0, 0.5, 1.0];
 /// The directions of the search.
 const DIRECTIONS: [Place; 5] = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [1, 0, -1]];
-/// Least strides; a crowning in whole um.
+/// Progress by a step of the search.
+const STEP: f64 = 0.01;
+/// Least strides.
 const LAST: Place = [1, 1, 1];
+/// Greatest crowning, in um.
+const MOST_CROWNING: i32 = 200;
 
 /// Solves of the pair: reliefs, part of the load, misalignment in m.
 struct Trials<'a> {
@@ -60,6 +64,7 @@ pub(super) fn search(
     pair: &WholeSolves<'_>,
 ) -> Result<(Vec<(&'static str, TipReliefs)>, u64), NoRelief> {
     let (mut found, mut least, mut tries) = (Vec::new(), None, 0);
+    pair.part.set(0.0);
     for (shape, [_, name]) in KINDS {
         let mut search = Search { pair, shape, known: HashMap::new(), least: None };
         if let Some(best) = search.best()? {
@@ -67,7 +72,6 @@ pub(super) fn search(
         }
         least = least.or(search.least.map(|place| (LEAST, search.reliefs(place))));
         tries += search.known.len() as u64;
-        pair.part.set(pair.part.get() + 0.1);
     }
     found.extend(least);
     if found.is_empty() {
@@ -100,9 +104,9 @@ impl Search<'_> {
         places.dedup();
         self.evaluate(&places)?;
         let mut best = self.cheapest(&places);
-        let mut strides =
-            [needed / 5.0, f64::from(grid.most_length) / 8.0, f64::from(crownings[1]) / 2.0]
-                .map(|stride| (stride.round() as i32).max(1));
+        let crowning = (f64::from(crownings[1]) / 2.0).max(2.0);
+        let mut strides = [needed / 5.0, f64::from(grid.most_length) / 8.0, crowning]
+            .map(|stride| (stride.round() as i32).max(1));
         while best.1.is_finite() {
             let around = DIRECTIONS.iter().flat_map(|by| [1, -1].map(|sign| (by, sign)));
             let around = around.map(|(by, sign)| {
@@ -126,8 +130,6 @@ impl Search<'_> {
     fn inside(&self, [amount, length, crowning]: Place) -> Place {
         let grid = self.pair.grid;
         let most = grid.most_amounts[0].max(grid.most_amounts[1]);
-        // A crowning that no case needs.
-        const MOST_CROWNING: i32 = 200;
         [
             amount.clamp(0, most),
             length.clamp(grid.least_length, grid.most_length),
@@ -217,6 +219,7 @@ impl Search<'_> {
         conditions: &dyn Fn(TipReliefs) -> Vec<(TipReliefs, f64, f64)>,
     ) -> Result<Vec<Row>, NoRelief> {
         let pair = self.pair;
+        pair.part.set((pair.part.get() + STEP).min(SEARCH));
         let all = places.iter().flat_map(|&place| conditions(self.reliefs(place))).collect();
         let trials = Trials { inputs: pair.inputs, all };
         let quantities: Vec<_> = keys.iter().filter_map(|key| Quantity::find(key)).collect();
