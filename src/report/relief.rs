@@ -40,9 +40,9 @@ impl ReliefReport<'_> {
                 format!("within {:.0} % of the least {}", 100.0 * worth, found.demand.minimise)
             }
         };
-        let costs = ["worst_transmission_error", "least_load_error", "least_load_change"];
-        let costs = costs.into_iter().chain(["unloaded_contact_ratio", "worst_entry_force"]);
-        let costs = costs.chain(["worst_peak_force"]).chain(is_moving.then_some("dynamic_factor"));
+        let costs = ["least_load_error", "least_load_change", "unloaded_contact_ratio"];
+        let costs = costs.into_iter().chain(["worst_entry_force", "worst_peak_force"]);
+        let costs = costs.chain(is_moving.then_some("dynamic_factor"));
         let costs: Vec<&str> = costs.chain(["margin", "greatest_load"]).collect();
         let force = if is_moving { "in motion" } else { "at rest" };
         let tables = [
