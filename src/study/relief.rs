@@ -475,6 +475,13 @@ impl WholeSolves<'_> {
         limits.iter().flat_map(|&off| misalignments.iter().map(move |&by| (off, by))).collect()
     }
 
+    /// The limits with the smallest reliefs.
+    fn smallest(&self) -> Vec<(Off, f64)> {
+        let mut limits = self.limits();
+        limits.retain(|(off, _)| off.iter().all(|by| *by <= 0.0));
+        limits
+    }
+
     /// The misalignment of the case, and its limits, in m.
     fn misalignments(&self) -> Vec<f64> {
         let (own, by) = (self.inputs.misalignment, self.demand.misalignment);
@@ -618,7 +625,7 @@ impl WholeSolves<'_> {
         if let Some(bench) = self.bench {
             return Ok(bench.overlap_under(reliefs, times)? <= 0.0);
         }
-        let mut limits = self.limits().into_iter();
+        let mut limits = self.smallest().into_iter();
         limits.try_fold(true, |clears, (off, misalignment)| {
             let found = match clears {
                 true => self.figures_at(&reliefs.off(off), misalignment, times, false),

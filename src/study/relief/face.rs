@@ -24,7 +24,7 @@ const DIRECTIONS: [Place; 5] = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [1, 
 /// Progress by a step of the search.
 const STEP: f64 = 0.01;
 /// Least strides.
-const LAST: Place = [1, 1, 1];
+const LAST: Place = [2, 2, 2];
 /// Greatest crowning, in um.
 const MOST_CROWNING: i32 = 200;
 
@@ -106,7 +106,7 @@ impl Search<'_> {
         let mut best = self.cheapest(&places);
         let crowning = (f64::from(crownings[1]) / 2.0).max(2.0);
         let mut strides = [needed / 5.0, f64::from(grid.most_length) / 8.0, crowning]
-            .map(|stride| (stride.round() as i32).max(1));
+            .map(|stride| (stride.round() as i32).max(LAST[0]));
         while best.1.is_finite() {
             let around = DIRECTIONS.iter().flat_map(|by| [1, -1].map(|sign| (by, sign)));
             let around = around.map(|(by, sign)| {
@@ -120,7 +120,7 @@ impl Search<'_> {
             } else if strides == LAST {
                 return Ok(Some(best.0));
             } else {
-                strides = strides.map(|stride| (stride / 2).max(1));
+                strides = strides.map(|stride| (stride / 2).max(LAST[0]));
             }
         }
         Ok(None)
@@ -151,7 +151,7 @@ impl Search<'_> {
     }
 
     /// Computes the costs of new places: the figure of the criterion at its least favourable
-    /// misalignment, infinite with corner contact at a limit of the tolerances. For the criterion
+    /// misalignment, infinite with corner contact of the smallest reliefs within the tolerances. For the criterion
     /// `entry` the amount, or the force before E.
     fn evaluate(&mut self, places: &[Place]) -> Result<(), NoRelief> {
         let (pair, demand) = (self.pair, self.pair.demand);
@@ -159,7 +159,7 @@ impl Search<'_> {
             places.iter().copied().filter(|place| !self.known.contains_key(place)).collect();
         new.sort_unstable();
         new.dedup();
-        let (limits, most) = (pair.limits(), demand.greatest_load());
+        let (limits, most) = (pair.smallest(), demand.greatest_load());
         let keys = ["static_last_contact_angle", "static_force_at_start", "static_peak_line_load"];
         let rows = self.solved(&keys, &new, &|reliefs| {
             limits.iter().map(|&(off, by)| (reliefs.off(off), most, by)).collect()
