@@ -678,7 +678,7 @@ impl WholeSolves<'_> {
         parts.retain(|part| (part - own).abs() > CLOSE);
         parts.push(own);
         parts.sort_by(f64::total_cmp);
-        let point = |part: f64, times: f64| {
+        let point = |part: f64, times: f64| -> Result<MapPoint, NoRelief> {
             let scale = part * longest / greatest;
             let reliefs = TipReliefs {
                 amounts: reliefs.amounts.map(|amount| times * amount),
