@@ -114,12 +114,21 @@ impl Formula {
 
     /// The right-hand side if the formula is explicit.
     pub fn explicit(self, context: &Context) -> Option<String> {
-        match self.resolved(context.inputs) {
-            Formula::Text(text) | Formula::Difference(text) => Some(text.to_owned()),
-            Formula::Made(make) => Some(make(context)),
-            _ => None,
-        }
+        let text = match self.resolved(context.inputs) {
+            Formula::Text(text) | Formula::Difference(text) => text.to_owned(),
+            Formula::Made(make) => make(context),
+            _ => return None,
+        };
+        Some(in_section(&text, context.inputs))
     }
+}
+
+/// A formula in the symbols of the pair: the transverse section of a spur pair is the normal section.
+pub fn in_section(formula: &str, inputs: &Inputs) -> String {
+    if inputs.helix_angle > 0.0 {
+        return formula.to_owned();
+    }
+    formula.replace("α_t", "α").replace("m_t", "m").replace("z_n", "z")
 }
 
 /// A number with `digits` significant digits. Removes trailing zeros if the shorter number is

@@ -98,11 +98,6 @@ pub fn graded<const GEAR: usize>(inputs: &Inputs) -> bool {
     inputs.base_pitch_of(gear::<GEAR>(inputs)).1 == Origin::Grade
 }
 
-/// The same of a helical pair.
-pub fn helical_class<const GEAR: usize>(inputs: &Inputs) -> bool {
-    helical(inputs) && graded::<GEAR>(inputs)
-}
-
 /// The case gives the own base pitch deviation of the gear.
 pub fn pitch_given<const GEAR: usize>(inputs: &Inputs) -> bool {
     gear::<GEAR>(inputs).base_pitch.is_some()

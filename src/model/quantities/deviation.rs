@@ -1,8 +1,8 @@
 //! Rows of the deviations that make a tooth early, and the steps of the deflection.
 
 use super::conditions::{
-    always, any_base_pitch, at_rest, deflection_used, graded, helical_class, in_motion, paper,
-    pitch_given, shared_load,
+    always, any_base_pitch, at_rest, deflection_used, graded, in_motion, paper, pitch_given,
+    shared_load,
 };
 use super::{PLAIN, Quantity, Variant, checks};
 use crate::model::Context;
@@ -336,8 +336,7 @@ macro_rules! pitches {
                 "um",
                 Cases(&[
                     (pitch_given::<$at>, Given($key)),
-                    (helical_class::<$at>, Text(concat!("f_pT", $n, " cos α_t"))),
-                    (graded::<$at>, Text(concat!("f_pT", $n, " cos α"))),
+                    (graded::<$at>, Text(concat!("f_pT", $n, " cos α_t"))),
                     (always, Text("f_pb")),
                 ]),
                 |k| Some(k.inputs.base_pitch_of(&k.inputs.$gear).0),

@@ -54,27 +54,6 @@ pub(super) const PRESSURE: Quantity = Quantity {
     ..PLAIN
 };
 
-/// The tip thickness of a gear with the transverse pressure angle.
-macro_rules! thickness {
-    ($n:literal, $alpha:literal) => {
-        Difference(concat!(
-            "2 r_a",
-            $n,
-            " (π/(2 z",
-            $n,
-            ") + 2 x",
-            $n,
-            " tan α/z",
-            $n,
-            " + inv ",
-            $alpha,
-            " - inv α_a",
-            $n,
-            ")"
-        ))
-    };
-}
-
 /// The rows of a gear: its place, its number, key and name, the other number and name, the distances
 /// from its tangent point to the ends of its active flank, tip first, and its specific sliding at E and
 /// at B.
@@ -96,7 +75,19 @@ macro_rules! gear {
                         " between its flanks at the tip circle, less the chamfer. A thin tip breaks \
             when it is hardened or strikes."
                     ),
-                    Cases(&[(helical, thickness!($n, "α_t")), (always, thickness!($n, "α"))]),
+                    Difference(concat!(
+                        "2 r_a",
+                        $n,
+                        " (π/(2 z",
+                        $n,
+                        ") + 2 x",
+                        $n,
+                        " tan α/z",
+                        $n,
+                        " + inv α_t - inv α_a",
+                        $n,
+                        ")"
+                    )),
                 )
                 .source("ISO 21771:2007, tooth thickness at the tip circle.")
                 .checks(&[checks::tips]),
@@ -433,30 +424,25 @@ fn factor_at(k: &Context, ratio: f64) -> Option<f64> {
     Some(crate::model::figures::dynamic_factor(contact_ratio(k), ratio, resonance_begin, terms))
 }
 
-/// The compliance q' with the symbol of the teeth, and the numbers of the gear with fewer teeth and of
-/// the other.
+/// The compliance q' with the numbers of the gear with fewer teeth and of the other.
 macro_rules! give {
-    ($z:literal, $one:literal, $two:literal) => {
+    ($one:literal, $two:literal) => {
         Text(concat!(
-            "(0.04723 + 0.15551/",
-            $z,
+            "(0.04723 + 0.15551/z_n",
             $one,
-            " + 0.25791/",
-            $z,
+            " + 0.25791/z_n",
             $two,
             " - 0.00635 x",
             $one,
             " - 0.11654 x",
             $one,
-            "/",
-            $z,
+            "/z_n",
             $one,
             " - 0.00193 x",
             $two,
             " - 0.24188 x",
             $two,
-            "/",
-            $z,
+            "/z_n",
             $two,
             " + 0.00529 x",
             $one,
@@ -525,12 +511,7 @@ pub(super) const STEPS: &[Step] = &[
         "q'",
         "compliance of a pair of steel discs",
         "um mm/N",
-        Cases(&[
-            (|inputs| helical(inputs) && driver_larger(inputs), give!("z_n", "2", "1")),
-            (helical, give!("z_n", "1", "2")),
-            (driver_larger, give!("z", "2", "1")),
-            (always, give!("z", "1", "2")),
-        ]),
+        Cases(&[(driver_larger, give!("2", "1")), (always, give!("1", "2"))]),
         |k| Some(1.0 / k.solution.figures?.stiffness.theoretical),
     ),
     step(

@@ -2,7 +2,7 @@
 
 use super::checks;
 use super::conditions::{
-    always, deflection_used, distance_given, driven_rounded, driver_rounded, helical, power_given,
+    always, deflection_used, distance_given, driven_rounded, driver_rounded, power_given,
 };
 use super::{PLAIN, Quantity, Variant};
 use crate::model::Stage::{Geometry, Load};
@@ -40,7 +40,7 @@ pub(super) const TABLE: &[Quantity] = &[
             |s| Some(s.geometry.base_pitch),
             "The distance between neighbouring flanks along the line of action. Both \
             gears need the same base pitch to mesh evenly.",
-            Cases(&[(helical, Text("π m_t cos α_t")), (always, Text("π m cos α"))]),
+            Text("π m_t cos α_t"),
         )
         .source("ISO 21771:2007, base pitch."),
     GEOMETRY
@@ -69,7 +69,6 @@ pub(super) const TABLE: &[Quantity] = &[
             circles at this centre distance.",
             Cases(&[
                 (distance_given, Difference("acos((r_b1 + r_b2)/a)")),
-                (helical, Solved(&HELICAL_INVOLUTE)),
                 (always, Solved(&INVOLUTE)),
             ]),
         )
@@ -107,17 +106,11 @@ pub(super) const TABLE: &[Quantity] = &[
 ];
 
 const INVOLUTE: Equation = Equation {
-    text: "inv α_w = inv α + 2 (x1 + x2) tan α/(z1 + z2), inv t = tan t - t",
+    text: "inv α_w = inv α_t + 2 (x1 + x2) tan α/(z1 + z2), inv t = tan t - t",
     left: Difference("inv α_w"),
-    right: Difference("inv α + 2 (x1 + x2) tan α/(z1 + z2)"),
+    right: Difference("inv α_t + 2 (x1 + x2) tan α/(z1 + z2)"),
     unit: "1",
     sides: involutes,
-};
-
-const HELICAL_INVOLUTE: Equation = Equation {
-    text: "inv α_w = inv α_t + 2 (x1 + x2) tan α/(z1 + z2), inv t = tan t - t",
-    right: Difference("inv α_t + 2 (x1 + x2) tan α/(z1 + z2)"),
-    ..INVOLUTE
 };
 
 #[expect(clippy::unnecessary_wraps, reason = "the sides of an equation may be unknown")]
@@ -140,30 +133,21 @@ macro_rules! gear {
                 concat!("r_", $n),
                 concat!("reference radius of the ", $name),
                 "mm",
-                Cases(&[
-                    (helical, Text(concat!("m_t z", $n, "/2"))),
-                    (always, Text(concat!("m z", $n, "/2"))),
-                ]),
+                Text(concat!("m_t z", $n, "/2")),
                 |k| Some(k.solution.geometry.$gear.reference),
             ),
             step(
                 concat!("r_b", $n),
                 concat!("base radius of the ", $name),
                 "mm",
-                Cases(&[
-                    (helical, Text(concat!("r_", $n, " cos α_t"))),
-                    (always, Text(concat!("r_", $n, " cos α"))),
-                ]),
+                Text(concat!("r_", $n, " cos α_t")),
                 |k| Some(k.solution.geometry.$gear.base),
             ),
             step(
                 concat!("r_a", $n),
                 concat!("tip radius of the ", $name, " without the chamfer"),
                 "mm",
-                Cases(&[
-                    (helical, Text(concat!("r_", $n, " + m (ha*", $n, " + x", $n, ") - hk", $n))),
-                    (always, Text(concat!("m (z", $n, "/2 + ha*", $n, " + x", $n, ") - hk", $n))),
-                ]),
+                Text(concat!("r_", $n, " + m (ha*", $n, " + x", $n, ") - hk", $n)),
                 |k| Some(k.solution.geometry.$gear.tip),
             ),
             step(

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use crate::case::fields::{Kind, index_of};
 use crate::case::{Case, FIELDS, units};
 use crate::model::compliance::{contact_of, model_of};
-use crate::model::explanation::{Context, Equation, Formula, Step, tidy};
+use crate::model::explanation::{Context, Equation, Formula, Step, in_section, tidy};
 use crate::model::impact::StiffnessModels;
 use crate::model::quantities::{spread_force, steps};
 use crate::model::{QUANTITIES, Quantity};
@@ -172,7 +172,8 @@ fn derived(work: Work, formula: Formula, known: &Known) -> Vec<Work> {
 fn solved(work: Work, equation: &'static Equation, known: &Known) -> Vec<Work> {
     let sides = work.value.and_then(|_| (equation.sides)(&known.context));
     let residual = sides.map(agreement);
-    let root = Work { residual, formula: equation.text.to_owned(), how: How::Solves, ..work };
+    let formula = in_section(equation.text, known.context.inputs);
+    let root = Work { residual, formula, how: How::Solves, ..work };
     let side = |name, at: usize, formula| {
         let value = sides.map(|sides| sides[at]);
         derived(Work::step(name, "", value, equation.unit), formula, known)
