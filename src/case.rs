@@ -269,23 +269,14 @@ impl Case {
     /// # Errors
     /// If the key does not exist or the value does not fit. The case is then unchanged.
     pub fn set(&mut self, key: &str, value: &str) -> Result<(), Problem> {
-        let value = unquoted(value.trim());
-        if let Some(quantity) = key.strip_prefix("limits.") {
-            return self.set_limit(quantity, value);
-        }
-        if let Some(name) = key.strip_prefix(ABOUT) {
-            self.write_about(name, value);
-            return Ok(());
-        }
-        let Some(field) = fields::index_of(key) else {
-            return Err(check::unknown_key(key));
-        };
         let mut changed = self.clone();
-        changed.write(field, value);
-        if let Some(other) = FIELDS[field].partner() {
-            changed.write(other, "");
+        changed.apply(key, Some(unquoted(value.trim())))?;
+        if let Some(field) = fields::index_of(key) {
+            if let Some(other) = FIELDS[field].partner() {
+                changed.write(other, "");
+            }
+            changed.check_field(field)?;
         }
-        changed.check_field(field)?;
         *self = changed;
         Ok(())
     }

@@ -187,7 +187,7 @@ pub fn shown_in(quantity: &Quantity, value: f64, system: System) -> Shown {
     if quantity.is_flag() {
         return Shown { number: if value == 0.0 { "no" } else { "yes" }.to_owned(), unit: "" };
     }
-    let (number, unit) = units::system::shown(value, quantity.shown, quantity.digits, system);
+    let (number, unit) = units::shown(value, quantity.shown, quantity.digits, system);
     Shown { number, unit }
 }
 
@@ -199,7 +199,7 @@ pub fn common_unit(
     system: System,
 ) -> &'static str {
     let greatest = values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max);
-    units::system::unit_for(greatest, quantity.shown, quantity.digits, system)
+    units::unit_for(greatest, quantity.shown, quantity.digits, system)
 }
 
 /// Formats a value in SI in a unit.
@@ -208,10 +208,7 @@ pub fn shown_with(quantity: &Quantity, value: f64, unit: &'static str) -> Shown 
     if quantity.is_flag() {
         return shown(quantity, value);
     }
-    Shown {
-        number: units::system::counted(value, unit, quantity.digits),
-        unit: units::system::named(unit),
-    }
+    Shown { number: units::counted(value, unit, quantity.digits), unit: units::named(unit) }
 }
 
 /// The value of a quantity in SI, if any: finite, and zero without a sign.

@@ -1,7 +1,5 @@
 //! Converts texts to the inputs of the model: each field alone, then rules between fields.
 
-use std::sync::LazyLock;
-
 use super::fields::{Absent, FIELDS, Field, index_of};
 use super::problem::MISSING;
 use super::{Case, Fix, Limit, Problem};
@@ -24,12 +22,14 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
             problems.extend(neither_given(case, field).or_else(|| given_twice(case, field)));
         }
     }
-    let is_wrong = |key: &str| {
-        wrong.iter().any(|&field| FIELDS[field].key == key)
-            || problems.iter().any(|problem| problem.field == key)
-    };
-    let rules = rules(&inputs).filter(|(keys, _)| !keys.iter().any(|key| is_wrong(key)));
-    let rules: Vec<Problem> = rules.map(|(_, problem)| problem.at_given(case)).collect();
+    let rules: Vec<Problem> = rules(&inputs)
+        .filter(|rule| {
+            let wrong = wrong.iter().map(|&field| FIELDS[field].key);
+            let mut keys = wrong.chain(problems.iter().map(|problem| &*problem.field));
+            !keys.any(|key| is_read(&rule.field, key))
+        })
+        .map(|rule| rule.at_given(case))
+        .collect();
     problems.extend(rules);
     problems.sort_by_key(|problem| index_of(&problem.field));
     // Valid limits are not read again.
@@ -131,24 +131,10 @@ pub fn field_value(field: usize, text: &str) -> Result<Value, Problem> {
 /// The least and the greatest value of a number field, in SI.
 #[must_use]
 pub fn field_range(field: usize) -> (f64, f64) {
-    ENDS[field]
+    let Some(range) = FIELDS[field].range() else { return (0.0, 0.0) };
+    let factor = units::factor(range.unit).unwrap_or(1.0);
+    (range.from * factor, range.to * factor)
 }
-
-/// The ends of every range in SI, converted like a value, so that the ends themselves are inside.
-static ENDS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
-    let end = |value: f64, dimension, unit| {
-        units::parse(&format!("{value} {unit}"), dimension, unit).unwrap_or(f64::NAN)
-    };
-    FIELDS
-        .iter()
-        .map(|field| match field.kind {
-            Kind::Number(dimension, range, _) => {
-                (end(range.from, dimension, range.unit), end(range.to, dimension, range.unit))
-            }
-            _ => (0.0, 0.0),
-        })
-        .collect()
-});
 
 fn number(
     known: &Field,
@@ -157,7 +143,7 @@ fn number(
     dimension: Dimension,
     range: Range,
 ) -> Result<f64, Problem> {
-    let (from, to) = ENDS[field];
+    let (from, to) = field_range(field);
     let value = units::parse(text, dimension, known.usual_unit()).map_err(|misread| {
         let problem = misread.at(known.key);
         let likely = likely_units(text, known, dimension, (from, to));
@@ -172,13 +158,14 @@ fn number(
     })?;
     // The same end in another unit can differ by rounding.
     let slack = 4.0 * f64::EPSILON;
-    if value < from - slack * from.abs() {
-        return Err(outside(known, text, "below", shortest(range.from), range.unit));
+    let end = |end| format!("{} {}", shortest(end), range.unit);
+    match value {
+        _ if value < from - slack * from.abs() => {
+            Err(outside(known, text, "below", &end(range.from)))
+        }
+        _ if value > to + slack * to.abs() => Err(outside(known, text, "above", &end(range.to))),
+        _ => Ok(value),
     }
-    if value > to + slack * to.abs() {
-        return Err(outside(known, text, "above", shortest(range.to), range.unit));
-    }
-    Ok(value)
 }
 
 /// The units that the user most likely meant for a bare number: the usual unit or another one with a
@@ -201,14 +188,7 @@ fn likely_units(
     first.into_iter().chain(second).collect()
 }
 
-fn outside(
-    known: &Field,
-    text: &str,
-    side: &str,
-    end: impl std::fmt::Display,
-    unit: &str,
-) -> Problem {
-    let end = format!("{end} {unit}");
+fn outside(known: &Field, text: &str, side: &str, end: &str) -> Problem {
     let cause = format!("{} is {side} the limit of {}", quoted(text), end.trim_end());
     Problem::new(known.key, cause, format!("write a value from {}", known.range_text()))
 }
@@ -218,8 +198,7 @@ fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> 
     if known.takes_auto() && text == AUTO {
         return Ok(0);
     }
-    let digits = text.strip_prefix('+').unwrap_or(text);
-    let is_whole = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    let is_whole = text.strip_prefix('+').unwrap_or(text).bytes().all(|byte| byte.is_ascii_digit());
     let refused = |cause: String| {
         let (range, example) = (known.range_text(), known.example());
         let fix = format!("write a whole number from {range}, such as {example}");
@@ -227,10 +206,10 @@ fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> 
     };
     match units::parse(text, Dimension::Number, "") {
         Ok(value) if value < f64::from(from) && (is_whole || value < 0.0) => {
-            Err(outside(known, text, "below", from, ""))
+            Err(outside(known, text, "below", &from.to_string()))
         }
         Ok(value) if value > f64::from(to) && is_whole => {
-            Err(outside(known, text, "above", to, ""))
+            Err(outside(known, text, "above", &to.to_string()))
         }
         Ok(value) if is_whole => Ok(value as u32),
         Ok(_) => refused(format!("{} is not a whole number", quoted(text))),
@@ -268,73 +247,81 @@ const MOST_RATIO: f64 = 50.0;
 /// The first rule between fields that these inputs violate.
 #[must_use]
 pub fn violated_rule(inputs: &Inputs) -> Option<Problem> {
-    rules(inputs).next().map(|(_, problem)| problem)
+    rules(inputs).next()
 }
 
-/// The violated rules between fields, each with the fields that it reads.
-fn rules(inputs: &Inputs) -> impl Iterator<Item = (Vec<&'static str>, Problem)> {
+/// The violated rules between fields.
+fn rules(inputs: &Inputs) -> impl Iterator<Item = Problem> {
     let heights = Height::all(inputs).filter_map(move |height| {
-        let problem = height.outside_range(inputs).or_else(|| height.bore_through_root(inputs))?;
-        let of_gear = ["teeth", "profile_shift", "bore_radius"].map(|name| height.key(name));
-        let own = [height.coefficient(), height.diameter()].map(|field| FIELDS[field].key);
-        let size = ["pair.module", "pair.diametral_pitch"];
-        let is_bore = problem.field == of_gear[2];
-        let others = if is_bore { vec![own[0], of_gear[2]] } else { vec![] };
-        Some(([&size[..], &of_gear[..2], &own[1..], &others].concat(), problem))
+        height.outside_range(inputs).or_else(|| height.bore_through_root(inputs))
     });
-    let ratio = ratio_beyond(inputs).map(|problem| (vec!["driver.teeth", "driven.teeth"], problem));
-    let face = face_rules(inputs).map(|(key, problem)| (vec![key], problem));
-    let table = table_rules(inputs).map(|(key, problem)| (vec![key], problem));
-    heights.chain(ratio).chain(face).chain(table)
+    heights.chain(ratio_beyond(inputs)).chain(face_rules(inputs)).chain(table_rule(inputs))
+}
+
+/// Whether a rule whose problem is at the field `rule` reads another field.
+fn is_read(rule: &str, field: &str) -> bool {
+    const OF_PAIR: [&str; 3] = ["pair.module", "pair.diametral_pitch", "pair.helix_angle"];
+    const OF_GEAR: [&str; 8] = [
+        "teeth",
+        "profile_shift",
+        "addendum",
+        "tip_diameter",
+        "dedendum",
+        "root_diameter",
+        "bore_radius",
+        "bore_diameter",
+    ];
+    let (table, name) = rule.split_once('.').unwrap_or_default();
+    let (other, part) = field.split_once('.').unwrap_or_default();
+    match name {
+        "teeth" => part == name,
+        "tip_diameter" | "root_diameter" | "bore_radius" => {
+            OF_PAIR.contains(&field) || table == other && OF_GEAR.contains(&part)
+        }
+        _ => rule == field,
+    }
 }
 
 /// Faces without common width, and a misalignment beyond the first order.
-fn face_rules(inputs: &Inputs) -> impl Iterator<Item = (&'static str, Problem)> {
+fn face_rules(inputs: &Inputs) -> impl Iterator<Item = Problem> {
     /// Greatest angle of a misalignment, in rad.
     const MOST: f64 = 0.01;
-    let width = inputs.common_width();
-    let apart = (inputs.driver.face_width > 0.0 && inputs.driven.face_width > 0.0 && width <= 0.0)
-        .then(|| {
-            let key = "pair.face_offset";
-            let cause = format!(
-                "the faces have no common width at an offset of {} mm",
-                in_mm(inputs.face_offset)
-            );
-            let most = 0.5 * (inputs.driver.face_width + inputs.driven.face_width);
-            let fix = format!("write an offset within {} mm", in_mm(most));
-            (key, Problem::new(key, cause, fix).coded("no-common-width"))
-        });
+    let (width, widths) =
+        (inputs.common_width(), [inputs.driver.face_width, inputs.driven.face_width]);
+    let are_apart = widths.iter().all(|&width| width > 0.0) && width <= 0.0;
+    let apart = are_apart.then(|| {
+        let (offset, most) = (in_mm(inputs.face_offset), in_mm(0.5 * (widths[0] + widths[1])));
+        let cause = format!("the faces have no common width at an offset of {offset} mm");
+        let fix = format!("write an offset within {most} mm");
+        Problem::new("pair.face_offset", cause, fix).coded("no-common-width")
+    });
     let slopes = [
         ("deviations.misalignment", inputs.misalignment, width),
-        ("driver.helix_slope", inputs.driver.helix_slope, inputs.driver.face_width),
-        ("driven.helix_slope", inputs.driven.helix_slope, inputs.driven.face_width),
+        ("driver.helix_slope", inputs.driver.helix_slope, widths[0]),
+        ("driven.helix_slope", inputs.driven.helix_slope, widths[1]),
     ];
     let steep =
         slopes.into_iter().filter(|(_, value, width)| *width > 0.0 && value.abs() > MOST * width);
     let steep = steep.map(|(key, value, width)| {
-        let cause = format!(
-            "{} mm over {} mm of the face is more than a small angle",
-            in_mm(value),
-            in_mm(width)
-        );
-        let fix = format!("write a value within {} mm", in_mm(MOST * width));
-        (key, Problem::new(key, cause, fix).coded("misalignment-too-large"))
+        let (value, most) = (in_mm(value), in_mm(MOST * width));
+        let cause =
+            format!("{value} mm over {} mm of the face is more than a small angle", in_mm(width));
+        let fix = format!("write a value within {most} mm");
+        Problem::new(key, cause, fix).coded("misalignment-too-large")
     });
     apart.into_iter().chain(steep)
 }
 
 /// A table of compliances that is chosen but not given, lacks a value or is not above 0 everywhere.
-fn table_rules(inputs: &Inputs) -> Option<(&'static str, Problem)> {
-    const CHOICE: &str = "model.tooth_compliance";
+fn table_rule(inputs: &Inputs) -> Option<Problem> {
     let is_chosen = inputs.tooth_compliance.is_some_and(ToothCompliance::reads_table);
     let Some(given) = &inputs.given_compliance else {
-        let problem = || {
-            let cause = "no compliance is given";
+        return is_chosen.then(|| {
             let fix = "give compliance.driver, compliance.driven and compliance.contact, or choose \
                 another model";
-            Problem::new(CHOICE, cause, fix)
-        };
-        return is_chosen.then(|| (CHOICE, problem().coded("compliance-missing")));
+            let problem = Problem::new("model.tooth_compliance", "no compliance is given", fix);
+            problem.coded("compliance-missing")
+        });
     };
     let curves = [
         ("compliance.driver", given.driver),
@@ -343,28 +330,28 @@ fn table_rules(inputs: &Inputs) -> Option<(&'static str, Problem)> {
     ];
     curves.into_iter().find_map(|(key, curve)| {
         if curve.middle <= 0.0 {
-            let field = &FIELDS[index_of(key)?];
-            let cause = "the given compliance lacks this value";
-            return Some((key, Problem::new(key, cause, addition(field)).coded(MISSING)));
+            let fix = addition(&FIELDS[index_of(key)?]);
+            let problem = Problem::new(key, "the given compliance lacks this value", fix);
+            return Some(problem.coded(MISSING));
         }
-        let parts = (-32..=32).map(|part| f64::from(part) / 32.0);
-        parts.into_iter().any(|part| curve.at(part) <= 0.0).then(|| {
+        (-32..=32).any(|part| curve.at(f64::from(part) / 32.0) <= 0.0).then(|| {
             let cause = format!("{key} with its coefficients is not above 0 on the whole path");
             let problem = Problem::new(key, cause, "give smaller coefficients");
-            (key, problem.coded("compliance-not-positive"))
+            problem.coded("compliance-not-positive")
         })
     })
 }
 
+/// A ratio of tooth numbers beyond the limit, or its reciprocal.
 fn ratio_beyond(inputs: &Inputs) -> Option<Problem> {
+    const MOST: f64 = 50.0;
     let ratio = inputs.ratio();
-    if (1.0 / MOST_RATIO..=MOST_RATIO).contains(&ratio) {
+    if (1.0 / MOST..=MOST).contains(&ratio) {
         return None;
     }
     let (driver, driven) = (inputs.driver.teeth, inputs.driven.teeth);
     let cause = format!("the ratio of tooth numbers {driven}/{driver} is {ratio:.4}");
-    let fix = format!("keep it within 1/{MOST_RATIO} to {MOST_RATIO}");
-    Some(Problem::new("driven.teeth", cause, fix))
+    Some(Problem::new("driven.teeth", cause, format!("keep it within 1/{MOST} to {MOST}")))
 }
 
 /// The tip or the root of a gear, by a coefficient of the rack or by a diameter.
@@ -381,20 +368,17 @@ impl Height<'_> {
         gears.flat_map(|(table, gear)| [true, false].map(|is_tip| Height { gear, table, is_tip }))
     }
 
-    fn field(&self, name: &str) -> usize {
+    fn field(&self, tip: &str, root: &str) -> usize {
+        let name = if self.is_tip { tip } else { root };
         index_of(&format!("{}.{name}", self.table)).unwrap_or_default()
     }
 
-    fn key(&self, name: &str) -> &'static str {
-        FIELDS[self.field(name)].key
-    }
-
     fn coefficient(&self) -> usize {
-        self.field(if self.is_tip { "addendum" } else { "dedendum" })
+        self.field("addendum", "dedendum")
     }
 
-    fn diameter(&self) -> usize {
-        self.field(if self.is_tip { "tip_diameter" } else { "root_diameter" })
+    fn diameter(&self) -> &'static str {
+        FIELDS[self.field("tip_diameter", "root_diameter")].key
     }
 
     fn given_diameter(&self) -> Option<f64> {
@@ -418,18 +402,16 @@ impl Height<'_> {
             _ if value > to + SLACK => ("above", to),
             _ => return None,
         };
+        let (label, value) = (FIELDS[self.coefficient()].label, significant(value, DIGITS));
+        let given = in_mm(given);
         let cause = format!(
-            "{} mm gives the {} coefficient {}, {side} the limit of {limit}",
-            in_mm(given),
-            FIELDS[self.coefficient()].label,
-            significant(value, DIGITS),
+            "{given} mm gives the {label} coefficient {value}, {side} the limit of {limit}"
         );
         let shifted = f64::from(gear.teeth) / inputs.helix_angle.cos() + 2.0 * gear.profile_shift;
         let at = |coefficient: f64| in_mm(inputs.module * (shifted + 2.0 * sign * coefficient));
         let (least, most) = (at(from).min(at(to)), at(from).max(at(to)));
         let fix = format!("write a diameter from {least} to {most} mm");
-        let problem = Problem::new(FIELDS[self.diameter()].key, cause, fix);
-        Some(problem.coded("diameter-outside-range"))
+        Some(Problem::new(self.diameter(), cause, fix).coded("diameter-outside-range"))
     }
 
     fn bore_through_root(&self, inputs: &Inputs) -> Option<Problem> {
@@ -447,7 +429,8 @@ impl Height<'_> {
                 "write a radius (not a diameter) below {root} mm, or a diameter below {} mm",
                 2.0 * root
             );
-            Problem::new(self.key("bore_radius"), cause, fix).coded("bore-through-root")
+            let field = FIELDS[self.field("", "bore_radius")].key;
+            Problem::new(field, cause, fix).coded("bore-through-root")
         })
     }
 }
@@ -460,7 +443,7 @@ impl Problem {
             FIELDS[height.coefficient()].key == self.field && height.given_diameter().is_some()
         };
         match Height::all(inputs).find(is_it) {
-            Some(height) => self.at(FIELDS[height.diameter()].key),
+            Some(height) => self.at(height.diameter()),
             None => self,
         }
     }

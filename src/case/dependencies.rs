@@ -5,7 +5,6 @@ use super::fields::{Kind, Range, Reason};
 use super::units::{self, Dimension};
 use super::{Case, FIELDS};
 use crate::model::compliance::{model_of, without_field};
-use crate::model::given::COEFFICIENTS;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Stage, Stages};
 
@@ -97,37 +96,26 @@ fn differ(solved: Result<Option<f64>, Refusal>, own: Option<f64>) -> Option<bool
 
 /// The inputs with each of these values in a field; with every choice in a choice.
 fn with_values(field: usize, values: &[f64], inputs: &Inputs) -> Vec<Inputs> {
-    let with = |put: &dyn Fn(&mut Inputs)| {
+    let known = &FIELDS[field];
+    let choices: Vec<f64> = (0..known.choices().len()).map(|at| at as f64).collect();
+    let values = if known.is_choice() { &choices } else { values };
+    let with = |&value: &f64| {
         let mut other = inputs.clone();
-        put(&mut other);
+        known.put(known.value_of(value), &mut other);
         other
     };
-    let values = values.iter();
-    match FIELDS[field].kind {
-        Kind::Text => Vec::new(),
-        Kind::List(put) => {
-            values.map(|&value| with(&|other| put(other, [value; COEFFICIENTS]))).collect()
-        }
-        Kind::Number(_, _, put) => values.map(|&value| with(&|other| put(other, value))).collect(),
-        Kind::Count(_, _, put) => {
-            values.map(|&value| with(&|other| put(other, value as u32))).collect()
-        }
-        Kind::Choice(names, put) => {
-            (0..names.len()).map(|at| with(&|other| put(other, at))).collect()
-        }
-    }
+    values.iter().map(with).collect()
 }
 
 /// A step that is small for the field, and the inputs after it.
 fn small_step(field: usize, case: &Case, inputs: &Inputs) -> Option<(&'static str, Inputs)> {
     let now = case.value(field)?;
     let (text, to) = match FIELDS[field].kind {
-        Kind::Text | Kind::Choice(..) | Kind::List(_) => return None,
-        Kind::Count(..) => ("+1", now + 1.0),
         Kind::Number(_, Range { unit: "um", .. }, _) => ("+1 um", now + 1e-6),
         Kind::Number(Dimension::Number, ..) => ("+0.01", now + 0.01),
         Kind::Number(Dimension::Length, ..) if now == 0.0 => ("+0.1 mm", 0.1e-3),
         Kind::Number(..) => ("+1 %", 1.01 * now),
+        _ => ("+1", now + 1.0),
     };
     Some((text, with_values(field, &[to], inputs).pop()?))
 }
@@ -140,7 +128,7 @@ fn is_moved(
     case: &Case,
     inputs: &Inputs,
 ) -> Option<bool> {
-    let mut known = matches!(FIELDS[field].kind, Kind::Text).then_some(false);
+    let mut known = None;
     for other in with_values(field, &other_values(field, case, inputs), inputs) {
         known = differ(solved(quantity, &other), own).or(known);
         if known == Some(true) {
@@ -211,13 +199,8 @@ fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
     const SHARES: [f64; 3] = [0.0, 0.381_966, 0.618_034];
     // Every stage that reads the tooth model also reads the fields that decide its range.
     let held = Inputs { tooth_compliance: Some(model_of(inputs)), ..inputs.clone() };
-    let values = match FIELDS[field].kind {
-        Kind::Number(_, range, _) => SHARES.map(|share| within(range, share)).to_vec(),
-        Kind::Count(from, to, _) => vec![f64::from(from), f64::from(to)],
-        Kind::List(_) => vec![0.1, -0.2],
-        _ => Vec::new(),
-    };
-    with_values(field, &values, &held)
+    let values = FIELDS[field].range().map(|range| SHARES.map(|share| within(range, share)));
+    with_values(field, &values.unwrap_or([0.1, -0.2, 0.3]), &held)
 }
 
 /// Whether a field has an effect on the results.

@@ -5,6 +5,7 @@ mod table;
 use super::units::Dimension;
 use crate::model::Inputs;
 use crate::model::compliance::{contact_of, model_of};
+use crate::model::given::COEFFICIENTS;
 use crate::model::inputs::{Gear, GearSide, Method};
 use crate::model::limits::Member;
 use crate::numeric::decimal::shortest;
@@ -114,10 +115,8 @@ impl Field {
     /// The usual unit of the field. Empty for a bare number, a count, a choice and text.
     #[must_use]
     pub fn usual_unit(&self) -> &'static str {
-        match self.kind {
-            Kind::Number(..) => self.example().split_once(' ').map_or("", |(_, unit)| unit),
-            Kind::Text | Kind::Count(..) | Kind::Choice(..) | Kind::List(_) => "",
-        }
+        let is_number = matches!(self.kind, Kind::Number(..));
+        self.example().split_once(' ').filter(|_| is_number).map_or("", |(_, unit)| unit)
     }
 
     /// The index of its alternative in [`FIELDS`].
@@ -204,10 +203,28 @@ impl Field {
         }
     }
 
+    /// A number as a value of this field; every value of a list.
+    #[must_use]
+    pub fn value_of(&self, number: f64) -> Value {
+        match self.kind {
+            Kind::Text => Value::Text,
+            Kind::Number(..) => Value::Number(number),
+            Kind::Count(..) => Value::Count(number as u32),
+            Kind::Choice(..) => Value::Choice(number as usize),
+            Kind::List(_) => Value::List([number; COEFFICIENTS]),
+        }
+    }
+
+    /// The names of a choice, otherwise none.
+    #[must_use]
+    pub fn choices(&self) -> &'static [&'static str] {
+        if let Kind::Choice(names, _) = self.kind { names } else { &[] }
+    }
+
     /// Whether the value is true or false.
     #[must_use]
     pub fn is_flag(&self) -> bool {
-        matches!(self.kind, Kind::Choice(names, _) if names == FLAG)
+        self.choices() == FLAG
     }
 
     /// Whether the value is one of several names.
@@ -233,28 +250,34 @@ impl Field {
     pub fn example(&self) -> &'static str {
         match (self.absent, self.kind) {
             (Absent::Default(text), _) if !text.is_empty() => text,
-            (_, Kind::Choice(names, _)) => names.first().copied().unwrap_or_default(),
+            (_, Kind::Choice(names, _)) => names[0],
             (_, Kind::Text) => "a few words",
             _ => self.example,
         }
     }
 
-    /// The range as text. Empty for free text and choices.
+    /// The range of a number or a count.
+    #[must_use]
+    pub fn range(&self) -> Option<Range> {
+        match self.kind {
+            Kind::Number(_, range, _) => Some(range),
+            Kind::Count(from, to, _) => Some(Range::new(from.into(), to.into(), "")),
+            Kind::Text | Kind::Choice(..) | Kind::List(_) => None,
+        }
+    }
+
+    /// The range as text, or the names of a choice. Empty for free text.
     #[must_use]
     pub fn range_text(&self) -> String {
-        match self.kind {
-            Kind::Count(from, to, _) if self.takes_auto() => format!("{from} to {to}, or {AUTO}"),
-            Kind::Count(from, to, _) => format!("{from} to {to}"),
-            Kind::Number(_, range, _) if range.unit.is_empty() => {
-                format!("{} to {}", shortest(range.from), shortest(range.to))
-            }
-            Kind::Number(_, range, _) => {
-                format!("{} to {} {}", shortest(range.from), shortest(range.to), range.unit)
-            }
-            Kind::Text => String::new(),
-            Kind::List(_) => format!("up to {} numbers", List::default().len()),
-            Kind::Choice(names, _) => names.join(", "),
-        }
+        let Some(Range { from, to, unit }) = self.range() else {
+            return match self.kind {
+                Kind::List(_) => format!("up to {COEFFICIENTS} numbers"),
+                _ => self.choices().join(", "),
+            };
+        };
+        let text = format!("{} to {} {unit}", shortest(from), shortest(to));
+        let auto = if self.takes_auto() { format!(", or {AUTO}") } else { String::new() };
+        format!("{}{auto}", text.trim_end())
     }
 }
 

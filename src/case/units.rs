@@ -1,12 +1,11 @@
-//! Conversion between text with a unit and SI.
+//! The table of units, conversion between text with a unit and SI, and metric or inch units of shown
+//! values.
 
-pub mod system;
-mod table;
+use std::f64::consts::TAU;
 
 use super::sanitize::{cut, quoted};
 use super::{Problem, suggest};
-pub use system::{System, converted};
-use table::{FAMILIES, Scale, Unit, family_of, units_of};
+use crate::numeric::decimal::significant;
 
 /// The physical dimension of a field or a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,7 +61,7 @@ impl Dimension {
     /// The name of a value with its article, such as "a length".
     #[must_use]
     pub fn name(self) -> &'static str {
-        family_of(self).name
+        UNITS[self as usize].1
     }
 
     /// The SI unit; empty for the bare number.
@@ -132,18 +131,28 @@ pub fn split<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str), Probl
 /// possible in this unit.
 #[must_use]
 pub fn text(value: f64, unit: &str) -> String {
-    let number = match known(unit).map(|(_, unit)| unit.scale) {
+    let number = number(value, unit);
+    if matches!(unit, "" | "1") { number } else { format!("{number} {unit}") }
+}
+
+/// A value in SI as a number of a unit, without the rounding error of a division: 0.0508, not
+/// 0.050800000000000005.
+#[must_use]
+pub fn in_unit(value: f64, unit: &str) -> f64 {
+    number(value, unit).parse().unwrap_or(value)
+}
+
+fn number(value: f64, unit: &str) -> String {
+    match known(unit).map(|(_, unit)| unit.scale) {
         None => plain(value, 0),
         Some(Scale::Ten(exponent)) => plain(value, -exponent),
         Some(Scale::Times(factor, rest)) => {
-            let near = plain(value / factor, 0);
-            (12..17)
-                .map(|digits| format!("{:.digits$e}", value / factor))
-                .find(|short| times(shifted(short, 0), factor, rest).to_bits() == value.to_bits())
-                .map_or(near, |short| plain(shifted(&short, 0), 0))
+            let short = (12..17).map(|digits| format!("{:.digits$e}", value / factor));
+            let mut same = short.map(|short| shifted(&short, 0));
+            let same = same.find(|&short| times(short, factor, rest).to_bits() == value.to_bits());
+            plain(same.unwrap_or(value / factor), 0)
         }
-    };
-    if matches!(unit, "" | "1") { number } else { format!("{number} {unit}") }
+    }
 }
 
 /// The product with a factor in two parts, rounded once.
@@ -167,7 +176,7 @@ fn find(unit: &str, units: &'static [Unit]) -> Option<&'static Unit> {
 
 /// A unit of any dimension.
 fn known(unit: &str) -> Option<(Dimension, &'static Unit)> {
-    FAMILIES.iter().find_map(|family| Some((family.dimension, find(unit, family.units)?)))
+    UNITS.iter().find_map(|(dimension, _, units)| Some((*dimension, find(unit, units)?)))
 }
 
 /// Normalizes spellings such as `N·m`, `N*m`, `N-m`; `kg/m³`, `kg / m^3`; `µm`, `μm`.
@@ -241,8 +250,7 @@ fn unit_wrong(unit: &str, dimension: Dimension) -> Problem {
 }
 
 fn bare(dimension: Dimension) -> &'static str {
-    let name = dimension.name();
-    name.split_once(' ').map_or(name, |(_, bare)| bare)
+    dimension.name().split_once(' ').map_or("", |(_, bare)| bare)
 }
 
 /// The number and the unit after it.
@@ -478,242 +486,376 @@ fn is_number_begun(text: &str) -> bool {
     number_length(&continued) == continued.len()
 }
 
-#[cfg(test)]
-mod tests {
-    #![expect(clippy::approx_constant, reason = "a value is read to the last bit, whatever it is")]
-    use super::*;
-    use proptest::prelude::*;
+/// The SI value of one unit.
+#[derive(Debug, Clone, Copy)]
+enum Scale {
+    /// A power of ten, applied to the decimal digits and therefore exact.
+    Ten(i32),
+    /// Another factor: the nearest f64 and the remainder.
+    Times(f64, f64),
+}
 
-    fn length(text: &str) -> Result<f64, Problem> {
-        parse(text, Dimension::Length, "mm")
-    }
+/// One unit of a dimension.
+#[derive(Debug, Clone, Copy)]
+struct Unit {
+    /// The spelling that messages use.
+    symbol: &'static str,
+    aliases: &'static [&'static str],
+    scale: Scale,
+}
 
-    #[track_caller]
-    fn refused(text: &str, dimension: Dimension, usual: &str, cause: &str, fix: &str) {
-        match parse(text, dimension, usual) {
-            Ok(value) => panic!("{text} was read as {value}"),
-            Err(misread) => {
-                assert!(misread.cause.contains(cause), "{text}: {}", misread.cause);
-                assert!(misread.fix.to_string().contains(fix), "{text}: {}", misread.fix);
-            }
+const fn ten(symbol: &'static str, aliases: &'static [&'static str], exponent: i32) -> Unit {
+    Unit { symbol, aliases, scale: Scale::Ten(exponent) }
+}
+
+const fn scaled(
+    symbol: &'static str,
+    aliases: &'static [&'static str],
+    factor: f64,
+    rest: f64,
+) -> Unit {
+    Unit { symbol, aliases, scale: Scale::Times(factor, rest) }
+}
+
+/// The units of a dimension. Empty for a bare number.
+fn units_of(dimension: Dimension) -> &'static [Unit] {
+    UNITS[dimension as usize].2
+}
+
+// Exact by definition: in = 25.4 mm, lb = 0.45359237 kg, standard gravity 9.80665 m/s2, hp = 550 ft
+// lbf/s, PS = 75 kgf m/s. Both parts of each factor come from rational arithmetic, with pi to 80
+// digits.
+/// Every dimension in the order of [`Dimension`], the name of a value with its article, and its
+/// units in the order of messages.
+#[rustfmt::skip]
+static UNITS: [(Dimension, &str, &[Unit]); 18] = [
+    (Dimension::Number, "a number", &[]),
+    (Dimension::Length, "a length", &[
+        ten("mm", &[], -3),
+        ten("um", &["micron", "microns"], -6),
+        ten("m", &[], 0),
+        ten("cm", &[], -2),
+        ten("nm", &[], -9),
+        scaled("in", &["inch", "inches"], 0.0254, 1.0325074129013955e-18),
+        scaled("thou", &["mil", "mils"], 2.54e-5, -7.564261716996867e-22),
+        scaled("ft", &["foot", "feet"], 0.3048, -1.5365486660812166e-17),
+    ]),
+    (Dimension::Angle, "an angle", &[
+        scaled("deg", &["°", "degree", "degrees"], 0.017453292519943295, 2.9486522708701687e-19),
+        ten("rad", &[], 0),
+        ten("mrad", &[], -3),
+        scaled("arcmin", &[], 0.0002908882086657216, 1.5756442176305324e-20),
+        scaled("arcsec", &[], 4.84813681109536e-6, 9.320078015422868e-23),
+    ]),
+    (Dimension::Pressure, "a pressure", &[
+        ten("GPa", &["kN/mm2", "N/(mm um)"], 9),
+        ten("MPa", &["N/mm2"], 6),
+        ten("kPa", &[], 3),
+        ten("Pa", &["N/m2"], 0),
+        scaled("psi", &["lbf/in2"], 6894.757293168362, -3.476429902321071e-13),
+        scaled("ksi", &[], 6894757.293168361, 3.798276331961447e-11),
+        scaled("Mpsi", &[], 6894757293.168362, -3.270956859296531e-7),
+    ]),
+    (Dimension::Density, "a density", &[
+        ten("kg/m3", &[], 0),
+        ten("g/cm3", &["kg/dm3", "g/cc", "kg/l", "kg/L"], 3),
+        scaled("lb/in3", &["lbm/in3"], 27679.90471020312, -6.009765667261031e-13),
+    ]),
+    (Dimension::Power, "a power", &[
+        ten("kW", &[], 3),
+        ten("W", &[], 0),
+        ten("MW", &[], 6),
+        ten("mW", &[], -3),
+        scaled("hp", &["HP", "bhp"], 745.6998715822702, -2.7927226591855287e-14),
+        scaled("PS", &[], 735.49875, 2.7284841053187846e-14),
+    ]),
+    (Dimension::Torque, "a torque", &[
+        ten("N m", &["Nm"], 0),
+        ten("kN m", &["kNm"], 3),
+        ten("N mm", &["Nmm", "mN m", "mNm"], -3),
+        ten("N cm", &["Ncm"], -2),
+        ten("MN m", &["MNm"], 6),
+        scaled("lbf in", &["lb in", "in lbf", "in lb", "lbfin"], 0.1129848290276167, 4.448527496788302e-18),
+        scaled("lbf ft", &["lb ft", "ft lbf", "ft lb", "lbfft"], 1.3558179483314003, 5.338232996145962e-17),
+    ]),
+    (Dimension::AngularVelocity, "an angular velocity", &[
+        scaled("rpm", &["1/min", "min-1", "min^-1", "min⁻¹", "rev/min", "r/min", "RPM", "U/min"], 0.10471975511965978, -5.1697025413851275e-18),
+        ten("rad/s", &[], 0),
+        scaled("deg/s", &["°/s"], 0.017453292519943295, 2.9486522708701687e-19),
+        scaled("rev/s", &["rps", "r/s"], TAU, 2.4492935982947064e-16),
+    ]),
+    (Dimension::Force, "a force", &[
+        ten("N", &[], 0),
+        ten("kN", &[], 3),
+        ten("MN", &[], 6),
+        ten("mN", &[], -3),
+        scaled("lbf", &[], 4.4482216152605, 3.604674457164947e-16),
+    ]),
+    (Dimension::Time, "a time", &[
+        ten("us", &[], -6),
+        ten("ms", &[], -3),
+        ten("s", &[], 0),
+        ten("ns", &[], -9),
+    ]),
+    (Dimension::Velocity, "a velocity", &[
+        ten("m/s", &[], 0),
+        ten("mm/s", &[], -3),
+        scaled("ft/s", &[], 0.3048, -1.5365486660812166e-17),
+        scaled("in/s", &[], 0.0254, 1.0325074129013955e-18),
+        scaled("m/min", &[], 0.016666666666666666, 2.312964634635743e-19),
+        scaled("ft/min", &["fpm"], 0.00508, -3.1391556021276303e-19),
+        scaled("km/h", &[], 0.2777777777777778, -1.2335811384723961e-17),
+    ]),
+    (Dimension::Mass, "a mass", &[
+        ten("kg", &[], 0),
+        ten("g", &[], -3),
+        ten("mg", &[], -6),
+        ten("t", &[], 3),
+        scaled("lb", &["lbm"], 0.45359237, -2.2489672346637234e-17),
+    ]),
+    (Dimension::Energy, "an energy", &[
+        ten("J", &[], 0),
+        ten("mJ", &[], -3),
+        ten("uJ", &[], -6),
+        ten("kJ", &[], 3),
+        scaled("ft lbf", &["ft lb"], 1.3558179483314003, 5.338232996145962e-17),
+        scaled("in lbf", &["in lb"], 0.1129848290276167, 4.448527496788302e-18),
+    ]),
+    (Dimension::Inertia, "a moment of inertia", &[
+        ten("kg m2", &["kgm2"], 0),
+        ten("kg cm2", &["kgcm2"], -4),
+        ten("kg mm2", &["kgmm2", "g m2"], -6),
+        ten("g cm2", &["gcm2"], -7),
+        scaled("lb in2", &["lbm in2"], 0.0002926396534292, 8.897395017015697e-21),
+        scaled("lb ft2", &["lbm ft2"], 0.0421401100938048, 1.2812248824502604e-18),
+    ]),
+    (Dimension::Compliance, "a compliance per width", &[
+        ten("um mm/N", &["mm um/N"], -9),
+        ten("m2/N", &[], 0),
+        ten("mm2/N", &[], -6),
+        scaled("in2/lbf", &[], 0.0001450377377302092, 4.005255956746474e-21),
+    ]),
+    (Dimension::Stiffness, "a stiffness", &[
+        ten("N/um", &["N/µm", "kN/mm"], 6),
+        ten("N/m", &[], 0),
+        ten("N/mm", &[], 3),
+        scaled("lbf/in", &["lb/in"], 175.1268352464764, -1.1376717116859719e-14),
+    ]),
+    (Dimension::Frequency, "a frequency", &[
+        ten("Hz", &[], 0),
+        ten("kHz", &[], 3),
+    ]),
+    (Dimension::DiametralPitch, "a diametral pitch", &[
+        scaled("1/in", &["/in", "1/inch", "in-1", "in^-1", "in⁻¹", "DP"], 39.37007874015748, -1.1189649382048822e-15),
+        ten("1/mm", &["/mm", "mm-1", "mm^-1", "mm⁻¹"], 3),
+        ten("1/m", &["/m", "m-1", "m^-1", "m⁻¹"], 0),
+    ]),
+];
+
+/// The units of shown values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum System {
+    /// mm, um, N, kW, N m, GPa.
+    #[default]
+    Metric,
+    /// in, thou, lbf, hp, lbf ft, ksi.
+    Inch,
+}
+
+/// Each shown metric unit and its inch unit. Both systems use units that are not in this list, such
+/// as deg, rpm or us.
+const PAIRS: [(&str, &str); 20] = [
+    ("m", "ft"),
+    ("mm", "in"),
+    ("um", "thou"),
+    ("N", "lbf"),
+    ("kN", "lbf"),
+    ("N m", "lbf ft"),
+    ("W", "hp"),
+    ("kW", "hp"),
+    ("J", "ft lbf"),
+    ("kg", "lb"),
+    ("kg m2", "lb in2"),
+    ("kg mm2", "lb in2"),
+    ("kg/m3", "lb/in3"),
+    ("Pa", "psi"),
+    ("MPa", "psi"),
+    ("GPa", "ksi"),
+    ("m/s", "ft/s"),
+    ("um mm/N", "in2/lbf"),
+    ("m2/N", "in2/lbf"),
+    ("N/um", "lbf/in"),
+];
+
+impl System {
+    /// Both systems, in the order of the key that switches between them.
+    pub const ALL: [System; 2] = [System::Metric, System::Inch];
+
+    /// The name in settings and messages.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            System::Metric => "metric",
+            System::Inch => "inch",
         }
     }
 
-    #[test]
-    fn powers_of_ten_are_exact() {
-        for (text, dimension, si) in [
-            ("16 um", Dimension::Length, 16e-6),
-            ("24.7 µm", Dimension::Length, 24.7e-6),
-            ("24.7 μm", Dimension::Length, 24.7e-6),
-            ("5mm", Dimension::Length, 5e-3),
-            ("90.171 mm", Dimension::Length, 90.171e-3),
-            ("1.5e3 mm", Dimension::Length, 1.5),
-            ("+.5 m", Dimension::Length, 0.5),
-            ("205 GPa", Dimension::Pressure, 205e9),
-            ("210000 N/mm²", Dimension::Pressure, 210e9),
-            ("7.85 g/cm^3", Dimension::Density, 7850.0),
-            ("7800 kg/m³", Dimension::Density, 7800.0),
-            ("115.766 kW", Dimension::Power, 115766.0),
-            ("71.6 N·m", Dimension::Torque, 71.6),
-            ("71600 N mm", Dimension::Torque, 71.6),
-            ("12.3 um mm/N", Dimension::Compliance, 12.3e-9),
-            ("-0.25", Dimension::Number, -0.25),
-        ] {
-            assert_eq!(
-                parse(text, dimension, "").map_err(|misread| misread.cause),
-                Ok(si),
-                "{text}"
-            );
+    /// The system with this name.
+    #[must_use]
+    pub fn find(name: &str) -> Option<System> {
+        System::ALL.into_iter().find(|system| system.name() == name)
+    }
+
+    /// The other system.
+    #[must_use]
+    pub fn other(self) -> System {
+        match self {
+            System::Metric => System::Inch,
+            System::Inch => System::Metric,
         }
     }
 
-    /// Nearest f64 to the exact product, from 50-digit arithmetic.
-    #[test]
-    fn other_units_are_right_to_the_last_place() {
-        for (text, dimension, si) in [
-            ("20 deg", Dimension::Angle, 0.3490658503988659),
-            ("22.5°", Dimension::Angle, 0.39269908169872414),
-            ("30 arcmin", Dimension::Angle, 0.008726646259971648),
-            ("2000 rpm", Dimension::AngularVelocity, 209.43951023931956),
-            ("1450 1/min", Dimension::AngularVelocity, 151.84364492350667),
-            ("1450 1 / min", Dimension::AngularVelocity, 151.84364492350667),
-            ("1450 min^-1", Dimension::AngularVelocity, 151.84364492350667),
-            ("1450 min⁻¹", Dimension::AngularVelocity, 151.84364492350667),
-            ("0.3125 in", Dimension::Length, 0.0079375),
-            ("30000 ksi", Dimension::Pressure, 206842718795.05084),
-            ("0.284 lb/in3", Dimension::Density, 7861.0929376976865),
-            ("20 hp", Dimension::Power, 14913.997431645405),
-            ("635 lbf in", Dimension::Torque, 71.7453664325366),
-        ] {
-            let read = parse(text, dimension, "").map_err(|misread| misread.cause);
-            let ulp = read.as_ref().map(|value| (value - si).abs() <= si.abs() * f64::EPSILON);
-            assert_eq!(ulp, Ok(true), "{text}: {read:?} for {si}");
-        }
-    }
-
-    #[test]
-    fn invalid_values_are_refused_with_a_fix() {
-        for (text, cause, fix) in [
-            ("", "value is missing", "\"20 mm\""),
-            ("5", "has no unit", "\"5 mm\""),
-            ("4,5 mm", "comma", "write 4.5, not 4,5"),
-            ("1,000.5 mm", "comma", "write 1000.5"),
-            ("−5 mm", "not the minus sign", "write -5 mm"),
-            ("nan mm", "not a finite number", "20 mm"),
-            ("-inf mm", "not a finite number", "20 mm"),
-            ("mm", "does not begin with a number", "20 mm"),
-            ("1e400 mm", "too large", "smaller"),
-            ("1e-400 mm", "too close to zero", "write 0"),
-            ("1e-310 m", "too close to zero", "write 0"),
-            ("1e-99999999999999999999 m", "too close to zero", "write 0"),
-            ("16 kg", "is a unit of mass, not of length", "use one of mm"),
-            ("16 mn", "unknown unit `mn`", "did you mean"),
-            ("16 furlong", "unknown unit `furlong`", "use one of mm"),
-            ("5 m m", "unknown unit `m m`", "did you mean mm"),
-            ("5 mm1", "1 after the unit", "write all digits before mm"),
-            ("5 mm 2.5", "2.5 after the unit", "write all digits before mm"),
-            ("5 5 mm", "not one number", "20 mm"),
-            ("5.5.5 mm", "not one number", "20 mm"),
-            ("1_000 mm", "not one number", "20 mm"),
-        ] {
-            refused(text, Dimension::Length, "mm", cause, fix);
-        }
-        refused("0.3 mm", Dimension::Number, "", "is not allowed here", "write 0.3");
-        refused("2 kNm", Dimension::Power, "kW", "unit of torque, not of power", "use one of kW");
-        refused("3 RPm", Dimension::AngularVelocity, "rpm", "unknown unit", "did you mean rpm");
-    }
-
-    #[test]
-    fn a_shown_value_is_short() {
-        assert_eq!(text(0.005, "mm"), "5 mm");
-        assert_eq!(text(16e-6, "um"), "16 um");
-        assert_eq!(text(205e9, "GPa"), "205 GPa");
-        assert_eq!(text(0.3490658503988659, "deg"), "20 deg");
-        assert_eq!(text(209.43951023931956, "rpm"), "2000 rpm");
-        assert_eq!(text(-0.25, "1"), "-0.25");
-        assert_eq!(text(0.0, "mm"), "0 mm");
-    }
-
-    #[test]
-    fn every_dimension_finds_its_units() {
-        for family in &FAMILIES {
-            assert_eq!(family_of(family.dimension).name, family.name);
-        }
-    }
-
-    #[test]
-    fn factors_convert_results_to_shown_units() {
-        assert_eq!(factor("um mm/N"), Some(1e-9));
-        assert_eq!(factor("mm"), Some(1e-3));
-        assert_eq!(factor("1"), Some(1.0));
-        assert_eq!(factor("deg"), Some(std::f64::consts::PI / 180.0));
-        assert_eq!(factor("cubit"), None);
-        assert_eq!(Dimension::of_unit("um mm/N"), Some(Dimension::Compliance));
-    }
-
-    proptest! {
-        #[test]
-        fn a_shown_value_parses_to_the_same_value(value in prop::num::f64::NORMAL, exponent in -9i32..9) {
-            let value = value.clamp(-1e200, 1e200) * 10f64.powi(exponent);
-            prop_assume!(value.abs() > 1e-200);
-            for (dimension, unit) in [(Dimension::Length, "um"), (Dimension::Pressure, "GPa"), (Dimension::Length, "m")] {
-                prop_assert_eq!(parse(&text(value, unit), dimension, unit).ok(), Some(value));
-            }
-        }
-
-        #[test]
-        fn a_shown_angle_parses_to_the_same_value_within_the_last_place(value in 1e-6f64..10.0) {
-            let read = parse(&text(value, "deg"), Dimension::Angle, "deg").unwrap_or(f64::NAN);
-            prop_assert!((read - value).abs() <= value * f64::EPSILON);
-        }
-
-        #[test]
-        fn no_text_makes_the_parser_panic(text in ".*") {
-            let _ = length(&text);
-        }
-    }
-
-    fn ended(typed: &str, dimension: Dimension, usual: &str) -> String {
-        format!("{typed}{}", ending(typed, dimension, usual).unwrap_or_default())
-    }
-
-    #[test]
-    fn a_bare_number_takes_the_usual_unit() {
-        for (typed, whole) in [
-            ("4", "4 um"),
-            ("48", "48 um"),
-            ("48 ", "48 um"),
-            ("-48.5", "-48.5 um"),
-            ("1e3", "1e3 um"),
-            ("48 u", "48 um"),
-            ("48u", "48um"),
-            ("48 µ", "48 µm"),
-            ("48 um", "48 um"),
-            ("48 m", "48 m"),
-            ("48 i", "48 in"),
-            ("48 inc", "48 inch"),
-            ("48 t", "48 thou"),
-            ("48 mic", "48 micron"),
-        ] {
-            assert_eq!(ended(typed, Dimension::Length, "um"), whole);
-        }
-        assert_eq!(ended("71.6 N", Dimension::Torque, "N m"), "71.6 N m");
-        assert_eq!(ended("71.6 N ", Dimension::Torque, "N m"), "71.6 N m");
-        assert_eq!(ended("300 r", Dimension::AngularVelocity, "rpm"), "300 rpm");
-        assert_eq!(ended("300 ra", Dimension::AngularVelocity, "rpm"), "300 rad/s");
-        assert_eq!(ended("20 h", Dimension::Power, "kW"), "20 hp");
-    }
-
-    #[test]
-    fn an_ambiguous_unit_or_an_invalid_number_is_not_completed() {
-        for (typed, dimension, usual) in [
-            ("48 M", Dimension::Pressure, "GPa"),
-            ("48 x", Dimension::Length, "um"),
-            ("48 m ", Dimension::Length, "mm"),
-            ("-", Dimension::Length, "um"),
-            ("", Dimension::Length, "um"),
-            ("4,8", Dimension::Length, "um"),
-            ("0.3", Dimension::Number, ""),
-        ] {
-            assert_eq!(ending(typed, dimension, usual), None, "{typed}");
-        }
-    }
-
-    #[test]
-    fn every_beginning_of_a_value_is_incomplete_not_invalid() {
-        for family in &FAMILIES {
-            let spellings = family
-                .units
-                .iter()
-                .flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases));
-            for unit in spellings.filter(|spelling| !spelling.starts_with('1')) {
-                let whole = format!("-1.5e-3 {unit}");
-                for (end, _) in whole.char_indices() {
-                    let typed = &whole[..end];
-                    let is_value = parse(typed, family.dimension, "").is_ok();
-                    assert!(is_value || open(typed, family.dimension).is_some(), "{typed}");
-                }
-            }
-        }
-        for typed in ["fast", "4,8", "48 x", "48 um", "48 umm", "1.2.3", "e5", "4 8"] {
-            assert_eq!(open(typed, Dimension::Length), None, "{typed}");
-        }
-    }
-
-    #[test]
-    fn the_completed_text_is_a_value() {
-        for family in &FAMILIES {
-            for unit in family.units {
-                for end in 1..=unit.symbol.len() {
-                    let typed = format!("2 {}", &unit.symbol[..end]);
-                    let whole = ended(&typed, family.dimension, family.units[0].symbol);
-                    let is_open = whole == typed;
-                    assert!(
-                        is_open || parse(&whole, family.dimension, "").is_ok(),
-                        "{typed} becomes {whole}"
-                    );
-                }
-            }
+    /// The unit of this system that corresponds to a written unit. Other units stay unchanged.
+    #[must_use]
+    pub fn unit(self, written: &str) -> &str {
+        let inch = PAIRS.iter().find(|(from, _)| *from == written);
+        match inch {
+            Some((_, inch)) if self == System::Inch => inch,
+            _ => written,
         }
     }
 }
+
+/// The next larger unit for a number with more integer places than digits.
+const NEXT: [(&str, &str); 14] = [
+    ("N", "kN"),
+    ("kN", "MN"),
+    ("us", "ms"),
+    ("ms", "s"),
+    ("um", "mm"),
+    ("mm", "m"),
+    ("J", "kJ"),
+    ("W", "kW"),
+    ("kW", "MW"),
+    ("N m", "kN m"),
+    ("kg", "t"),
+    ("kg mm2", "kg m2"),
+    ("thou", "in"),
+    ("psi", "ksi"),
+];
+
+/// The unit in which this system shows a value in SI: the corresponding unit, or a larger unit if
+/// the number would have more integer places than digits.
+#[must_use]
+pub fn unit_for(value: f64, metric: &'static str, digits: usize, system: System) -> &'static str {
+    let mut unit = system.unit(metric);
+    while has_more_places(value, unit, digits) {
+        let Some((_, next)) = NEXT.iter().find(|(from, _)| *from == unit) else {
+            break;
+        };
+        unit = next;
+    }
+    unit
+}
+
+/// A value in SI divided by a unit.
+fn per(value: f64, unit: &str) -> f64 {
+    value / factor(unit).unwrap_or(1.0)
+}
+
+/// A value in SI converted to a unit, with exactly this many significant digits, with an exponent
+/// if needed.
+#[must_use]
+pub fn counted(value: f64, unit: &str, digits: usize) -> String {
+    let number = per(value, unit);
+    if has_more_places(value, unit, digits) {
+        format!("{number:.*e}", digits.saturating_sub(1))
+    } else {
+        significant(number, digits)
+    }
+}
+
+// Whether the rounded number has more places before its point than digits.
+fn has_more_places(value: f64, unit: &str, digits: usize) -> bool {
+    let number = per(value, unit).abs();
+    let end = 10f64.powi(i32::try_from(digits).unwrap_or(i32::MAX));
+    number.is_finite() && number.round() >= end
+}
+
+/// A value in SI as this system shows it: the number with this many significant digits, and its
+/// unit, empty for a bare number.
+#[must_use]
+pub fn shown(
+    value: f64,
+    metric: &'static str,
+    digits: usize,
+    system: System,
+) -> (String, &'static str) {
+    let unit = unit_for(value, metric, digits, system);
+    (counted(value, unit, digits), named(unit))
+}
+
+/// A unit after a number. Empty for a bare number.
+#[must_use]
+pub fn named(unit: &'static str) -> &'static str {
+    if unit == "1" { "" } else { unit }
+}
+
+/// Least number of digits of a hint, as in the results: "20 hp" gives 14.914 kW, not 15 kW.
+const LEAST_DIGITS: usize = 5;
+
+/// Greatest number of decimal digits of an f64.
+const MOST_DIGITS: usize = 15;
+
+/// Units that are neither decimal multiples of SI nor inch units. Their hint includes the SI value.
+const BESIDE: [(&str, &str); 2] = [("rpm", "rad/s"), ("deg", "rad")];
+
+/// The typed value in the field's usual unit, such as `= 14.914 kW` for "20 hp" and kW. If the
+/// usual unit is rpm or deg, also in SI: `= 209.44 rad/s`. `None` if no conversion is needed or the
+/// text is invalid.
+///
+/// Shows one digit more than typed, at least five and at most fifteen, rounded and without trailing
+/// zeros. A typed number is exact, so that "20 hp" has the digits of a result.
+#[must_use]
+pub fn converted(
+    typed: &str,
+    dimension: Dimension,
+    usual: &'static str,
+    system: System,
+) -> Option<String> {
+    let value = parse(typed, dimension, usual).ok()?;
+    let (digits, unit) = split_number(typed.trim(), usual).ok()?;
+    let digits = (typed_digits(digits) + 1).clamp(LEAST_DIGITS, MOST_DIGITS);
+    let written = find(unit, units_of(dimension))?.symbol;
+    let usual = system.unit(usual);
+    let beside = BESIDE.iter().find(|(unit, _)| *unit == usual).map(|(_, si)| *si);
+    let text: Vec<String> = std::iter::once(usual)
+        .chain(beside)
+        .filter(|unit| *unit != written)
+        .map(|unit| format!("= {} {unit}", rounded(value, unit, digits)))
+        .collect();
+    (!text.is_empty()).then(|| text.join(" "))
+}
+
+/// Significant digits of a number as typed: 3 in "0.0250", 2 in "20", 1 in "0".
+fn typed_digits(number: &str) -> usize {
+    let mantissa = number.split(['e', 'E']).next().unwrap_or_default();
+    let digits = mantissa.bytes().filter(u8::is_ascii_digit);
+    digits.skip_while(|&digit| digit == b'0').count().max(1)
+}
+
+/// A value in SI converted to a unit, rounded, without trailing zeros.
+fn rounded(value: f64, unit: &str, digits: usize) -> String {
+    let short = significant(per(value, unit), digits);
+    let (mantissa, exponent) =
+        short.find('e').map_or((short.as_str(), ""), |at| short.split_at(at));
+    let plain = if mantissa.contains('.') {
+        mantissa.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        mantissa
+    };
+    format!("{plain}{exponent}")
+}
+
+#[cfg(test)]
+mod tests;

@@ -4,13 +4,10 @@
     reason = "the help names tables of the case file, such as [limits]"
 )]
 
-mod documents;
 mod results;
-mod searches;
 mod studies;
 
-use super::Streams;
-use super::output::Done;
+use super::{Done, Streams};
 use clap::Subcommand;
 
 /// A headless command.
@@ -40,14 +37,14 @@ pub enum Command {
     /// error is that of the finest setting of the same method; the rest is numerical. Where no
     /// method finds corner contact, no setting is recommended. JSON is one object in SI units;
     /// missing values are absent.
-    Trade(searches::Trade),
+    Trade(studies::Trade),
     /// Compare the tooth compliance of every model over the flank with finite elements
     ///
     /// The finite elements are plane strain on the whole gear, as in tooth_compliance =
     /// "finite-element". CSV: one row per gear and radius, in SI units; a cell is empty where a
     /// model does not cover the gear. JSON: one object in SI units; missing values are absent,
     /// and gaps and refusal give the reason.
-    Stiffness(searches::Stiffness),
+    Stiffness(studies::Stiffness),
     /// Solve a case over a range of one or more fields, as a table
     ///
     /// CSV has one row per point: the varied fields in the units of --vary, then the quantities
@@ -85,7 +82,7 @@ pub enum Command {
     /// `always` and `never` are answers for the whole range. Without corner contact a quantity of
     /// the impact is below every limit. JSON is one object; its numbers are in the unit of
     /// --vary, and those of the quantity in SI.
-    Seek(searches::Seek),
+    Seek(studies::Seek),
     /// Find the tip relief to specify on both gears: no corner contact, least transmission error
     ///
     /// The answer is what a drawing states: amounts in whole um, lengths in steps of 0.1 mm (0.05
@@ -98,7 +95,7 @@ pub enum Command {
     /// greatest over six loads of the range, or the mean over a spectrum. With method dynamic the
     /// motion must have no corner contact either. CSV has one row per choice and point of the
     /// map, JSON is one object; both are in SI units.
-    Relief(searches::Relief),
+    Relief(studies::Relief),
     /// Write a chart of a case, or its teeth, as a picture (SVG)
     ///
     /// The chart shows the method of the case. If the method has no such chart, the command draws
@@ -117,22 +114,22 @@ pub enum Command {
     /// stations.
     Report(results::Report),
     /// List every field of a case with its unit, range, default and meaning
-    Fields(documents::Fields),
+    Fields(results::Fields),
     /// Write the JSON Schema of a case file, with which editors complete keys
-    Schema(documents::Schema),
+    Schema(results::Schema),
     /// Write a commented case to start from
-    New(documents::New),
-    /// Import a spur stage of a REXS model as a commented case
+    New(results::New),
+    /// Import a spur or helical stage of a REXS model as a commented case
     ///
     /// REXS is the exchange format of gear programs such as FVA-Workbench and Bearinx. Versions
     /// 1.0 to 2.0 are read. Each value of the case has its source as a comment; standard error
-    /// lists the stages of the model and each field that stays empty, with the reason. Helical,
-    /// planetary, bevel and other stages are refused.
-    Import(documents::Import),
+    /// lists the stages of the model and each field that stays empty, with the reason. Stages of
+    /// ring, bevel and other gears are refused.
+    Import(results::Import),
     /// Write a shell's completions to standard output
-    Completions(documents::Completions),
+    Completions(results::Completions),
     /// Write the manual page (roff) to standard output
-    Man(documents::Man),
+    Man(results::Man),
 }
 
 impl Command {

@@ -1,11 +1,9 @@
 //! Options that several commands share: changes of the case, quantities, formats, files, threads.
 
 use std::ffi::OsStr;
-use std::io;
 use std::path::{Path, PathBuf};
 
-use super::Streams;
-use super::output::{Done, Failure, Sink, check_out, write_to};
+use super::{Done, Failure, Opened, Streams, check_out, each, open, write_to};
 use crate::case::{Case, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
@@ -27,7 +25,7 @@ pub(super) fn formats<const N: usize>(
 
 /// The selected quantities.
 #[derive(Debug, Args)]
-pub struct Only {
+pub(super) struct Only {
     /// Compute only these quantities, by name or symbol, and run only the stages that they need;
     /// `tipstrike fields --results` lists them
     #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = Quantities)]
@@ -37,14 +35,14 @@ pub struct Only {
 impl Only {
     /// The quantities without duplicates; empty if the user names none.
     #[must_use]
-    pub fn quantities(&self) -> Vec<&'static Quantity> {
+    pub(super) fn quantities(&self) -> Vec<&'static Quantity> {
         distinct(self.only.iter().flatten().copied())
     }
 }
 
 /// The number of threads.
 #[derive(Debug, Args)]
-pub struct Threads {
+pub(super) struct Threads {
     /// Number of threads (default: one per core); does not change the output
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
@@ -59,7 +57,7 @@ impl Threads {
 
 /// Options of a study whose points can be divided among machines.
 #[derive(Debug, Args)]
-pub struct StudyOptions {
+pub(super) struct StudyOptions {
     /// The threads
     #[command(flatten)]
     pub threads: Threads,
@@ -83,7 +81,7 @@ fn misused(cause: String) -> Error {
 
 /// Values that replace those of a case: those of a variant first, then single fields.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
-pub struct Edits {
+pub(super) struct Edits {
     /// Use this variant of the case, a table [variants.NAME]
     #[arg(long, value_name = "NAME")]
     pub variant: Option<String>,
@@ -94,7 +92,7 @@ pub struct Edits {
 
 /// The method and the values that replace those of a case.
 #[derive(Debug, Args)]
-pub struct Changes {
+pub(super) struct Changes {
     /// Use this method instead of the method of the case
     #[arg(long, value_parser = methods())]
     method: Option<Method>,
@@ -106,7 +104,7 @@ pub struct Changes {
 impl Changes {
     /// The variant and the fields; the method is the last field.
     #[must_use]
-    pub fn edits(&self) -> Edits {
+    pub(super) fn edits(&self) -> Edits {
         let mut edits = self.edits.clone();
         edits.settings.extend(by_method(self.method));
         edits
@@ -115,39 +113,28 @@ impl Changes {
 
 /// `--method` as a setting of a field.
 pub(in crate::cli) fn by_method(method: Option<Method>) -> Option<Setting> {
-    method.map(|method| Setting::by("--method", "model.method", method.name()))
+    method.map(|method| Setting::new("model.method", method.name()))
 }
 
 /// A field and its new value.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Setting {
+pub(super) struct Setting {
     /// The key of the field or limit.
     pub key: String,
     /// The new text of the field.
     pub value: String,
-    /// The option of the setting.
-    option: &'static str,
 }
 
 impl Setting {
-    /// The setting of a field by an option.
-    #[must_use]
-    pub fn by(option: &'static str, key: &str, value: &str) -> Setting {
-        Setting { key: key.to_owned(), value: value.to_owned(), option }
+    pub(super) fn new(key: &str, value: &str) -> Setting {
+        Setting { key: key.to_owned(), value: value.to_owned() }
     }
 
     /// The setting in the syntax of the command line.
-    #[must_use]
-    pub fn written(&self) -> String {
-        match self.option {
-            SET => format!("{SET} {}={}", self.key, self.value),
-            option => format!("{option} {}", self.value),
-        }
+    pub(super) fn written(&self) -> String {
+        format!("--set {}={}", self.key, self.value)
     }
 }
-
-/// The option that changes any field.
-const SET: &str = "--set";
 
 /// Parser of a field and its value; checks each separately.
 #[derive(Clone)]
@@ -163,7 +150,7 @@ impl TypedValueParser for Settings {
         value: &OsStr,
     ) -> Result<Setting, Error> {
         let text = value.to_string_lossy();
-        setting(&text).map_err(|cause| misused(format!("{SET} {text}: {cause}")))
+        setting(&text).map_err(|cause| misused(format!("--set {text}: {cause}")))
     }
 }
 
@@ -175,7 +162,7 @@ fn setting(text: &str) -> Result<Setting, String> {
     Case::empty()
         .set(key.trim(), value)
         .map_err(|problem| format!("{}: {}", problem.cause, problem.fix))?;
-    Ok(Setting::by(SET, key.trim(), value))
+    Ok(Setting::new(key.trim(), value))
 }
 
 /// Parses a number of stations.
@@ -249,7 +236,7 @@ fn names(list: &str) -> Vec<String> {
 
 /// Any number of cases, all with the same changes.
 #[derive(Debug, Args)]
-pub struct Cases {
+pub(super) struct Cases {
     /// Case files; - is standard input
     #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub cases: Vec<PathBuf>,
@@ -258,9 +245,23 @@ pub struct Cases {
     pub changes: Changes,
 }
 
+impl Cases {
+    /// Opens each case, with one more setting if there is one, and runs a command on it.
+    pub(super) fn each(
+        &self,
+        more: Option<Setting>,
+        streams: &mut Streams,
+        mut run: impl FnMut(&Opened, &mut Streams) -> Done,
+    ) -> Done {
+        let mut edits = self.changes.edits();
+        edits.settings.extend(more);
+        each(&self.cases, streams, |path, streams| run(&open(path, &edits, &[], streams)?, streams))
+    }
+}
+
 /// One case.
 #[derive(Debug, Args)]
-pub struct CaseFile {
+pub(super) struct CaseFile {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
@@ -271,7 +272,7 @@ pub struct CaseFile {
 
 /// The file for the output.
 #[derive(Debug, Args)]
-pub struct Destination {
+pub(super) struct Destination {
     /// File to write (default: standard output); replaces an existing file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
@@ -301,15 +302,6 @@ impl Destination {
             "--out {out}: the output is {name}: use another extension, or --format"
         )))
     }
-
-    /// Writes results with `write` to the file or to standard output.
-    pub(super) fn write(
-        &self,
-        streams: &mut Streams,
-        write: impl FnOnce(&mut Sink) -> io::Result<()>,
-    ) -> Done {
-        write_to(self.out.as_deref(), streams, write)
-    }
 }
 
 #[cfg(test)]
@@ -318,7 +310,7 @@ mod tests {
 
     #[test]
     fn a_setting_is_split_at_the_first_equals_sign() {
-        assert_eq!(setting("title=a=b"), Ok(Setting::by(SET, "title", "a=b")));
+        assert_eq!(setting("title=a=b"), Ok(Setting::new("title", "a=b")));
         assert!(setting("pair.modul=5 mm").unwrap_err().contains("did you mean pair.module?"));
         assert!(setting("pair.module").unwrap_err().contains("KEY=VALUE"));
     }

@@ -121,7 +121,7 @@ pub fn without_contact(solution: &Solution) -> &'static str {
 pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
     let (why, total) = (without_contact(solution), solution.deviation.total);
     let printed = |value: f64| {
-        let (number, unit) = units::system::shown(value, "um", 3, system);
+        let (number, unit) = units::shown(value, "um", 3, system);
         format!("{number} {unit}")
     };
     match (solution.method, solution.margin(), solution.lead_at_rest()) {

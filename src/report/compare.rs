@@ -12,7 +12,7 @@ use crate::case::fields::index_of;
 use crate::case::file::FORMAT;
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::case::units::system::{counted, named};
+use crate::case::units::{counted, named};
 use crate::case::{Case, FIELDS, Problem};
 use crate::model::inputs::Method;
 use crate::model::{Quantity, Solution};

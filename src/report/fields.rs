@@ -2,7 +2,7 @@
 
 use super::json::{json, write_line};
 use super::table::{Cell, Column, Table};
-use crate::case::fields::{Absent, Kind};
+use crate::case::fields::Absent;
 use crate::case::{FIELDS, Field};
 use crate::model::{QUANTITIES, Quantity};
 use std::io::{self, Write};
@@ -46,7 +46,7 @@ pub fn write_fields(is_json: bool, out: &mut dyn Write) -> io::Result<()> {
     }
     FIELDS.iter().try_for_each(|field| {
         let (from, to) = range(field).unzip();
-        let choices = Some(choices(field)).filter(|choices| !choices.is_empty());
+        let choices = Some(field.choices()).filter(|choices| !choices.is_empty());
         let default = if let Absent::Default(text) = field.absent { Some(text) } else { None };
         let line = json!({
             "key": field.key,
@@ -84,19 +84,11 @@ fn write_list(mut table: Table, out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn unit(field: &Field) -> &'static str {
-    if let Kind::Number(_, range, _) = field.kind { range.unit } else { "" }
+    field.range().map_or("", |range| range.unit)
 }
 
 fn range(field: &Field) -> Option<(f64, f64)> {
-    match field.kind {
-        Kind::Number(_, range, _) => Some((range.from, range.to)),
-        Kind::Count(from, to, _) => Some((f64::from(from), f64::from(to))),
-        _ => None,
-    }
-}
-
-fn choices(field: &Field) -> &'static [&'static str] {
-    if let Kind::Choice(names, _) = field.kind { names } else { &[] }
+    field.range().map(|range| (range.from, range.to))
 }
 
 fn range_text(field: &Field) -> String {
@@ -104,7 +96,7 @@ fn range_text(field: &Field) -> String {
 }
 
 fn meaning(field: &Field) -> String {
-    match choices(field) {
+    match field.choices() {
         [] => field.label.to_owned(),
         names => format!("{}: {}", field.label, names.join(", ")),
     }

@@ -164,7 +164,7 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
     Ok(Chart {
         title: format!("{} over {}", first.label.trim_start(), label(key)),
         across: Axis { labels, ..Axis::new(label(key), across_unit) },
-        up: Axis::new(up, units::system::named(unit)),
+        up: Axis::new(up, units::named(unit)),
         series,
         marks: Vec::new(),
     })

@@ -186,7 +186,8 @@ impl Verdict<'_> {
     pub fn sentence(&self, system: System) -> String {
         let statement = self.statement(system);
         let Some(beside) = self.beside else { return statement };
-        let above = if self.is_exceeded_beside() { ", above this limit" } else { "" };
+        let limit = sanitize(&self.limit.text);
+        let above = if self.is_exceeded_beside() { format!(" > {limit}") } else { String::new() };
         let is_unlimited = beside.own.is_some() && !beside.is_limited;
         let also = if is_unlimited { "; this quantity has no limit" } else { "" };
         format!("{statement} for {}{above}{also}", beside.sentence(system))
@@ -326,8 +327,8 @@ mod tests {
         assert_eq!(*standing, Standing::Exceeded);
         assert!(
             sentence.ends_with(
-                " for the free impact. Method static: static_force_at_start 1466.2 N, above this \
-                    limit; this quantity has no limit"
+                " for the free impact. Method static: static_force_at_start 1466.2 N > 1 kN; this \
+                    quantity has no limit"
             ),
             "{sentence}"
         );

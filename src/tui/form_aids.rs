@@ -47,7 +47,7 @@ impl Field {
         measured.map_or_else(
             || text.to_owned(),
             |value| {
-                let (number, unit) = units::system::shown(value, unit, RANGE_DIGITS, system);
+                let (number, unit) = units::shown(value, unit, RANGE_DIGITS, system);
                 format!("{number} {unit}")
             },
         )

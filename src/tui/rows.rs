@@ -1,6 +1,6 @@
 //! The focusable rows of the form: the fields, then the limits of the case.
 
-use crate::case::fields::{Absent, Field, Kind, index_of};
+use crate::case::fields::{Absent, Field, index_of};
 use crate::case::units::{self, System};
 use crate::case::{Case, FIELDS, Limit};
 use crate::model::{Inputs, Quantity};
@@ -115,10 +115,7 @@ pub(crate) fn stepped(case: &Case, at: usize, by: isize) -> Option<String> {
 /// The choices of a row; empty if the row is not a choice.
 #[must_use]
 pub fn names(case: &Case, at: usize) -> &'static [&'static str] {
-    match field(case, at).map(|field| field.kind) {
-        Some(Kind::Choice(names, _)) => names,
-        _ => &[],
-    }
+    field(case, at).map(Field::choices).unwrap_or_default()
 }
 
 /// The field of a row, if it is a field.

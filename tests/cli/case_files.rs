@@ -480,7 +480,7 @@ fn a_folder_that_cannot_be_written_leaves_file_and_changes() {
     let missing = tempfile::tempdir().unwrap().path().join("gone/case.toml");
     let error = Document::table_1().save(&missing).unwrap_err();
     assert!(
-        matches!(&error, SaveError::NoFolder(_, folder, _) if missing.parent() == Some(Path::new(folder))),
+        matches!(&error, SaveError::NoFolder(_, folder) if missing.parent() == Some(Path::new(folder))),
         "{error}"
     );
     assert!(error.to_string().contains("mkdir -p"), "{error}");

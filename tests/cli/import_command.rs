@@ -82,15 +82,179 @@ fn units_signs_and_load_cases_of_a_model_become_si_values() {
     );
 }
 
+/// The values of an imported stage, in SI.
+fn assert_values(document: &Document, expected: &[(&str, f64)]) {
+    for &(key, expected) in expected {
+        let found = value(document, key).unwrap_or_else(|| panic!("{key} is empty"));
+        assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{key}: {found}");
+    }
+}
+
+fn hand(document: &Document) -> Option<&str> {
+    document.case.text(fields::index_of("pair.driver_hand").unwrap())
+}
+
 #[test]
-fn the_samples_are_refused_by_the_name_of_their_stages() {
-    let (code, case, message) = texts(&run(&["import", "planetary-1.1.rexsz"]));
-    assert_eq!((code, case.as_str()), (3, ""));
-    assert!(message.contains("the model has no spur stage"), "{message}");
-    assert!(message.contains("stage 9 \"Planetenstufe [9]\" is a planetary stage"), "{message}");
-    let (code, _, message) = texts(&run(&["import", "two-stages-1.0.rexs", "--stage", "7"]));
-    assert_eq!(code, 3);
-    assert!(message.contains("is a helical stage (helix angle -10 deg)"), "{message}");
+fn every_public_sample_opens_solves_and_says_what_is_left_out() {
+    for (name, kind) in [
+        ("gearbox-1.0.rexsz", "stage 6 \"Stirnradstufe\": a helical stage (23/67 teeth, 30 deg)"),
+        ("planetary-1.1.rexsz", "a spur stage of planetary_stage 9 (17/22 teeth), imported"),
+        ("planetary-1.1-json.rexsz", "a spur stage of planetary_stage 9 (17/22 teeth), imported"),
+    ] {
+        let solve = ["solve", name, "--only", "static_peak_force", "--format", "json"];
+        let (code, json, message) = texts(&run(&solve));
+        assert_eq!(code, 0, "{message}");
+        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+        assert!(json["method"] == "static" || name.starts_with('p'), "{json}");
+        has(
+            &message,
+            &[kind, "driver.tip_relief stays empty", "`tipstrike import --stage` imports"],
+        );
+        assert!(message.lines().all(|line| line.starts_with(name)), "{message}");
+    }
+}
+
+#[test]
+fn a_helical_gear_train_gives_every_stage_its_hand_speed_and_torque() {
+    let bytes = fs::read(model("gearbox-1.0.rexsz")).unwrap();
+    let stage = |id: &str| import(Path::new("m.rexsz"), &bytes, Some(id)).unwrap().document;
+    let (first, second, third) = (stage("6"), stage("37"), stage("55"));
+    let (speed, torque) = (1400.0 * std::f64::consts::PI / 30.0, 4.724562306435156);
+    assert_values(
+        &first,
+        &[
+            ("pair.helix_angle", 30f64.to_radians()),
+            ("driven.profile_shift", 0.5131),
+            ("pair.face_offset", 2.5e-3),
+            ("operation.speed", speed),
+            ("operation.torque", torque),
+        ],
+    );
+    let ratio = 67.0 / 23.0;
+    assert_values(
+        &second,
+        &[
+            ("pair.helix_angle", 10f64.to_radians()),
+            ("operation.speed", speed / ratio),
+            ("operation.torque", torque * ratio),
+        ],
+    );
+    let ratio = ratio * 76.0 / 13.0;
+    assert_values(
+        &third,
+        &[("operation.speed", speed / ratio), ("operation.torque", torque * ratio)],
+    );
+    assert_eq!([&first, &second, &third].map(hand), [Some("right"), Some("left"), Some("right")]);
+    for document in [first, second, third] {
+        assert!(document.case.inputs().is_ok());
+    }
+}
+
+#[test]
+fn a_sun_gear_turns_relative_to_its_carrier_and_shares_its_load() {
+    let imported =
+        import(Path::new("m.rexsz"), &fs::read(model("planetary-1.1.rexsz")).unwrap(), None)
+            .unwrap();
+    let speed = 1500.0 * std::f64::consts::PI / 30.0 * 61.0 / 78.0;
+    assert_values(
+        &imported.document,
+        &[("operation.speed", speed), ("operation.torque", 1591.5494309189535 / 3.0)],
+    );
+    assert!(imported.remarks.iter().any(|remark| remark.contains("3 planets")));
+}
+
+/// The spur model with its pinion right-handed, its wheel by `wheel`, and modifications of the
+/// pinion along the face.
+fn helical(wheel: &str, speed: f64) -> Vec<u8> {
+    let parts = [
+        ("helix_slope", "\"helix_slope\", \"floating_point\": 0.012"),
+        ("helix_crowning", "\"helix_crowning_amount_datum_face\", \"floating_point\": 0.004"),
+        ("end_relief_datum_face", "\"end_relief_depth_datum_face\", \"floating_point\": 0.02"),
+        ("profile_crowning", "\"profile_crowning_amount\", \"floating_point\": 0.001"),
+    ];
+    let components: String = (70..)
+        .zip(parts)
+        .map(|(id, (kind, attribute))| {
+            format!(
+                "{{\"id\": {id}, \"type\": \"{kind}\", \"attributes\": [{{\"id\": {attribute}}}]}},"
+            )
+        })
+        .collect();
+    let references: String = (70..74)
+        .map(|id| {
+            format!(
+                "{{\"id\": {id}, \"type\": \"reference\", \"refs\": [{{\"id\": 15, \"role\": \"origin\"}}, \
+                    {{\"id\": {id}, \"role\": \"referenced\"}}]}},"
+            )
+        })
+        .collect();
+    let text = fs::read_to_string(model("spur-2.0.rexsj")).unwrap();
+    let angle = "\"helix_angle_reference_diameter\", \"unit\": \"deg\", \"floating_point\": ";
+    let pinion_side = "{\"id\": \"support_vector\", \"unit\": \"mm\", \"floating_point_array\": [3.0, 0.0, 0.0]}, \
+        {\"id\": \"u_axis_vector\", \"unit\": \"mm\", \"floating_point_array\": [1.0, 0.0, 0.0]}, ";
+    let wheel_side = "{\"id\": \"support_vector\", \"unit\": \"mm\", \"floating_point_array\": [5.0, 150.0, 0.0]}, ";
+    let pinion = "\"name\": \"Pinion\", \"attributes\": [";
+    let gear = "\"name\": \"Wheel\", \"attributes\": [";
+    text.replace(&format!("{angle}0.0"), &format!("{angle}15.0"))
+        .replace(pinion, &format!("{pinion}{pinion_side}"))
+        .replace(gear, &format!("{gear}{wheel_side}{wheel}"))
+        .replacen("\"components\": [\n", &format!("\"components\": [\n{components}\n"), 1)
+        .replacen("\"relations\": [\n", &format!("\"relations\": [\n{references}\n"), 1)
+        .replace("\"floating_point\": 2000.0", &format!("\"floating_point\": {speed}"))
+        .into_bytes()
+}
+
+fn wheel_of(angle: &str) -> String {
+    format!("{{\"id\": \"helix_angle_{angle}}}, ")
+}
+
+#[test]
+fn helix_angle_and_modifications_along_the_face_become_fields_by_their_side() {
+    let wheel = wheel_of("reference_diameter\", \"unit\": \"deg\", \"floating_point\": -15.0");
+    for (speed, offset, end, other) in [
+        (2000.0, 2e-3, "driver.end_relief_minus", "driver.end_relief_plus"),
+        (-2000.0, -2e-3, "driver.end_relief_plus", "driver.end_relief_minus"),
+    ] {
+        let imported = import(Path::new("m.rexsj"), &helical(&wheel, speed), None).unwrap();
+        assert_values(
+            &imported.document,
+            &[
+                ("pair.helix_angle", 15f64.to_radians()),
+                ("pair.face_offset", offset),
+                ("driver.helix_slope", 12e-6),
+                ("driver.crowning", 4e-6),
+                (end, 20e-6),
+                (other, 0.0),
+            ],
+        );
+        assert_eq!(hand(&imported.document), Some("right"));
+        assert!(imported.remarks.contains(&"left out: profile_crowning 73".to_owned()));
+    }
+    // sin beta_b = sin beta cos alpha_n.
+    let base = (15f64.to_radians().sin() * 20f64.to_radians().cos()).asin().to_degrees();
+    let text = String::from_utf8(helical(&wheel, 2000.0)).unwrap();
+    let text =
+        text.replace("reference_diameter", "base_diameter").replace("15.0}", &format!("{base}}}"));
+    let imported = import(Path::new("m.rexsj"), text.as_bytes(), None).unwrap();
+    assert_values(&imported.document, &[("pair.helix_angle", 15f64.to_radians())]);
+}
+
+#[test]
+fn stages_that_are_no_external_cylindrical_pair_are_refused_by_name() {
+    for (angle, reason) in [
+        (
+            "-16.0",
+            "is 15 deg, helix_angle_reference_diameter of cylindrical_gear 16 \"Wheel\" is 16 deg",
+        ),
+        ("15.0", "the hand of the driver by"),
+        ("-50.0", "is -50 deg, more than 45 deg"),
+    ] {
+        let wheel = wheel_of(&format!(
+            "reference_diameter\", \"unit\": \"deg\", \"floating_point\": {angle}"
+        ));
+        let message = refusal_of(&helical(&wheel, 2000.0));
+        assert!(message.contains(reason), "{message}");
+    }
     let bevel = edited("two-stages-1.0.rexs", "\"cylindrical_stage\"", "\"bevel_stage\"");
     assert!(refusal_of(&bevel).contains("is a bevel stage"));
     let ring = edited(
@@ -99,21 +263,22 @@ fn the_samples_are_refused_by_the_name_of_their_stages() {
         "\"id\": 16, \"type\": \"ring_gear\"",
     );
     assert!(refusal_of(&ring).contains("is a stage with a ring gear"));
-    let bevel_gear = edited(
-        "two-stages-1.0.rexs",
-        "\"Stirnrad pos=2\" type=\"cylindrical_gear\"",
-        "\"Stirnrad pos=2\" type=\"bevel_gear\"",
-    );
-    assert!(refusal_of(&bevel_gear).contains("is a stage with a bevel gear"));
+    let (code, _, message) = texts(&run(&["import", "planetary-1.1.rexsz", "--stage", "9"]));
+    assert_eq!(code, 3);
+    assert!(message.contains("stage 9 \"Planetenstufe [9]\" is a planetary stage"), "{message}");
 }
 
 #[test]
-fn of_several_spur_stages_one_must_be_chosen() {
-    let both = edited("two-stages-1.0.rexs", "10.0</attribute>", "0.0</attribute>");
-    assert!(refusal_of(&both).contains("choose one with `tipstrike import --stage ID`"));
-    assert!(import(Path::new("m.rexs"), &both, Some("6")).is_ok());
-    let unknown = import(Path::new("m.rexs"), &both, Some("8")).unwrap_err();
-    assert!(unknown.clone().contains("the model has no stage \"8\""));
+fn of_several_stages_the_first_is_imported_and_the_others_are_named() {
+    let (code, _, message) = texts(&run(&["import", "two-stages-1.0.rexs"]));
+    assert_eq!(code, 0);
+    has(
+        &message,
+        &["stage 6 \"Stirnradstufe\": a spur stage (23/67 teeth), imported", "--stage` imports 7"],
+    );
+    let unknown =
+        import(Path::new("m.rexs"), &fs::read(model("two-stages-1.0.rexs")).unwrap(), Some("8"));
+    assert!(unknown.unwrap_err().contains("the model has no stage \"8\""));
 }
 
 #[test]

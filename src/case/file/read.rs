@@ -1,19 +1,18 @@
 //! Reads a case from TOML: finds every key in the table of fields and places every fault.
 
-use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use super::FORMAT;
-use super::fault::MOST;
-use super::layout::{Entry, Layout, Value};
-use super::syntax;
+use super::{Entry, FORMAT, Layout, MOST, Value, line_start};
+use crate::case::changes::texts;
 use crate::case::fields::{AUTO, Absent, FIELDS, Field, GROUPS, Kind, index_of};
 use crate::case::problem::{MISSING, NEWER_FORMAT};
-use crate::case::sanitize::quoted;
+use crate::case::sanitize::{cut, quoted};
+use crate::case::units::{self, Dimension};
 use crate::case::{
     Case, Limit, Override, Problem, Spread, Variant, check, spread, suggest, variant,
 };
 use crate::model::Quantity;
+use toml_edit::TomlError;
 
 /// Common names of the two gears.
 const GEARS: [&str; 8] = ["pinion", "wheel", "gear", "gears", "gear1", "gear2", "gear_1", "gear_2"];
@@ -40,7 +39,7 @@ pub(super) fn read(text: &str, is_newer: bool) -> Reading {
     let refused = |fault| Reading { case: Case::empty(), faults: vec![fault] };
     let layout = match Layout::of(text) {
         Ok(layout) => layout,
-        Err(error) => return refused(syntax::fault(&error, text)),
+        Err(error) => return refused(syntax_fault(&error, text)),
     };
     let mut reader = Reader {
         layout: &layout,
@@ -62,7 +61,7 @@ pub(super) fn read(text: &str, is_newer: bool) -> Reading {
     reader.check();
     let mut case = reader.scopes[0].case.clone();
     let named = reader.scopes[1..].iter().filter(|own| Variant::check_name(&own.name).is_ok());
-    case.variants = named.map(|own| Variant::new(&own.name, own.values.clone())).collect();
+    case.variants = named.map(|own| Variant::new(&own.name, own.overrides())).collect();
     Reading { case, faults: reader.faults }
 }
 
@@ -73,8 +72,8 @@ struct Scope {
     /// The place of the name of a variant.
     at: usize,
     case: Case,
-    /// Every value, as an override.
-    values: Vec<Override>,
+    /// Keys that a variant removes.
+    removed: Vec<String>,
     /// Fields with invalid values.
     wrong: Vec<usize>,
     has_faults: bool,
@@ -83,7 +82,7 @@ struct Scope {
 impl Scope {
     fn new(name: &str, at: usize) -> Scope {
         let (name, case) = (name.to_owned(), Case::empty());
-        Scope { name, at, case, values: Vec::new(), wrong: Vec::new(), has_faults: false }
+        Scope { name, at, case, removed: Vec::new(), wrong: Vec::new(), has_faults: false }
     }
 
     /// A key of the scope as a key of the file.
@@ -94,8 +93,11 @@ impl Scope {
         }
     }
 
-    fn keep(&mut self, key: &str, text: String) {
-        self.values.push(Override { key: key.to_owned(), text });
+    /// Every value as an override.
+    fn overrides(&self) -> Vec<Override> {
+        let removed = self.removed.iter().map(|key| (key.clone(), String::new()));
+        let all = texts(&self.case).into_iter().chain(removed);
+        all.map(|(key, text)| Override { key, text }).collect()
     }
 }
 
@@ -138,9 +140,9 @@ impl<'l> Reader<'l> {
             _ => None,
         };
         let at = entry.span.start;
-        match written.map(|number| (number, number.cmp(&u64::from(FORMAT)))) {
-            Some((_, Ordering::Equal)) => {}
-            Some((number, Ordering::Greater)) => {
+        match written {
+            Some(number) if number == u64::from(FORMAT) => {}
+            Some(number) if number > u64::from(FORMAT) => {
                 let cause = format!(
                     "format {number} is newer than this version, which reads format {FORMAT}"
                 );
@@ -174,47 +176,38 @@ impl<'l> Reader<'l> {
         let (target, depth) = target(path, scope > 0);
         let (key, is_own) = (path[..depth].join("."), depth == path.len());
         let value = if is_own { &entry.value } else { &Value::Table };
-        match target {
-            Target::Unknown => {
-                if self.seen.insert(self.scopes[scope].key(&key)) {
-                    self.fault(scope, entry.key_at(above + depth), unknown(&key));
-                }
+        let is_first = self.seen.insert(self.scopes[scope].key(&key));
+        let read = match target {
+            Target::Unknown if is_first => {
+                return self.fault(scope, entry.key_at(above + depth), unknown(&key));
             }
             Target::Table if is_own && *value != Value::Table => {
-                let cause = format!("expected the table [{key}], found {}", value.kind());
-                let fix = format!("write [{key}] on a line of its own, once");
-                self.fault(scope, start, Problem::new(&key, cause, fix));
                 let belongs = |field: &usize| FIELDS[*field].table() == key;
                 self.scopes[scope].wrong.extend((0..FIELDS.len()).filter(belongs));
+                let cause = format!("expected the table [{key}], found {}", value.kind());
+                let fix = format!("write [{key}] on a line of its own, once");
+                Err(Problem::new("", cause, fix))
             }
-            Target::Format | Target::Table => {}
             Target::Spread(field) => {
                 let own = self.distributions.entry((scope, field)).or_default();
                 own.0 = above + depth;
                 own.1.push(entry);
+                Ok(())
             }
-            Target::Field(_) | Target::Limit(_)
-                if !self.seen.insert(self.scopes[scope].key(&key)) =>
-            {
-                if is_own {
-                    let cause = match scope {
-                        0 => format!("the key {} appears twice", quoted(&key)),
-                        _ => "the variant overrides this key twice".to_owned(),
-                    };
-                    self.fault(scope, start, Problem::new(&key, cause, "keep one of the two"));
-                }
+            Target::Field(_) | Target::Limit(_) if is_own && !is_first => {
+                let cause = match scope {
+                    0 => format!("the key {} appears twice", quoted(&key)),
+                    _ => "the variant overrides this key twice".to_owned(),
+                };
+                Err(Problem::new("", cause, "keep one of the two"))
             }
-            Target::About => match value {
-                Value::String(text) | Value::Number(text) | Value::Date(text) => {
-                    self.scopes[scope].case.write_about(&path[1], text);
-                }
-                _ => {
-                    let problem = misplaced("a text in quotes", value, "project = \"Mill 7\"");
-                    self.fault(scope, start, problem.at(&key));
-                }
-            },
-            Target::Field(field) => self.field(scope, field, value, start),
-            Target::Limit(quantity) => self.limit(scope, quantity, value, start),
+            Target::About => self.about(scope, &path[1], value),
+            Target::Field(field) if is_first => self.field(scope, field, value),
+            Target::Limit(quantity) if is_first => self.limit(scope, quantity, value),
+            _ => Ok(()),
+        };
+        if let Err(problem) = read {
+            self.fault(scope, start, problem.at(&key));
         }
     }
 
@@ -233,48 +226,47 @@ impl<'l> Reader<'l> {
         scope
     }
 
-    fn field(&mut self, scope: usize, field: usize, value: &Value, at: usize) {
-        let known = &FIELDS[field];
-        let is_empty = *value == Value::String(String::new()) && !matches!(known.kind, Kind::Text);
-        let missing = |cause| Err(Problem::new("", cause, written(known)));
+    fn about(&mut self, scope: usize, name: &str, value: &Value) -> Result<(), Problem> {
+        match value {
+            Value::String(text) | Value::Number(text) | Value::Date(text) => {
+                self.scopes[scope].case.write_about(name, text);
+                Ok(())
+            }
+            _ => Err(misplaced("a text in quotes", value, "project = \"Mill 7\"")),
+        }
+    }
+
+    fn field(&mut self, scope: usize, field: usize, value: &Value) -> Result<(), Problem> {
+        let (known, own) = (&FIELDS[field], &mut self.scopes[scope]);
+        let is_empty = value.is_empty() && !matches!(known.kind, Kind::Text);
+        let missing = |cause: &str| Err(Problem::new("", cause, written(known)));
         let text = match known.absent {
             _ if !is_empty => text_of(known, value),
-            Absent::Refused | Absent::Either if scope == 0 => return,
+            Absent::Refused | Absent::Either if scope == 0 => return Ok(()),
             Absent::Refused => missing("the case needs this value"),
             _ if scope > 0 => Ok(String::new()),
             _ => missing("the value is missing"),
         };
-        match text {
-            Ok(text) => {
-                self.scopes[scope].case.write(field, &text);
-                self.scopes[scope].keep(known.key, text);
-            }
-            Err(problem) => {
-                self.scopes[scope].wrong.push(field);
-                self.fault(scope, at, problem.at(known.key));
-            }
+        let text = text.inspect_err(|_| own.wrong.push(field))?;
+        if text.is_empty() {
+            own.removed.push(known.key.to_owned());
         }
+        own.case.write(field, &text);
+        Ok(())
     }
 
-    fn limit(&mut self, scope: usize, quantity: &Quantity, value: &Value, at: usize) {
-        let key = format!("limits.{}", quantity.key);
-        if scope > 0 && *value == Value::String(String::new()) {
-            return self.scopes[scope].keep(&key, String::new());
+    fn limit(&mut self, scope: usize, quantity: &Quantity, value: &Value) -> Result<(), Problem> {
+        let own = &mut self.scopes[scope];
+        if scope > 0 && value.is_empty() {
+            own.removed.push(format!("limits.{}", quantity.key));
+            return Ok(());
         }
         let example = format!("{} = {}", quantity.key, limit_by_example(quantity));
         // A limit may be relative to another result, such as "1.3 x mesh_force".
         let is_relative = matches!(value, Value::String(text) if text.contains(" x "));
-        let text = number_or_text(value, quantity.unit == "1" && !is_relative, &example);
-        match text
-            .map_err(|problem| problem.at(&key))
-            .and_then(|text| Limit::new(quantity.key, &text))
-        {
-            Ok(limit) => {
-                self.scopes[scope].keep(&key, limit.text.clone());
-                self.scopes[scope].case.limits.push(limit);
-            }
-            Err(problem) => self.fault(scope, at, problem),
-        }
+        let text = number_or_text(value, quantity.unit == "1" && !is_relative, &example)?;
+        own.case.limits.push(Limit::new(quantity.key, &text)?);
+        Ok(())
     }
 
     /// Reads the distributions, each of one shape with a width.
@@ -282,13 +274,13 @@ impl<'l> Reader<'l> {
         let mut all: Vec<_> = std::mem::take(&mut self.distributions).into_iter().collect();
         all.sort_by_key(|(_, (_, entries))| entries[0].start);
         for ((scope, field), (depth, entries)) in all {
-            let (key, place) = (FIELDS[field].key, spread::place(FIELDS[field].key));
+            let key = FIELDS[field].key;
             let is_part = |entry: &&&Entry| entry.path.len() > depth || entry.value != Value::Table;
             let mut parts = entries.iter().filter(is_part);
             let only = parts.next().filter(|_| parts.next().is_none());
             let read = match only.map(|entry| (&entry.path[depth..], &entry.value)) {
-                Some(([], Value::String(text))) if scope > 0 && text.is_empty() => {
-                    self.scopes[scope].keep(&place, String::new());
+                Some(([], value)) if scope > 0 && value.is_empty() => {
+                    self.scopes[scope].removed.push(spread::place(key));
                     continue;
                 }
                 Some(([shape], Value::String(width) | Value::Number(width))) => {
@@ -298,10 +290,7 @@ impl<'l> Reader<'l> {
                 _ => Err(Spread::malformed(key, None)),
             };
             match read {
-                Ok(spread) => {
-                    self.scopes[scope].keep(&place, spread.in_words());
-                    self.scopes[scope].case.spread.push(spread);
-                }
+                Ok(spread) => self.scopes[scope].case.spread.push(spread),
                 Err(problem) => self.fault(scope, entries[0].span.start, problem),
             }
         }
@@ -328,7 +317,7 @@ impl<'l> Reader<'l> {
                 self.fault(scope, self.layout.place(&key), problem);
             }
             let own = &self.scopes[scope];
-            if scope > 0 && own.values.is_empty() && !own.has_faults {
+            if scope > 0 && own.overrides().is_empty() && !own.has_faults {
                 let place = format!("{}{}", variant::PREFIX, own.name);
                 let fix = format!("write an override, such as {OVERRIDE}, or remove the table");
                 self.fault(0, own.at, Problem::new(&place, "the variant changes nothing", fix));
@@ -378,25 +367,21 @@ fn target(path: &[String], is_variant: bool) -> (Target, usize) {
 
 /// The text of a value for a field.
 fn text_of(field: &Field, value: &Value) -> Result<String, Problem> {
+    let example = check::assignment(field);
     match (field.kind, value) {
         (Kind::Choice(..), Value::Flag(flag)) if field.is_flag() => Ok(flag.to_string()),
-        (Kind::Choice(..), _) if field.is_flag() => Err(Problem::new(
-            "",
-            format!("expected true or false, found {}", value.kind()),
-            "write true or false without quotes",
-        )),
-        (Kind::Text | Kind::Choice(..), Value::String(text)) => Ok(text.clone()),
-        (Kind::Text | Kind::Choice(..), _) => {
-            Err(misplaced("a text in quotes", value, &check::assignment(field)))
+        (Kind::Choice(..), _) if field.is_flag() => {
+            let cause = format!("expected true or false, found {}", value.kind());
+            Err(Problem::new("", cause, "write true or false without quotes"))
         }
+        (Kind::Text | Kind::Choice(..), Value::String(text)) => Ok(text.clone()),
+        (Kind::Text | Kind::Choice(..), _) => Err(misplaced("a text in quotes", value, &example)),
         (Kind::Count(..), Value::String(text)) if field.takes_auto() && text == AUTO => {
             Ok(text.clone())
         }
         (Kind::List(_), Value::Array(Some(numbers))) => Ok(numbers.clone()),
-        (Kind::List(_), _) => {
-            Err(misplaced("numbers in brackets", value, &check::assignment(field)))
-        }
-        _ => number_or_text(value, field.is_bare(), &check::assignment(field)),
+        (Kind::List(_), _) => Err(misplaced("numbers in brackets", value, &example)),
+        _ => number_or_text(value, field.is_bare(), &example),
     }
 }
 
@@ -478,4 +463,113 @@ fn unknown(key: &str) -> Problem {
         }
         Some(_) => check::unknown_key(key),
     }
+}
+
+/// The first syntax error of a text: in terms of a case if its line belongs to a field, otherwise in
+/// terms of TOML.
+fn syntax_fault(error: &TomlError, source: &str) -> (usize, Problem) {
+    let span = error.span().unwrap_or(source.len()..source.len());
+    let at = (0..=span.start).rev().find(|&at| source.is_char_boundary(at)).unwrap_or_default();
+    let start = line_start(source, at);
+    let (above, text) = (&source[..start], source[start..].lines().next().unwrap_or_default());
+    let named = key_and_value(text);
+    let field = named.and_then(|(key, _)| field_of(above, key));
+    let name = field.map_or("toml", |field| field.key);
+    let is_control = |c: &char| c.is_control() && !matches!(c, '\t' | '\r');
+    if let Some((offset, control)) = text.char_indices().find(|(_, c)| is_control(c)) {
+        let cause = format!("control character {} in the text", quoted(&control.to_string()));
+        return (start + offset, Problem::new(name, cause, "remove it"));
+    }
+    let message = error.message();
+    if message == "duplicate key" {
+        return (at, twice(above, text, source.get(span).unwrap_or_default()));
+    }
+    if let (Some(field), Some((_, value))) = (field, named)
+        && let Some(problem) = mistaken(field, value)
+    {
+        let offset = value.as_ptr() as usize - text.as_ptr() as usize;
+        return (start + offset, problem);
+    }
+    if let (None, Some((key, _))) = (field, text.split_once(':'))
+        && let Some(field) = field_of(above, key.trim())
+    {
+        let problem = Problem::new(field.key, "`:` instead of `=`", written(field));
+        return (start + key.len(), problem);
+    }
+    let cause = message.split(", expected").next().unwrap_or(message);
+    let known = FIXES.iter().find(|(part, _)| message.contains(part));
+    (at, Problem::new(name, cause, known.map_or("write valid TOML", |(_, fix)| *fix)))
+}
+
+/// The key and the value of a line without its comment.
+fn key_and_value(line: &str) -> Option<(&str, &str)> {
+    let (key, value) = line.split_once('=')?;
+    let comment = value.find(" #").unwrap_or(value.len());
+    Some((key.trim(), value[..comment].trim()))
+}
+
+/// The field of a key below these lines.
+fn field_of(above: &str, key: &str) -> Option<&'static Field> {
+    let header = above.lines().rev().find_map(|line| line.trim().strip_prefix('['));
+    let table = header.map_or("", |rest| rest.split(']').next().unwrap_or_default().trim());
+    let table = match table.strip_prefix("variants.") {
+        Some(variant) => variant.split_once('.').map_or("", |(_, table)| table),
+        None => table,
+    };
+    let key = key.trim_matches('"');
+    let path = if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") };
+    index_of(&path).map(|index| &FIELDS[index])
+}
+
+/// The most likely mistake in a field's value: missing quotes, a missing point, or a missing value.
+fn mistaken(field: &Field, value: &str) -> Option<Problem> {
+    let problem = |cause: String, fix: String| Some(Problem::new(field.key, cause, fix));
+    if value.is_empty() {
+        return problem("no value after `=`".to_owned(), written(field));
+    }
+    if value.contains(['"', '\'', '[', '{']) {
+        return None;
+    }
+    let index = index_of(field.key)?;
+    match (check::field_value(index, value), units::parse(value, Dimension::Number, "")) {
+        _ if field.is_flag() => problem(
+            format!("{} is neither true nor false", quoted(value)),
+            "write true or false".to_owned(),
+        ),
+        (Ok(_), Ok(number)) if field.is_bare() && value != AUTO => problem(
+            format!("{} is not how TOML writes a number", quoted(value)),
+            format!("write {}", units::text(number, "")),
+        ),
+        (Err(problem), _) if !field.is_choice() => Some(problem),
+        _ if value.starts_with(|c: char| c.is_ascii_digit()) && field.is_choice() => None,
+        _ => problem(
+            format!("{} is not in quotes", quoted(value)),
+            format!("write \"{}\"", cut(value)),
+        ),
+    }
+}
+
+/// Fixes of TOML errors, by a part of the error message.
+const FIXES: [(&str, &str); 10] = [
+    ("overflowed", "write a smaller number"),
+    ("unclosed", "close it with its bracket ], or } for an inline table"),
+    ("recurs", "a case has no nested arrays"),
+    ("key with no value", "write key = value, or # in front of a comment"),
+    ("invalid unquoted key", "a key has only letters, digits, - and _"),
+    ("string values must be quoted", "put the value between quotes"),
+    ("escape", "write \\\\ for a backslash, or put the text between single quotes"),
+    ("basic string", "close the string with the quotes of its beginning"),
+    ("literal string", "close the string with the quotes of its beginning"),
+    ("unexpected key or value", "only a # comment may follow a value on its line"),
+];
+
+/// A key or table that occurs twice.
+fn twice(above: &str, line: &str, name: &str) -> Problem {
+    if line.trim_start().starts_with('[') {
+        let cause = format!("the table {} appears twice", quoted(name));
+        return Problem::new(name, cause, "put its keys under one header");
+    }
+    let field = field_of(above, name).map_or(name, |field| field.key);
+    let cause = format!("the key {} appears twice", quoted(name));
+    Problem::new(field, cause, "keep one of the two")
 }

@@ -1,14 +1,440 @@
-//! The target file of a save: resolves links, checks the folder, and replaces the file in one step.
+//! Writes a case as a new commented text or as changed values in the original text, where every line
+//! without a change keeps its bytes, and replaces files in one step.
 
+use std::fmt::Write as _;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
+use std::iter;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use tempfile::{Builder, NamedTempFile, PersistError};
 
-use super::fault::{SaveError, shown};
+use super::{Entry, FORMAT, Layout, Place, SaveError, Value, line_start, shown};
+use crate::case::changes::texts;
+use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS, Kind, index_of};
+use crate::case::sanitize::{is_hidden, sanitize};
+use crate::case::units::{self, Dimension};
+use crate::case::{ABOUT, Case, check, spread, variant};
 use crate::system::files;
+
+/// A value of a case as written in a file.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Written {
+    /// The keys of its table.
+    table: Vec<String>,
+    /// The key in TOML.
+    name: String,
+    /// The value in TOML.
+    value: String,
+}
+
+impl Written {
+    fn of(key: &str, text: &str) -> Written {
+        let variant = key.strip_prefix(variant::PREFIX).and_then(|path| path.split_once('.'));
+        let own = variant.map_or(key, |(_, own)| own);
+        let field = index_of(own).map(|field| &FIELDS[field]);
+        let (table, name) = match (variant, own.split_once('.')) {
+            (None, Some(("about", name))) => (vec!["about"], key_of(name)),
+            (None, Some((table, name))) => (vec![table], name.to_owned()),
+            (None, None) => (Vec::new(), own.to_owned()),
+            (Some((variant, _)), None) => (vec!["variants", variant], own.to_owned()),
+            (Some((variant, _)), Some(_)) => {
+                (vec!["variants", variant], format!("\"{}\"", own.replace('"', "")))
+            }
+        };
+        let value = match (field, text.split_once(' ')) {
+            _ if text.is_empty() => string(""),
+            _ if own.starts_with(ABOUT) => string(text),
+            (Some(field), _) => value(field, text),
+            (None, Some((shape, width))) if own.starts_with(spread::PREFIX) => {
+                distribution(shape, width)
+            }
+            _ => number(text),
+        };
+        Written { table: table.into_iter().map(str::to_owned).collect(), name, value }
+    }
+
+    /// The key with its table, as [`Entry::key`].
+    fn key(&self) -> String {
+        let names = self.table.iter().map(String::as_str);
+        let names: Vec<_> = names.chain([self.name.trim_matches('"')]).collect();
+        names.join(".")
+    }
+
+    fn line(&self) -> String {
+        format!("{} = {}", self.name, self.value)
+    }
+}
+
+/// All values of a case, in the order of a new file.
+fn written(case: &Case) -> Vec<Written> {
+    // A form can hold an empty limit.
+    let texts = texts(case).into_iter();
+    let given = texts.filter(|(key, text)| !text.is_empty() || key.starts_with(variant::PREFIX));
+    given.map(|(key, text)| Written::of(&key, &text)).collect()
+}
+
+fn distribution(shape: &str, width: &str) -> String {
+    format!("{{ {shape} = {} }}", number(width))
+}
+
+/// Whether two cases have the same values, in any order.
+pub(super) fn are_same(one: &Case, other: &Case) -> bool {
+    let sorted = |case: &Case| {
+        let mut all = written(case);
+        all.sort();
+        all
+    };
+    sorted(one) == sorted(other)
+}
+
+/// A commented case, valid if the case is valid. `comments` are additional comments by key.
+pub(super) fn template(case: &Case, comments: &[(&str, String)]) -> String {
+    let values = written(case);
+    let of_table = |table: &[&str]| -> Vec<String> {
+        let own = values.iter().filter(|own| own.table == table);
+        own.map(Written::line).collect()
+    };
+    let mut text = format!(
+        "# A gear pair for tipstrike.\n# A value with a dimension is a string with its unit; any \
+            unit of the dimension is valid.\nformat = {FORMAT}\n"
+    );
+    for (table, title) in GROUPS {
+        if !table.is_empty() {
+            let _ = write!(text, "\n# {title}\n[{table}]\n");
+        }
+        for (index, field) in FIELDS.iter().enumerate().filter(|(_, field)| field.table() == table)
+        {
+            let own = values.iter().find(|own| own.key() == field.key);
+            let _ = writeln!(text, "# {}", description(field));
+            for (_, comment) in comments.iter().filter(|(key, _)| *key == field.key) {
+                let _ = writeln!(text, "# {}", sanitize(comment));
+            }
+            let line = own.map_or_else(|| unwritten(case, index), Written::line);
+            let _ = writeln!(text, "{line}");
+        }
+    }
+    for (table, help, example) in [
+        (
+            "limits",
+            "Greatest allowed value of any quantity of the results.",
+            "impact_force = \"2500 N\"",
+        ),
+        (
+            "spread",
+            "Distribution of a field around its value, for tolerance.",
+            "\"deviations.base_pitch\" = { normal = \"4 um\" }",
+        ),
+    ] {
+        let lines = of_table(&[table]);
+        let lines = if lines.is_empty() { format!("# {example}") } else { lines.join("\n") };
+        let _ = writeln!(text, "\n# {help}\n[{table}]\n{lines}");
+    }
+    let about = of_table(&["about"]);
+    if !about.is_empty() {
+        let lines = about.join("\n");
+        let _ = writeln!(text, "\n# Texts for the page of a report.\n[about]\n{lines}");
+    }
+    text.push_str("\n# Overrides of the case, for compare, --variant and the workbench.\n");
+    if case.variants.is_empty() {
+        text.push_str("# [variants.relieved]\n# \"driven.tip_relief\" = \"48 um\"\n");
+    }
+    let variants = case.variants.iter().map(|variant| {
+        let lines = of_table(&["variants", &variant.name]);
+        let head = format!("[variants.{}]", key_of(&variant.name));
+        iter::once(head).chain(lines).collect::<Vec<_>>().join("\n") + "\n"
+    });
+    text + &variants.collect::<Vec<_>>().join("\n")
+}
+
+/// Symbol, help and range of a field.
+fn description(field: &Field) -> String {
+    let symbol =
+        if field.symbol.is_empty() { String::new() } else { format!("{}: ", field.symbol) };
+    let range = field.range_text();
+    let range = if range.is_empty() { range } else { format!(" [{range}]") };
+    let absent = match field.absent {
+        Absent::Without(words) => format!(" Left out: {words}."),
+        _ => String::new(),
+    };
+    format!("{symbol}{}{range}{absent}", field.help)
+}
+
+/// A name as a key, with quotes if TOML needs them.
+pub(super) fn key_of(name: &str) -> String {
+    let is_bare = |byte: u8| byte.is_ascii_alphanumeric() || b"-_".contains(&byte);
+    if name.bytes().all(is_bare) { name.to_owned() } else { string(name) }
+}
+
+/// A field without a value: an empty text if required, otherwise an example as a comment.
+fn unwritten(case: &Case, index: usize) -> String {
+    let field = &FIELDS[index];
+    let (name, assignment) = (field.name(), check::assignment(field));
+    let example = assignment.split_once(" = ").map_or("", |(_, value)| value);
+    let other = field.partner();
+    if !case.lacks(index) || other.is_some_and(|other| other < index) {
+        return format!("# {assignment}");
+    }
+    let unless = other
+        .map_or_else(String::new, |other| format!(" unless {} is given", FIELDS[other].name()));
+    format!("{name} = \"\"  # required{unless}, such as {example}")
+}
+
+/// The text of a field as a TOML value.
+fn value(field: &Field, text: &str) -> String {
+    if field.is_flag() && FLAG.contains(&text) {
+        text.to_owned()
+    } else if matches!(field.kind, Kind::List(_)) && check::list(text).is_some() {
+        format!("[{}]", text.trim())
+    } else if field.is_bare() {
+        number(text)
+    } else {
+        string(text)
+    }
+}
+
+/// A bare number if the text is a number, otherwise the text in quotes.
+fn number(text: &str) -> String {
+    let bare = text.trim();
+    if is_toml_number(bare) {
+        return bare.to_owned();
+    }
+    match units::parse(bare, Dimension::Number, "") {
+        Ok(value) => units::text(value, ""),
+        Err(_) => string(text),
+    }
+}
+
+fn is_toml_number(text: &str) -> bool {
+    let is_plain = text.bytes().all(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte));
+    let value = text.parse::<toml_edit::Value>();
+    is_plain && value.is_ok_and(|value| value.is_integer() || value.is_float())
+}
+
+/// A TOML string on one line without hidden characters: a line end in a string would look like a
+/// line end of the file, and a control character would reach the terminal.
+fn string(text: &str) -> String {
+    if !text.contains(is_hidden) {
+        return toml_edit::Value::from(text).to_string();
+    }
+    let mut quoted = String::new();
+    for c in serde_json::Value::from(text).to_string().chars() {
+        if is_hidden(c) {
+            let _ = write!(quoted, "\\U{:08x}", u32::from(c));
+        } else {
+            quoted.push(c);
+        }
+    }
+    quoted
+}
+
+/// The text of the case `before` with the values of the case `after`.
+pub(super) fn render(text: &str, before: &Case, after: &Case) -> String {
+    let mut text = text.to_owned();
+    for variant in &before.variants {
+        if after.variant(&variant.name).is_err() {
+            remove(&mut text, |entry| entry.path.iter().take(2).eq(["variants", &variant.name]));
+        }
+    }
+    let (before, after) = (written(before), written(after));
+    for old in &before {
+        if !after.iter().any(|new| new.key() == old.key()) {
+            remove(&mut text, |entry| is_of(entry, &old.key()));
+        }
+    }
+    for new in after.iter().filter(|new| !before.contains(new)) {
+        put(&mut text, new);
+    }
+    text
+}
+
+fn layout(text: &str) -> Layout {
+    Layout::of(text).unwrap_or_default()
+}
+
+/// Whether an entry is a key or a member of its distribution.
+fn is_of(entry: &Entry, key: &str) -> bool {
+    entry.key() == key || entry.table().join(".") == key
+}
+
+/// Replaces the value at its place, or inserts it.
+fn put(text: &mut String, new: &Written) {
+    let (layout, key) = (layout(text), new.key());
+    let member = layout.values().find(|entry| entry.table().join(".") == key);
+    let distribution = new.value.strip_prefix("{ ");
+    let distribution = distribution.and_then(|inner| inner.strip_suffix(" }")?.split_once(" = "));
+    match (member, distribution, layout.value(&key)) {
+        (Some(member), Some((shape, width)), _) => {
+            text.replace_range(member.span.clone(), width);
+            if member.path.last().is_none_or(|name| name != shape) {
+                text.replace_range(member.name.clone(), shape);
+            }
+        }
+        (_, _, Some(own)) => text.replace_range(own.span.clone(), &new.value),
+        (Some(_), None, None) => {
+            remove(text, |entry| is_of(entry, &key));
+            put(text, new);
+        }
+        (None, _, None) => insert(text, &layout, new),
+    }
+}
+
+/// Removes entries, then their headers. A comment on another line stays.
+fn remove(text: &mut String, is_removed: impl Fn(&Entry) -> bool) {
+    let is_header = |entry: &Entry| entry.place == Place::Header;
+    let next = |text: &str| {
+        let own = layout(text).entries.into_iter().filter(|entry| is_removed(entry));
+        own.min_by_key(is_header)
+    };
+    while let Some(entry) = next(text) {
+        take_out(text, &entry);
+    }
+}
+
+/// Removes an entry with the comment after it, and the blank line above a header.
+fn take_out(text: &mut String, entry: &Entry) {
+    let mut cut = entry.start..entry.span.end;
+    let Place::Inline { before, after } = entry.place else {
+        cut = line(text, cut);
+        if entry.place == Place::Header {
+            let above = text[..cut.start].trim_end_matches([' ', '\t', '\r', '\n']);
+            let blank = text[above.len()..cut.start].match_indices('\n').nth(1);
+            cut.start = blank.map_or(cut.start, |_| line_start(text, cut.start - 1));
+        }
+        return text.replace_range(cut, "");
+    };
+    let is_blank = |range: Range<usize>| text[range].bytes().all(|byte| b" \t".contains(&byte));
+    let mut spaces = [' ', '\t'].as_slice();
+    match (after, before) {
+        (Some(comma), _) if is_blank(cut.end..comma) => cut.end = comma + 1,
+        (None, Some(comma)) if is_blank(comma + 1..cut.start) => {
+            cut.start = comma;
+            spaces = &[];
+        }
+        (Some(comma), _) => {
+            text.remove(comma);
+        }
+        (None, _) => {}
+    }
+    let lines = line(text, cut.clone());
+    let rest = &text[cut.end..];
+    if text[lines.start..cut.start].trim().is_empty() && ends_line(rest) {
+        cut = lines;
+    } else {
+        cut.end += rest.len() - rest.trim_start_matches(spaces).len();
+    }
+    text.replace_range(cut, "");
+}
+
+/// The line of the table that has the example of a field of the case as a comment, as in a new file.
+fn example_of(text: &str, layout: &Layout, new: &Written) -> Option<Range<usize>> {
+    let comment = format!("# {}", check::assignment(&FIELDS[index_of(&new.key())?]));
+    let header = layout.headers().find(|header| header.path == new.table)?.span.end;
+    let next = layout.headers().map(|header| header.start).find(|&start| start > header);
+    let lines = text[header..next.unwrap_or(text.len())].split_inclusive('\n');
+    let starts =
+        lines.scan(header, |at, line| Some((std::mem::replace(at, *at + line.len()), line)));
+    let is_inside =
+        |at: usize| layout.values().any(|own| (own.span.start..own.span.end).contains(&at));
+    let found = starts.into_iter().find(|(at, line)| line.trim_end() == comment && !is_inside(*at));
+    found.map(|(at, _)| at..at + comment.len())
+}
+
+/// Inserts an entry after the last entry of its table. A new table is at the end of the text.
+fn insert(text: &mut String, layout: &Layout, new: &Written) {
+    let table = new.table.as_slice();
+    if let Some(example) = example_of(text, layout, new) {
+        return text.replace_range(example, &new.line());
+    }
+    let shared = |path: &[String]| path.iter().zip(table).take_while(|(a, b)| a == b).count();
+    // The number of shared keys, and whether the place is after an entry, not in an empty table. At
+    // the top level, other entries can be of other tables.
+    let places = layout.entries.iter().flat_map(|entry| {
+        let (known, is_header) = (shared(entry.table()), entry.place == Place::Header);
+        let is_after = !is_header && known >= entry.given;
+        let is_neighbour = known > 0 || entry.table().is_empty();
+        let is_in = (is_header || entry.value == Value::Table) && table.starts_with(&entry.path);
+        let inside = is_in.then_some(((entry.path.len(), false, false), entry));
+        inside.into_iter().chain(is_after.then_some(((known, true, is_neighbour), entry)))
+    });
+    let best = places.max_by_key(|(rank, _)| *rank);
+    let Some(((known, is_after, _), entry)) = best else { return append(text, layout, new) };
+    let above = if is_after && entry.table() == table {
+        text[entry.start..entry.name.start].to_owned()
+    } else {
+        let given = if is_after { entry.given } else { known };
+        table[given..].iter().map(|name| key_of(name) + ".").collect()
+    };
+    let added = format!("{above}{} = {}", new.name, new.value);
+    let start = line_start(text, entry.start);
+    let indent = text[start..entry.start].to_owned();
+    match entry.place {
+        Place::Inline { after, .. } if is_after => {
+            let comma = after.filter(|_| indent.trim().is_empty());
+            match comma.filter(|comma| ends_line(&text[comma + 1..])) {
+                Some(comma) => insert_line(text, comma, &format!("{indent}{added},")),
+                None => text.insert_str(entry.span.end, &format!(", {added}")),
+            }
+        }
+        Place::Line | Place::Inline { .. } if !is_after => {
+            let at = entry.span.start + 1;
+            let gap = if text[at..].starts_with('}') { " " } else { "" };
+            text.insert_str(at, &format!(" {added}{gap}"));
+        }
+        Place::Line if known == table.len() => {
+            insert_line(text, entry.span.end, &format!("{indent}{added}"));
+        }
+        Place::Header if known == table.len() => insert_line(text, entry.span.end, &added),
+        _ => append(text, layout, new),
+    }
+}
+
+/// Appends a table with an entry.
+fn append(text: &mut String, layout: &Layout, new: &Written) {
+    let (table, end) = (&new.table, line_end(text));
+    let names: Vec<String> = table.iter().map(|name| key_of(name)).collect();
+    let added = format!("[{}]{end}{}{end}", names.join("."), new.line());
+    let inner = layout.headers().find(|header| header.path.starts_with(table));
+    match inner.filter(|_| table.len() > 1) {
+        // Above the other tables of a variant, so that the variants keep their order.
+        Some(inner) => text.insert_str(line_start(text, inner.start), &format!("{added}{end}")),
+        None if text.ends_with('\n') => text.extend([end, &*added]),
+        None => text.extend([end, end, &*added]),
+    }
+}
+
+/// Inserts a line below the line of `at`, with the same line end.
+fn insert_line(text: &mut String, at: usize, added: &str) {
+    let below = line(text, at..at).end;
+    let (above, end) = match text[..below].strip_suffix('\n') {
+        Some(above) if above.ends_with('\r') => ("", "\r\n"),
+        Some(_) => ("", "\n"),
+        None => (line_end(text), line_end(text)),
+    };
+    text.insert_str(below, &format!("{above}{added}{end}"));
+}
+
+/// The lines of a range, with their last line end.
+fn line(text: &str, range: Range<usize>) -> Range<usize> {
+    let end = text[range.end..].find('\n');
+    line_start(text, range.start)..end.map_or(text.len(), |length| range.end + length + 1)
+}
+
+/// Whether only spaces and a comment are before the line end.
+fn ends_line(rest: &str) -> bool {
+    let rest = rest.trim_start_matches([' ', '\t']);
+    rest.starts_with(['#', '\r', '\n'])
+}
+
+/// The first line end of the text.
+fn line_end(text: &str) -> &'static str {
+    match text.find('\n') {
+        Some(at) if text[..at].ends_with('\r') => "\r\n",
+        _ => "\n",
+    }
+}
 
 /// Greatest number of symbolic links in a path.
 const MOST_LINKS: usize = 40;
@@ -121,19 +547,7 @@ fn no_folder(path: &Path, last: &Path, error: io::Error) -> SaveError {
     let nearest = folder.ancestors().find(|place| place.exists());
     match nearest.filter(|place| !place.is_dir()) {
         Some(file) => SaveError::NotAFolder(name, shown(file)),
-        None => SaveError::NoFolder(name, shown(folder), for_a_shell(folder)),
-    }
-}
-
-/// The path quoted as one word of a shell command.
-fn for_a_shell(path: &Path) -> String {
-    let name = shown(path);
-    let is_plain = |c: char| c.is_alphanumeric() || "/._+-,=@%".contains(c);
-    if name.chars().all(is_plain) && !name.starts_with('-') {
-        name
-    } else {
-        let dashed = if name.starts_with('-') { "./" } else { "" };
-        format!("'{dashed}{}'", name.replace('\'', "'\\''"))
+        None => SaveError::NoFolder(name, shown(folder)),
     }
 }
 

@@ -1,11 +1,10 @@
 //! The table of attributes that give the fields of a case, and the driver with its speed and load.
 
-use super::model::{Index, Node};
+use super::{Index, Node};
 use crate::case::fields::{FIELDS, index_of};
-use crate::case::sanitize::{cut, quoted};
+use crate::case::sanitize::quoted;
 use crate::case::units::{self, Dimension};
 use crate::numeric::decimal::rounded;
-use Place::{EitherGear, Flanks, Gear, Linked, Relief, Stage};
 
 /// A value for a field, as written in the case file.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,25 +35,11 @@ impl From<String> for Unread {
 
 type Read<T = Reading> = Result<Option<T>, Unread>;
 
-/// Where an attribute is.
-#[derive(Clone, Copy, PartialEq)]
-enum Place {
-    Stage,
-    Gear,
-    /// The gear with the greater value.
-    EitherGear,
-    /// Both flanks of the gear, which must agree, or the gear itself.
-    Flanks,
-    /// The first component of this type that is linked to the gear.
-    Linked(&'static str),
-    /// The only relief of this type on each flank; a relief of the gear applies to both flanks.
-    Relief(&'static str),
-}
-
-/// An attribute that gives a value.
+/// An attribute that gives a value: of the stage, of the gear, of its flanks, or of the material, the
+/// tools and the modifications of one of them.
 #[derive(Clone, Copy)]
 struct Source {
-    place: Place,
+    /// The name, after the type of its component where the name repeats.
     attribute: &'static str,
     /// The unit in a case, and that of an attribute without a unit.
     unit: &'static str,
@@ -62,10 +47,10 @@ struct Source {
     convert: Option<Convert>,
 }
 
-type Convert = fn(&Pair, usize, &Reading) -> Option<Reading>;
+type Convert = fn(&Pair, usize, Reading) -> Read;
 
-const fn from(place: Place, attribute: &'static str, unit: &'static str) -> Source {
-    Source { place, attribute, unit, convert: None }
+const fn from(attribute: &'static str, unit: &'static str) -> Source {
+    Source { attribute, unit, convert: None }
 }
 
 impl Source {
@@ -82,28 +67,57 @@ struct Row {
     need: Need,
 }
 
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 enum Need {
     Usual,
     /// A stage with unequal values is refused.
     Equal,
-    /// Only a relief has the value.
-    Relief,
+    /// Like `Equal`; a spur stage has no value.
+    Helix,
+    /// Only some gears have the value.
+    Optional,
+    /// Only gears with a value in a field of this beginning have the value.
+    After(&'static str),
 }
-use Need::{Equal, Usual};
+use Need::{After, Equal, Helix, Optional, Usual};
 
 const fn row(field: &'static str, need: Need, sources: &'static [Source]) -> Row {
     Row { field, sources, need }
 }
 
-const TEETH: Source = from(Gear, "number_of_teeth", "");
-const MODULE: Source = from(Gear, "normal_module", "mm");
-const ANGLE: Source = from(Flanks, "normal_pressure_angle", "deg");
-const TIP: Source = from(Gear, "tip_diameter", "mm");
-const MATERIAL: Place = Linked("material");
-const RACK: Place = Linked("rack_shaped_tool");
-const TIP_RELIEF: Place = Relief("tip_relief");
-const ROOT_RELIEF: Place = Relief("root_relief");
+/// Components that describe a gear or a flank.
+const PARTS: [&str; 8] = [
+    "material",
+    "rack_shaped_tool",
+    "tip_relief",
+    "root_relief",
+    "helix_slope",
+    "helix_crowning",
+    "end_relief_datum_face",
+    "end_relief_non_datum_face",
+];
+/// Modifications and deviations without a field.
+const UNUSED: [&str; 6] = [
+    "profile_crowning",
+    "profile_deviation",
+    "helix_deviation",
+    "topographical_modification",
+    "triangular_tip_relief",
+    "triangular_root_relief",
+];
+
+const TEETH: Source = from("number_of_teeth", "");
+const MODULE: Source = from("normal_module", "mm");
+const ANGLE: Source = from("normal_pressure_angle", "deg");
+const TIP: Source = from("tip_diameter", "mm");
+const HELIX: [Source; 3] = [
+    from("helix_angle_reference_diameter", "deg").by(magnitude),
+    from("helix_angle_base_diameter", "deg").by(at_reference_diameter),
+    from("helix_angle_base_circle", "deg").by(at_reference_diameter),
+];
+const OTHER_CROWNING: Source = from("helix_crowning_amount_non_datum_face", "mm");
+const OTHER_LENGTH: Source = from("end_relief_length_non_datum_face", "mm");
+const BASE_PITCH: Source = from("base_pitch_deviation_din_3962_1978", "um");
 /// The unit of a text.
 const TEXT: &str = "text";
 
@@ -111,50 +125,63 @@ const TEXT: &str = "text";
 const ROWS: &[Row] = &[
     row("pair.module", Equal, &[MODULE]),
     row("pair.pressure_angle", Equal, &[ANGLE]),
-    row("pair.centre_distance", Usual, &[from(Stage, "center_distance", "mm")]),
+    row("pair.helix_angle", Helix, &HELIX),
+    row("pair.driver_hand", Helix, &[HELIX[0].by(hand), HELIX[1].by(hand), HELIX[2].by(hand)]),
+    row("pair.centre_distance", Usual, &[from("center_distance", "mm")]),
     row("teeth", Usual, &[TEETH]),
     row("profile_shift", Equal, &[
-        from(Flanks, "addendum_modification_coefficient", ""),
-        from(Flanks, "addendum_modification", "mm").by(coefficient),
-        from(Flanks, "addendum_modification_coefficient_after_finishing", ""),
+        from("addendum_modification_coefficient", ""),
+        from("addendum_modification", "mm").by(coefficient),
+        from("addendum_modification_coefficient_after_finishing", ""),
     ]),
-    row("face_width", Usual, &[from(Gear, "face_width", "mm")]),
-    row("bore_diameter", Usual, &[from(Gear, "inner_diameter", "mm")]),
-    row("young", Usual, &[from(MATERIAL, "elastic_modulus", "MPa")]),
-    row("poisson", Usual, &[from(MATERIAL, "poisson_ratio", "")]),
-    row("density", Usual, &[from(MATERIAL, "density", "kg/dm3")]),
-    row("tip_chamfer", Usual, &[from(Flanks, "tooth_tip_chamfer", "mm")]),
+    row("face_width", Usual, &[from("face_width", "mm")]),
+    row("bore_diameter", Usual, &[from("inner_diameter", "mm")]),
+    row("young", Usual, &[from("elastic_modulus", "MPa")]),
+    row("poisson", Usual, &[from("poisson_ratio", "")]),
+    row("density", Usual, &[from("density", "kg/dm3")]),
+    row("tip_chamfer", Usual, &[from("tooth_tip_chamfer", "mm")]),
     row("tip_diameter", Usual, &[TIP]),
-    row("addendum", Usual, &[from(Flanks, "addendum_coefficient_basic_profile", "")]),
-    row("root_diameter", Usual, &[from(Gear, "root_diameter", "mm")]),
+    row("addendum", Usual, &[from("addendum_coefficient_basic_profile", "")]),
+    row("root_diameter", Usual, &[from("root_diameter", "mm")]),
     // The addendum of the rack cuts the dedendum of the gear.
-    row("dedendum", Usual, &[from(RACK, "addendum_coefficient_reference_profile", "")]),
-    row("tip_relief", Usual, &[from(TIP_RELIEF, "tip_relief_depth", "mm")]),
-    row("tip_relief_length", Need::Relief, &[
-        from(TIP_RELIEF, "tip_relief_datum_length", "mm"),
-        from(TIP_RELIEF, "tip_relief_datum_diameter", "mm").by(length_from_diameter),
+    row("dedendum", Usual, &[from("addendum_coefficient_reference_profile", "")]),
+    row("tip_relief", Usual, &[from("tip_relief_depth", "mm")]),
+    row("tip_relief_length", After("tip_relief"), &[
+        from("tip_relief_datum_length", "mm"),
+        from("tip_relief_datum_diameter", "mm").by(length_from_diameter),
     ]),
-    row("root_relief", Usual, &[from(ROOT_RELIEF, "root_relief_depth", "mm")]),
-    row("root_relief_length", Need::Relief, &[
-        from(ROOT_RELIEF, "root_relief_datum_length", "mm"),
+    row("root_relief", Usual, &[from("root_relief_depth", "mm")]),
+    row("root_relief_length", After("root_relief"), &[from("root_relief_datum_length", "mm")]),
+    row("model.relief_shape", Optional, &[
+        from("tip_relief.shape_of_relief", TEXT),
+        from("root_relief.shape_of_relief", TEXT),
     ]),
-    row("model.relief_shape", Need::Relief, &[
-        from(TIP_RELIEF, "shape_of_relief", TEXT),
-        from(ROOT_RELIEF, "shape_of_relief", TEXT),
+    row("helix_slope", Optional, &[from("helix_slope", "mm")]),
+    row("crowning", Optional, &[
+        from("helix_crowning_amount_datum_face", "mm")
+            .by(|pair, gear, own| agreed(Some(own), pair.read(gear, OTHER_CROWNING)?)),
+        OTHER_CROWNING,
+    ]),
+    row("end_relief_minus", Optional, &[from("end_relief_depth_datum_face", "mm")]),
+    row("end_relief_plus", Optional, &[from("end_relief_depth_non_datum_face", "mm")]),
+    row("end_relief_length", After("end_relief"), &[
+        from("end_relief_length_datum_face", "mm")
+            .by(|pair, gear, own| agreed(Some(own), pair.read(gear, OTHER_LENGTH)?)),
+        OTHER_LENGTH,
     ]),
     row("deviations.base_pitch", Usual, &[
-        from(Stage, "transverse_base_pitch_deviation_iso_6336_2019", "um"),
-        from(Stage, "transverse_base_pitch_deviation_iso_6336_2006", "um"),
-        from(EitherGear, "base_pitch_deviation_din_3962_1978", "um"),
+        from("transverse_base_pitch_deviation_iso_6336_2019", "um"),
+        from("transverse_base_pitch_deviation_iso_6336_2006", "um"),
+        BASE_PITCH.by(greater),
     ]),
 ];
 
 const BACKLASHES: [Source; 2] =
-    [from(Stage, "minimum_normal_backlash", "mm"), from(Stage, "maximum_normal_backlash", "mm")];
-const SPEED: Source = from(Gear, "rotational_speed", "rpm");
-const TORQUE_OF_GEAR: Source = from(Gear, "torque", "N m");
-const TORQUE_OF_LOAD: Source = from(Gear, "torque_around_u_axis", "N m");
-const POWER_OF_LOAD: Source = from(Gear, "power", "kW");
+    [from("minimum_normal_backlash", "mm"), from("maximum_normal_backlash", "mm")];
+const SPEED: Source = from("rotational_speed", "rpm");
+const TORQUE_OF_GEAR: Source = from("torque", "N m");
+const TORQUE_OF_LOAD: Source = from("torque_around_u_axis", "N m");
+const POWER_OF_LOAD: Source = from("power", "kW");
 const TORQUE: &str = "operation.torque";
 const POWER: &str = "operation.power";
 
@@ -170,52 +197,65 @@ pub(super) struct Values {
 
 impl Values {
     pub(super) fn read(&mut self, pair: &Pair) {
-        let pair = &pair.ordered(&mut self.remarks);
+        let mut pair = pair.ordered(&mut self.remarks);
+        let speed = pair.speed();
+        pair.is_negative = matches!(&speed, Ok(Some(speed)) if speed.value < 0.0);
+        let pair = &pair;
         for row in ROWS {
             if row.field.contains('.') {
                 self.row(row, row.field, &[0, 1], pair);
-            } else {
-                self.row(row, &format!("driver.{}", row.field), &[0], pair);
-                self.row(row, &format!("driven.{}", row.field), &[1], pair);
+                continue;
+            }
+            for (gear, table) in ["driver", "driven"].into_iter().enumerate() {
+                let name = pair.named_by_side(gear, row.field);
+                self.row(row, &format!("{table}.{name}"), &[gear], pair);
             }
         }
         let [least, greatest] = BACKLASHES.map(|source| pair.read(0, source));
         let backlash = least.and_then(|least| agreed(least, greatest?));
         self.put("deviations.backlash", backlash, "the model gives no normal backlash");
-        let missing = "neither gear nor its shaft has a rotational_speed";
-        self.put("operation.speed", pair.speed(), missing);
+        if let Some(offset) = pair.offset() {
+            self.fields.push(("pair.face_offset", Ok(offset)));
+        }
+        let missing = "neither gear nor a connected shaft has a rotational_speed";
+        self.put("operation.speed", speed, missing);
         let (key, load) = match pair.load() {
             Ok(Some((key, load))) => (key, Ok(Some(load))),
             Ok(None) => (TORQUE, Ok(None)),
             Err(unread) => (TORQUE, Err(unread)),
         };
-        self.put(key, load, "no load is given on a shaft that carries this gear alone");
+        self.put(key, load, "no load is given on a shaft at the end of the gear train");
         self.fields.sort_by_key(|(key, _)| index_of(key));
+        if let Some(planetary) = pair.planetary() {
+            self.remarks.push(planetary.remark);
+        }
+        let unused: Vec<String> = pair.unused().iter().map(|part| part.label()).collect();
+        if !unused.is_empty() {
+            self.remarks.push(format!("left out: {}", unused.join(", ")));
+        }
     }
 
     /// Writes the field of a row of these gears, unless its alternative has a value.
     fn row(&mut self, row: &Row, key: &str, gears: &[usize], pair: &Pair) {
         let Some(field) = index_of(key).map(|field| &FIELDS[field]) else { return };
         let is_other = |(key, read): &Found| field.alternative == Some(*key) && read.is_ok();
-        let has_part = |source: &Source| {
-            gears.iter().any(|&gear| !pair.parts(gear, source.place).concat().is_empty())
-        };
-        let is_needed = row.need != Need::Relief || row.sources.iter().any(has_part);
-        if !is_needed || self.fields.iter().any(is_other) {
+        if self.fields.iter().any(is_other) {
             return;
         }
-        let read = |source: &Source| match gears {
-            [gear] => pair.read(*gear, *source),
-            _ => pair.shared(*source),
-        };
-        let mut found = row.sources.iter().map(read);
-        match found.find(|read| !matches!(read, Ok(None))).unwrap_or(Ok(None)) {
-            Err(unread) if row.need == Equal && unread.is_unequal => {
-                self.refusals.push(unread.words);
+        let is_silent = match row.need {
+            Usual | Equal => false,
+            Helix | Optional => true,
+            After(part) => {
+                let start = format!("{}.{part}", field.table());
+                !self.fields.iter().any(|(other, read)| other.starts_with(&start) && read.is_ok())
             }
-            found => {
-                let mut names: Vec<_> = row.sources.iter().map(|source| source.attribute).collect();
-                names.dedup();
+        };
+        match (pair.find(gears, row.sources), row.need) {
+            (Err(unread), Equal) if unread.is_unequal => self.refusals.push(unread.words),
+            (Err(unread), Helix) => self.refusals.push(unread.words),
+            (Ok(None), _) if is_silent => {}
+            (found, _) => {
+                let names: Vec<_> = row.sources.iter().map(|source| source.attribute).collect();
                 if matches!(found, Ok(Some(_))) {
                     self.fields.retain(|(other, _)| field.alternative != Some(*other));
                 }
@@ -231,78 +271,93 @@ impl Values {
     }
 }
 
-/// A spur stage with its gears; after [`Pair::ordered`] the driver is first.
+/// A stage of two external cylindrical gears; after [`Pair::ordered`] the driver is first.
 #[derive(Debug, Clone)]
 pub(super) struct Pair<'m> {
     index: &'m Index<'m>,
     stage: &'m Node,
     gears: [&'m Node; 2],
+    /// The planetary stage of the mesh.
+    planetary: Option<&'m Node>,
+    /// Whether the driver turns negatively about its axis, so that z of the case is opposite to it.
+    is_negative: bool,
 }
 
-const HELIX: [&str; 3] =
-    ["helix_angle_reference_diameter", "helix_angle_base_diameter", "helix_angle_base_circle"];
+/// A mesh of the sun gear of a planetary stage.
+struct Planetary {
+    /// The part of the load that one planet transmits.
+    share: f64,
+    /// The speed relative to the carrier over the speed.
+    relative: f64,
+    remark: String,
+}
+
+/// A gear that turns with the pair.
+#[derive(Clone, Copy)]
+struct Turning<'m> {
+    gear: &'m Node,
+    /// The speed of the driver over that of the gear, below 0 in the opposite direction.
+    factor: f64,
+    /// Whether the whole load of the pair passes this gear.
+    is_loaded: bool,
+}
 
 impl<'m> Pair<'m> {
-    /// The pair of a spur stage.
+    /// The pair of a stage.
     ///
     /// # Errors
-    /// The kind of any other stage, with its article.
+    /// The kind of a stage that cannot become a case, with its article.
     pub(super) fn of(index: &'m Index<'m>, stage: &'m Node) -> Result<Pair<'m>, String> {
-        match &*stage.kind {
-            "cylindrical_stage" => {}
-            "planetary_stage" => return Err("a planetary stage".to_owned()),
-            other => {
-                let name = other.trim_end_matches("_stage").replace('_', " ");
-                return Err(format!("a {name} stage"));
-            }
-        }
-        let mut assemblies = index.related("assembly", ("part", &stage.id), "assembly");
-        if let Some(planetary) = assemblies.find(|assembly| &*assembly.kind == "planetary_stage") {
-            return Err(format!("a mesh of the planetary stage {}", planetary.id));
+        if &*stage.kind != "cylindrical_stage" {
+            let name = stage.kind.trim_end_matches("_stage").replace('_', " ");
+            return Err(format!("a {name} stage"));
         }
         let gear = |role| index.related("stage", ("stage", &stage.id), role).next();
         let (Some(first), Some(second)) = (gear("gear_1"), gear("gear_2")) else {
             return Err("a stage without two gears".to_owned());
         };
-        let pair = Pair { index, stage, gears: [first, second] };
-        if let Some(gear) = pair.gears.iter().find(|gear| &*gear.kind != "cylindrical_gear") {
+        let gears = [first, second];
+        if let Some(gear) = gears.iter().find(|gear| &*gear.kind != "cylindrical_gear") {
             return Err(format!("a stage with a {}", gear.kind.replace('_', " ")));
         }
-        match pair.gears.iter().find_map(|gear| pair.helix(gear)) {
-            Some(angle) => Err(format!("a helical stage (helix angle {angle})")),
-            None => Ok(pair),
-        }
+        let mut assemblies = index.related("assembly", ("part", &stage.id), "assembly");
+        let planetary = assemblies.find(|assembly| &*assembly.kind == "planetary_stage");
+        Ok(Pair { index, stage, gears, planetary, is_negative: false })
     }
 
-    /// The helix angle if it is not zero or cannot be read. A model can have a rounded zero.
-    fn helix(&self, gear: &Node) -> Option<String> {
-        const NONE: f64 = 1e-8;
-        HELIX.iter().find_map(|id| match self.value(gear, from(Gear, id, "deg")) {
-            Ok(Some(angle)) if angle.value.abs() > NONE => Some(angle.text),
-            Ok(_) => None,
-            Err(_) => gear.given(id).next().map(|angle| cut(&angle.value)),
-        })
-    }
-
-    /// The numbers of teeth as text, such as `20/40`.
-    pub(super) fn teeth(&self) -> String {
+    /// The kind of the stage with its article, such as `a helical stage (20/40 teeth, 15 deg)`.
+    pub(super) fn kind(&self) -> String {
         let teeth = [0, 1].map(|gear| match self.read(gear, TEETH) {
             Ok(Some(teeth)) => teeth.text,
             _ => "unknown".to_owned(),
         });
-        teeth.join("/")
+        let teeth = teeth.join("/");
+        let of = self.planetary.map_or(String::new(), |own| format!(" of {} {}", own.kind, own.id));
+        match self.find(&[0, 1], &HELIX) {
+            Ok(Some(helix)) if helix.value != 0.0 => {
+                format!("a helical stage{of} ({teeth} teeth, {})", helix.text)
+            }
+            Err(_) => format!("a helical stage{of} ({teeth} teeth)"),
+            Ok(_) => format!("a spur stage{of} ({teeth} teeth)"),
+        }
     }
 
-    /// The driver and the driven gear. A model may not name the driving gear.
+    /// The driver and the driven gear. A model may not name the driving gear. The sun gear drives
+    /// its planets.
     fn ordered(&self, remarks: &mut Vec<String>) -> Pair<'m> {
         let is_driving = |data: &Node| {
             let driving = data.given("is_driving_gear").next();
             driving.is_some_and(|flag| matches!(&*flag.value, "true" | "1"))
         };
         let [first, second] = self.gears;
+        let swapped = Pair { gears: [second, first], ..self.clone() };
+        if self.planetary.is_some() {
+            let is_planet = self.ring(first).is_some();
+            return if is_planet { swapped } else { self.clone() };
+        }
         match self.gears.map(|gear| self.gear_data(gear).any(is_driving)) {
             [true, false] => {}
-            [false, true] => return Pair { gears: [second, first], ..*self },
+            [false, true] => return swapped,
             _ => remarks.push(format!(
                 "the model does not name the driving gear; the driver is gear_1, {}",
                 first.label()
@@ -311,74 +366,88 @@ impl<'m> Pair<'m> {
         self.clone()
     }
 
-    /// The components at a place, of the left and of the right flank.
-    fn parts(&self, gear: usize, place: Place) -> [Vec<&'m Node>; 2] {
-        let (index, gear) = (self.index, self.gears[gear]);
-        let flanks = || {
-            ["left", "right"].map(|side| -> Vec<&Node> {
-                index.related("flank", ("gear", &gear.id), side).collect()
-            })
-        };
-        match place {
-            Stage => [vec![self.stage], Vec::new()],
-            Gear => [vec![gear], Vec::new()],
-            EitherGear => self.gears.map(|gear| vec![gear]),
-            Flanks => flanks(),
-            Linked(kind) => [index.linked(&gear.id, kind).collect(), Vec::new()],
-            Relief(kind) => flanks().map(|flank| {
-                let own: Vec<&Node> =
-                    flank.iter().flat_map(|part| index.linked(&part.id, kind)).collect();
-                if own.is_empty() { index.linked(&gear.id, kind).collect() } else { own }
-            }),
-        }
+    /// The left and the right flank of a gear.
+    fn flanks(&self, gear: usize) -> [Option<&'m Node>; 2] {
+        let gear = ("gear", &*self.gears[gear].id);
+        ["left", "right"].map(|side| self.index.related("flank", gear, side).next())
     }
 
-    /// The value of a source for a gear. Both flanks must agree.
-    fn read(&self, gear: usize, source: Source) -> Read {
-        let sides = self.parts(gear, source.place);
-        if let (Relief(_), [left, right]) = (source.place, &sides) {
-            if left.is_empty() != right.is_empty() {
-                return Err("only one flank has the relief".to_owned().into());
-            }
-            if let Some(flank) = sides.iter().find(|flank| flank.len() > 1) {
-                let first = flank[0].label();
-                return Err(format!("{first} is not the only relief of its flank").into());
-            }
-        }
-        let [left, right] = sides.map(|parts| -> Read {
-            let mut found = parts.iter().map(|part| self.value(part, source));
-            found.find(|read| !matches!(read, Ok(None))).unwrap_or(Ok(None))
+    /// Modifications without a field.
+    fn unused(&self) -> Vec<&'m Node> {
+        let gears = [0, 1].into_iter().flat_map(|gear| {
+            let [left, right] = self.flanks(gear);
+            [Some(self.gears[gear]), left, right].into_iter().flatten()
         });
-        let mut reading = match (left?, right?) {
-            (Some(left), Some(right)) if source.place == EitherGear => {
-                Some(if right.value > left.value { right } else { left })
-            }
-            (left, right) => agreed(left, right)?,
-        };
-        if reading.is_none() && source.place == Flanks {
-            reading = self.value(self.gears[gear], source)?;
-        }
-        Ok(match source.convert {
-            Some(convert) => reading.and_then(|reading| convert(self, gear, &reading)),
-            None => reading,
-        })
+        let linked = gears.flat_map(|part| self.index.linked(&part.id));
+        let mut unused: Vec<&Node> =
+            linked.filter(|part| UNUSED.contains(&&*part.kind)).collect();
+        unused.dedup_by(|one, other| std::ptr::eq(*one, *other));
+        unused
     }
 
-    /// A value that both gears must share.
-    fn shared(&self, source: Source) -> Read {
-        agreed(self.read(0, source)?, self.read(1, source)?)
+    /// The value of the first source that has one, for one gear or equal for both.
+    fn find(&self, gears: &[usize], sources: &[Source]) -> Read {
+        let read = |source: &Source| match gears {
+            [gear] => self.read(*gear, *source),
+            _ => agreed(self.read(0, *source)?, self.read(1, *source)?),
+        };
+        let mut found = sources.iter().map(read);
+        found.find(|read| !matches!(read, Ok(None))).unwrap_or(Ok(None))
+    }
+
+    /// The number from these sources, in SI, if it can be read.
+    fn number(&self, gears: &[usize], sources: &[Source]) -> Option<f64> {
+        self.find(gears, sources).ok()?.map(|reading| reading.value)
+    }
+
+    /// The value of a source for a gear: of both flanks, which must agree, or else of the gear and the
+    /// stage.
+    fn read(&self, gear: usize, source: Source) -> Read {
+        let [left, right] = self.flanks(gear).map(|flank| match flank {
+            Some(flank) => self.described(flank, source),
+            None => Ok(None),
+        });
+        let reading = match (left?, right?) {
+            (Some(left), Some(right)) => agreed(Some(left), Some(right))?,
+            (left, right) => {
+                let whole = self.described(self.gears[gear], source)?;
+                let whole = agreed(whole, self.value(self.stage, source)?)?;
+                match (left.or(right), whole) {
+                    (Some(one), None) => {
+                        let Reading { source, text, .. } = one;
+                        return Err(format!("only one flank has it: {source} is {text}").into());
+                    }
+                    (one, whole) => agreed(one, whole)?,
+                }
+            }
+        };
+        match (source.convert, reading) {
+            (Some(convert), Some(reading)) => convert(self, gear, reading),
+            (_, reading) => Ok(reading),
+        }
+    }
+
+    /// The value of a gear or a flank and of the components that describe it, which must agree.
+    fn described(&self, part: &'m Node, source: Source) -> Read {
+        let linked = self.index.linked(&part.id).filter(|part| PARTS.contains(&&*part.kind));
+        let mut parts = std::iter::once(part).chain(linked);
+        parts.try_fold(None, |found, part| agreed(found, self.value(part, source)?))
     }
 
     /// A value of a component in its load cases, or in general. All must agree.
     fn value(&self, part: &Node, source: Source) -> Read {
-        let place = format!("{} of {}", source.attribute, part.label());
+        let (kind, attribute) = source.attribute.split_once('.').unwrap_or(("", source.attribute));
+        if !kind.is_empty() && *part.kind != *kind {
+            return Ok(None);
+        }
+        let place = format!("{attribute} of {}", part.label());
         let loads = self.index.loads_of(&part.id).iter().filter_map(|(case, loaded)| {
-            let attribute = loaded.given(source.attribute).next()?;
+            let attribute = loaded.given(attribute).next()?;
             Some((attribute, format!(" in load case {}", case.id)))
         });
         let mut given: Vec<(&Node, String)> = loads.collect();
         if given.is_empty() {
-            given = part.given(source.attribute).map(|own| (own, String::new())).collect();
+            given = part.given(attribute).map(|own| (own, String::new())).collect();
         }
         let read =
             |(own, case): &(&Node, String)| reading(own, source.unit, format!("{place}{case}"));
@@ -392,19 +461,114 @@ impl<'m> Pair<'m> {
         Ok(read.into_iter().next())
     }
 
-    /// The speed ratio, the teeth of the driven gear over the teeth of the driver.
-    fn ratio(&self) -> f64 {
-        match [0, 1].map(|gear| self.read(gear, TEETH)) {
-            [Ok(Some(driver)), Ok(Some(driven))] => driven.value / driver.value,
-            _ => f64::NAN,
+    /// The name of a field by the side of its end of the face. The datum face of a gear is at the
+    /// negative end of its axis unless the model has another orientation.
+    fn named_by_side(&self, gear: usize, field: &'static str) -> &'static str {
+        let mut orientation = self.gears[gear].given("datum_face_orientation");
+        let is_positive = orientation.next().is_some_and(|own| &*own.value == "positive");
+        match field {
+            "end_relief_minus" if is_positive != self.is_negative => "end_relief_plus",
+            "end_relief_plus" if is_positive != self.is_negative => "end_relief_minus",
+            _ => field,
         }
     }
 
-    /// The speed of the driver or of its shaft, or the speed of the driven gear times the ratio.
+    /// The middle of the driven face less that of the driver, along z. The support vector of a gear
+    /// leads to the middle of its face.
+    fn offset(&self) -> Option<Reading> {
+        let vector = |gear: usize, id| -> Option<[f64; 3]> {
+            let text = &self.gears[gear].given(id).next()?.value;
+            let numbers = text.split_whitespace().map(|number| number.parse().ok());
+            numbers.collect::<Option<Vec<f64>>>()?.try_into().ok()
+        };
+        let reference = |gear: &Node| {
+            gear.given("reference_component_for_position").next().map(|own| own.value.clone())
+        };
+        let [first, second] = self.gears.map(reference);
+        if first != second {
+            return None;
+        }
+        let middle = |gear| vector(gear, "support_vector");
+        let (first, second, axis) = (middle(0)?, middle(1)?, vector(0, "u_axis_vector")?);
+        let along: f64 = (0..3).map(|at| (second[at] - first[at]) * axis[at]).sum();
+        let along = rounded(if self.is_negative { -along } else { along });
+        (along.abs() > 1e-6).then(|| Reading {
+            text: format!("{} mm", units::text(along, "")),
+            value: along / 1e3,
+            source: "the support_vector of both gears".to_owned(),
+        })
+    }
+
+    /// The mesh of a sun gear with a planet; `None` for any other stage.
+    fn planetary(&self) -> Option<Planetary> {
+        self.planetary?;
+        let [sun, planet] = self.gears;
+        let ring = self.ring(planet)?;
+        let teeth = self.value(ring, TEETH).ok()??.value.abs();
+        let is_loaded = self.shafts(ring).iter().any(|shaft| self.has_load(shaft));
+        let relative =
+            if is_loaded { 1.0 } else { teeth / (teeth + self.number(&[0], &[TEETH])?) };
+        let count = self.mates(sun).count();
+        let still = if is_loaded { "the carrier" } else { "the ring gear" };
+        let remark = format!(
+            "the speed is relative to the planet carrier while {still} stands still; {count} planets \
+             share the load equally"
+        );
+        Some(Planetary { share: 1.0 / count as f64, relative, remark })
+    }
+
+    /// The ring gear that a planet meshes with.
+    fn ring(&self, planet: &Node) -> Option<&'m Node> {
+        self.index.linked(&planet.id).find(|part| &*part.kind == "ring_gear")
+    }
+
+    /// The gears that mesh with a gear.
+    fn mates(&self, gear: &'m Node) -> impl Iterator<Item = &'m Node> {
+        let stages = self.index.relations_of(&gear.id).iter();
+        let stages = stages.filter(|relation| &*relation.kind == "stage");
+        let ids = stages.flat_map(|stage| [stage.role("gear_1"), stage.role("gear_2")]);
+        let others = ids.flatten().filter(move |id| **id != *gear.id);
+        others.filter_map(|id| self.index.component(id))
+    }
+
+    /// The gears that turn with the pair, from near to far.
+    fn train(&self) -> Vec<Turning<'m>> {
+        /// A longer train is no gear unit.
+        const MOST: usize = 100;
+        let teeth = |gear: &Node| Some(self.value(gear, TEETH).ok()??.value);
+        let turning = |gear, factor, is_loaded| Turning { gear, factor, is_loaded };
+        let ratio = teeth(self.gears[1]).zip(teeth(self.gears[0])).map(|(two, one)| two / one);
+        let mut train = vec![turning(self.gears[0], 1.0, true)];
+        if self.planetary.is_some() {
+            return train;
+        }
+        train.extend(ratio.map(|ratio| turning(self.gears[1], -ratio, true)));
+        let mut at = 0;
+        while let Some(&Turning { gear, factor, is_loaded }) = train.get(at) {
+            at += 1;
+            for shaft in self.shafts(gear) {
+                let gears: Vec<&Node> = self.gears_on(shaft).collect();
+                let passes = is_loaded && gears.len() == 2 && !self.has_load(shaft);
+                for &other in gears.iter().filter(|other| other.id != gear.id) {
+                    for mate in self.mates(other) {
+                        let ratio = teeth(mate).zip(teeth(other)).map(|(two, one)| two / one);
+                        let is_new = train.iter().all(|known| known.gear.id != mate.id);
+                        if let Some(ratio) = ratio.filter(|_| is_new && train.len() < MOST) {
+                            train.push(turning(mate, -factor * ratio, passes));
+                        }
+                    }
+                }
+            }
+        }
+        train
+    }
+
+    /// The speed of the driver with its direction, from the nearest gear or shaft with a speed.
     fn speed(&self) -> Read {
-        for (gear, factor) in self.gears.into_iter().zip([1.0, self.ratio()]) {
+        let relative = self.planetary().map_or(1.0, |planetary| planetary.relative);
+        for Turning { gear, factor, .. } in self.train() {
             for part in std::iter::once(gear).chain(self.shafts(gear)) {
-                if let Some(speed) = self.acting(part, SPEED, factor)? {
+                if let Some(speed) = self.acting(part, SPEED, factor * relative)? {
                     return Ok(Some(speed));
                 }
             }
@@ -414,17 +578,18 @@ impl<'m> Pair<'m> {
 
     /// The torque or power of the driver, and its field.
     fn load(&self) -> Read<(&'static str, Reading)> {
-        let gears = || self.gears.into_iter().zip([1.0, 1.0 / self.ratio()]);
-        for (gear, factor) in gears() {
+        let mut train = self.train();
+        train.retain(|turning| turning.is_loaded);
+        for Turning { gear, factor, .. } in &train {
             for data in self.gear_data(gear) {
-                if let Some(torque) = self.acting(data, TORQUE_OF_GEAR, factor)? {
+                if let Some(torque) = self.acting(data, TORQUE_OF_GEAR, 1.0 / factor)? {
                     return Ok(Some((TORQUE, torque)));
                 }
             }
         }
-        for (gear, factor) in gears() {
+        for Turning { gear, factor, .. } in &train {
             for shaft in self.shafts(gear) {
-                if let Some(found) = self.load_on(shaft, factor)? {
+                if let Some(found) = self.load_on(shaft, *factor)? {
                     return Ok(Some(found));
                 }
             }
@@ -434,15 +599,16 @@ impl<'m> Pair<'m> {
 
     /// The load on a shaft if the shaft has exactly one gear and one load.
     fn load_on(&self, shaft: &Node, factor: f64) -> Read<(&'static str, Reading)> {
-        let parts = || self.index.related("assembly", ("assembly", &shaft.id), "part");
-        if parts().filter(|part| part.kind.ends_with("gear")).count() != 1 {
+        if self.gears_on(shaft).count() != 1 {
             return Ok(None);
         }
+        let (share, relative) =
+            self.planetary().map_or((1.0, 1.0), |planetary| (planetary.share, planetary.relative));
         let mut loads = Vec::new();
-        for part in parts().filter(|part| &*part.kind == "external_load") {
-            if let Some(torque) = self.acting(part, TORQUE_OF_LOAD, factor)? {
+        for part in self.loads_on(shaft) {
+            if let Some(torque) = self.acting(part, TORQUE_OF_LOAD, share / factor)? {
                 loads.push((TORQUE, torque));
-            } else if let Some(power) = self.acting(part, POWER_OF_LOAD, 1.0)? {
+            } else if let Some(power) = self.acting(part, POWER_OF_LOAD, share * relative)? {
                 loads.push((POWER, power));
             }
         }
@@ -452,10 +618,18 @@ impl<'m> Pair<'m> {
         Ok(loads.pop())
     }
 
-    /// A speed or load that is not zero, at the driver.
+    /// A speed or load that is not zero, at the driver. Its text has no sign.
     fn acting(&self, part: &Node, source: Source, factor: f64) -> Read {
         let acting = self.value(part, source)?.filter(|reading| reading.value != 0.0);
-        Ok(acting.map(|reading| reading.transferred(factor, source.unit)))
+        Ok(acting.map(|own| {
+            let text = own.text.trim_start_matches(['-', '+']).to_owned();
+            if (factor - 1.0).abs() < f64::EPSILON {
+                return Reading { text, ..own };
+            }
+            let size = Reading { value: own.value.abs(), text, ..own };
+            let derived = size.derived(factor.abs(), source.unit, " and the ratio");
+            Reading { value: own.value * factor, ..derived }
+        }))
     }
 
     /// The data of a gear for this stage only.
@@ -473,29 +647,87 @@ impl<'m> Pair<'m> {
         let assemblies = self.index.related("assembly", ("part", &gear.id), "assembly");
         assemblies.filter(|assembly| &*assembly.kind == "shaft").collect()
     }
+
+    fn gears_on(&self, shaft: &Node) -> impl Iterator<Item = &'m Node> {
+        let parts = self.index.related("assembly", ("assembly", &shaft.id), "part");
+        parts.filter(|part| part.kind.ends_with("gear"))
+    }
+
+    fn loads_on(&self, shaft: &Node) -> impl Iterator<Item = &'m Node> {
+        let parts = self.index.related("assembly", ("assembly", &shaft.id), "part");
+        parts.filter(|part| &*part.kind == "external_load")
+    }
+
+    fn has_load(&self, shaft: &Node) -> bool {
+        self.loads_on(shaft).next().is_some()
+    }
+}
+
+/// The size of a helix angle. A model can have a rounded zero.
+fn magnitude(_: &Pair, _: usize, angle: Reading) -> Read {
+    /// Greatest helix angle of a case, in rad.
+    const MOST: f64 = std::f64::consts::FRAC_PI_4;
+    const NONE: f64 = 1e-8;
+    let (value, text) = (angle.value.abs(), angle.text.trim_start_matches(['-', '+']).to_owned());
+    if value > MOST {
+        return Err(format!("{} is {}, more than 45 deg", angle.source, angle.text).into());
+    }
+    let (value, text) = if value > NONE { (value, text) } else { (0.0, "0 deg".to_owned()) };
+    Ok(Some(Reading { text, value, ..angle }))
+}
+
+/// The helix angle at the reference diameter from that at the base diameter:
+/// sin β_b = sin β cos α_n (ISO 21771).
+fn at_reference_diameter(pair: &Pair, gear: usize, base: Reading) -> Read {
+    let Some(angle) = pair.number(&[0, 1], &[ANGLE]) else { return Ok(None) };
+    let value = (base.value.sin() / angle.cos()).asin();
+    let own = base.derived(value / base.value, "deg", "");
+    magnitude(pair, gear, if base.value == 0.0 { base } else { own })
+}
+
+/// The hand of the driver from the sign of a helix angle, above 0 for a right hand (ISO 21771).
+/// The other gear has the other hand.
+fn hand(_: &Pair, gear: usize, angle: Reading) -> Read {
+    const NONE: f64 = 1e-8;
+    let is_right = (angle.value > 0.0) == (gear == 0);
+    let (text, value) = if is_right { ("right", 1.0) } else { ("left", -1.0) };
+    let source = format!("the hand of the driver by {} = {}", angle.source, angle.text);
+    let reading = Reading { text: text.to_owned(), value, source };
+    Ok(Some(reading).filter(|_| angle.value.abs() > NONE))
+}
+
+/// The greater value of both gears.
+fn greater(pair: &Pair, gear: usize, own: Reading) -> Read {
+    let other = pair.read(1 - gear, BASE_PITCH)?;
+    Ok(other.filter(|other| other.value > own.value).or(Some(own)))
 }
 
 /// The profile shift coefficient from the shift.
-fn coefficient(pair: &Pair, _: usize, shift: &Reading) -> Option<Reading> {
-    let module = pair.shared(MODULE).ok()??;
-    let own = shift.derived(1.0 / module.value, "", "");
-    Some(Reading { source: format!("the module and {}", own.source), ..own })
+fn coefficient(pair: &Pair, _: usize, shift: Reading) -> Read {
+    let Some(module) = pair.number(&[0, 1], &[MODULE]) else { return Ok(None) };
+    let own = shift.derived(1.0 / module, "", "");
+    Ok(Some(Reading { source: format!("the module and {}", own.source), ..own }))
 }
 
 /// The length of a tip relief along the path of contact from its start diameter.
-fn length_from_diameter(pair: &Pair, gear: usize, start: &Reading) -> Option<Reading> {
-    let value = |read: Read| Some(read.ok()??.value);
-    let teeth = value(pair.read(gear, TEETH))?;
-    let base = value(pair.shared(MODULE))? * teeth * value(pair.shared(ANGLE))?.cos();
-    let tip = value(pair.read(gear, TIP))?;
+fn length_from_diameter(pair: &Pair, gear: usize, start: Reading) -> Read {
+    let both = |source| pair.number(&[0, 1], &[source]);
+    let own = |source| pair.number(&[gear], &[source]);
+    let (Some(module), Some(angle), Some(teeth), Some(tip)) =
+        (both(MODULE), both(ANGLE), own(TEETH), own(TIP))
+    else {
+        return Ok(None);
+    };
+    let helix = pair.number(&[0, 1], &HELIX).unwrap_or_default().cos();
+    let base = module * teeth / helix * (angle.tan() / helix).atan().cos();
     let roll = |diameter: f64| (diameter * diameter - base * base).max(0.0).sqrt() / 2.0;
     let value = roll(tip) - roll(start.value);
     let micrometres = (value * 1e9).round() / 1e3;
-    Some(Reading {
+    Ok(Some(Reading {
         text: format!("{} mm", units::text(micrometres / 1e3, "")),
         value,
         source: format!("{} = {}", start.source, start.text),
-    })
+    }))
 }
 
 impl Reading {
@@ -508,16 +740,6 @@ impl Reading {
             value,
             source: format!("{} = {}{after}", self.source, self.text),
         }
-    }
-
-    /// The reading at the driver without its sign, which gives the direction.
-    fn transferred(self, factor: f64, unit: &str) -> Reading {
-        let text = self.text.trim_start_matches(['-', '+']).to_owned();
-        let own = Reading { value: self.value.abs(), ..self };
-        if (factor - 1.0).abs() < f64::EPSILON {
-            return Reading { text, ..own };
-        }
-        own.derived(factor, unit, " and the ratio")
     }
 }
 
@@ -557,6 +779,13 @@ fn reading(attribute: &Node, usual: &str, source: String) -> Result<Reading, Str
             .ok_or_else(|| format!("{source}: the unit {other:?} is unknown here"))?,
     };
     let number = attribute.value.strip_suffix(".0").unwrap_or(&attribute.value);
+    // A computed value such as 0.5131000000000001 has more digits than its file meant.
+    let short = number
+        .parse::<f64>()
+        .ok()
+        .filter(|_| number.len() > 16)
+        .map(|number| units::text(rounded(number), ""));
+    let number = short.as_deref().unwrap_or(number);
     let text = format!("{number} {unit}").trim_end().to_owned();
     let dimension = Dimension::of_unit(usual).unwrap_or(Dimension::Number);
     match units::parse(&text, dimension, usual) {

@@ -1,65 +1,60 @@
-//! Commands that solve cases and show the results: `solve`, `check`, `explain`, `compare`, `plot`,
-//! `report`.
+//! Commands that solve cases and show the results, and commands that write new cases and reference
+//! pages.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::case::file::read_bytes;
+use crate::case::file::{self, SaveError, read_bytes};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::case::{Case, Document};
-use crate::cli::Streams;
-use crate::cli::cases::{self, Opened};
+use crate::case::{Case, Document, EXAMPLES, Example};
 use crate::cli::options::{
     Cases, Changes, Destination, Edits, Only, Quantities, Setting, Settings, by_method, formats,
     methods, one_quantity, station_count,
 };
-use crate::cli::output::{Done, Exit, Failure, check_out, follow, write_to};
+use crate::cli::{self, Done, Exit, Failure, Opened, Streams, check_out, follow, write_to};
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stage, Stages};
 use crate::report::compare::{ComparedCase, Comparison};
-use crate::report::digest::{STAGES, sentence};
+use crate::report::digest::{Digest, STAGES, sentence};
 use crate::report::explain::{explain, render, write_json};
 use crate::report::export::{ENDINGS, format_of, is_picture, render as render_report};
-use crate::report::page;
 use crate::report::pictures::{NoPicture, Picture, find, pictures};
-use crate::report::solve::compared;
+use crate::report::solve::{self, compared};
 use crate::report::verdict::{self, Standing, refused, stages, verdicts};
-use crate::report::{self, Selection, data, svg, sweep, text};
+use crate::report::{self, Selection, data, fields, page, schema, svg, sweep, text};
 use crate::study::shard::Format;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValuesParser, Resettable, TypedValueParser};
 use clap::{Args, ValueHint};
+use clap_complete::Shell;
 
 /// The options of the command.
 #[derive(Debug, Args)]
 pub struct Solve {
     /// The cases
     #[command(flatten)]
-    pub input: Cases,
+    input: Cases,
     /// The quantities
     #[command(flatten)]
-    pub only: Only,
+    only: Only,
     /// Print the stations as well, in this many intervals between D and E, or auto
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = station_count)]
-    pub stations: Option<String>,
+    stations: Option<String>,
     /// Format of the output
     #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
-    pub format: Format,
+    format: Format,
 }
 
 impl Solve {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let mut edits = self.input.changes.edits();
-        let stations = self.stations.iter();
-        let stations = stations.map(|value| Setting::by("--stations", "model.stations", value));
-        edits.settings.extend(stations);
+        let stations = self.stations.as_ref();
+        let stations = stations.map(|value| Setting::new("model.stations", value));
         let (format, only) = (self.format, self.only.quantities());
         let whole_json = format == Format::Json && only.is_empty();
         let selection = Selection { only, stations: self.stations.is_some() || whole_json };
         let mut is_first = true;
-        cases::each(&self.input.cases, streams, |path, streams| {
-            let opened = cases::open(path, &edits, &[], streams)?;
-            let Opened { name, document, inputs, .. } = &opened;
+        self.input.each(stations, streams, |opened, streams| {
+            let Opened { name, document, inputs, .. } = opened;
             let (case, inputs) = (document.case.clone(), inputs.clone());
             let report = report::Report::solve(name.clone(), case, inputs, selection.clone())
                 .and_then(in_full)
@@ -100,18 +95,16 @@ fn print(
 pub struct Check {
     /// The cases
     #[command(flatten)]
-    pub input: Cases,
+    input: Cases,
     /// Format of the output
     #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
-    pub format: Format,
+    format: Format,
 }
 
 impl Check {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let edits = self.input.changes.edits();
-        cases::each(&self.input.cases, streams, |path, streams| {
-            let opened = cases::open(path, &edits, &[], streams)?;
-            check(&opened, self.format, streams.output.as_mut())
+        self.input.each(None, streams, |opened, streams| {
+            check(opened, self.format, streams.output.as_mut())
         })
     }
 }
@@ -170,24 +163,24 @@ const BUILT_IN: &str = "Table 1 of Zhou & Chen 2014";
 pub struct Explain {
     /// Name or symbol of the quantity; `tipstrike fields --results` lists all quantities
     #[arg(value_name = "QUANTITY", hide_possible_values = true, value_parser = one_quantity())]
-    pub quantity: &'static Quantity,
+    quantity: &'static Quantity,
     /// The case file, - for standard input (default: Table 1 of Zhou & Chen 2014)
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub case: Option<PathBuf>,
+    case: Option<PathBuf>,
     /// The changes of the case
     #[command(flatten)]
-    pub changes: Changes,
+    changes: Changes,
     /// Format of the output
     #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
-    pub format: Format,
+    format: Format,
 }
 
 impl Explain {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let edits = self.changes.edits();
         let mut opened = match &self.case {
-            Some(path) => cases::open(path, &edits, &[], streams),
-            None => cases::changed(BUILT_IN.to_owned(), Document::table_1(), &edits),
+            Some(path) => cli::open(path, &edits, &[], streams),
+            None => cli::changed(BUILT_IN.to_owned(), Document::table_1(), &edits),
         }?;
         opened.need([self.quantity]);
         let Opened { name, document, inputs, .. } = &opened;
@@ -207,10 +200,10 @@ impl Explain {
 pub struct Compare {
     /// Case files, each with its variants; - is standard input
     #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub cases: Vec<PathBuf>,
+    cases: Vec<PathBuf>,
     /// Compare only these variants
     #[arg(long = "variant", value_name = "NAME,...", value_delimiter = ',')]
-    pub variants: Vec<String>,
+    variants: Vec<String>,
     /// Use this method instead of the methods of the cases
     #[arg(long, value_parser = methods())]
     method: Option<Method>,
@@ -219,10 +212,10 @@ pub struct Compare {
     settings: Vec<Setting>,
     /// The quantities
     #[command(flatten)]
-    pub only: Only,
+    only: Only,
     /// Format of the output
     #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Csv, Format::Json, Format::Md]))]
-    pub format: Format,
+    format: Format,
 }
 
 /// A file, and a case of it with the changes of the command line.
@@ -232,8 +225,8 @@ impl Compare {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let selection = Selection { only: self.only.quantities(), stations: false };
         let mut edited: Vec<Edited> = Vec::new();
-        let worst = cases::each(&self.cases, streams, |path, streams| {
-            let document = cases::read(path, streams)?;
+        let worst = cli::each(&self.cases, streams, |path, streams| {
+            let document = cli::read(path, streams)?;
             let all = document.case.variants.iter().map(|variant| &variant.name);
             let named = self.variants.iter();
             let variants: Vec<&String> =
@@ -243,7 +236,7 @@ impl Compare {
                 let settings = self.settings.iter().cloned().chain(by_method(self.method));
                 let edits = Edits { variant: variant.cloned(), settings: settings.collect() };
                 let mut document = document.clone();
-                cases::edit(&mut document, &edits)?;
+                cli::edit(&mut document, &edits)?;
                 Ok((path.display().to_string(), edits, document))
             });
             edited.extend(of_file.collect::<Result<Vec<_>, Failure>>()?);
@@ -251,7 +244,7 @@ impl Compare {
         })?;
         let cases: Vec<ComparedCase> = follow("cases", |go_on| {
             let wanted = edited.iter().enumerate().take_while(|(at, _)| go_on(*at, edited.len()));
-            wanted.map(|(_, edited)| solve(edited, &selection)).collect()
+            wanted.map(|(_, edited)| solve_edited(edited, &selection)).collect()
         })?;
         if cases.len() < 2 && worst == Exit::Done {
             let name = cases.first().map_or("", |case| case.name.as_str());
@@ -272,7 +265,7 @@ impl Compare {
         }
         for (case, (_, edits, document)) in comparison.cases.iter().zip(&edited) {
             for problem in case.found.as_ref().err().into_iter().flatten() {
-                streams.say(&cases::placed(document, problem.clone(), edits));
+                streams.say(&cli::placed(document, problem.clone(), edits));
             }
         }
         let is_all_refused = comparison.cases.iter().all(|case| case.found.is_err());
@@ -280,8 +273,8 @@ impl Compare {
     }
 }
 
-fn solve((file, edits, document): &Edited, selection: &Selection) -> ComparedCase {
-    let name = cases::named(file.clone(), edits);
+fn solve_edited((file, edits, document): &Edited, selection: &Selection) -> ComparedCase {
+    let name = cli::named(file.clone(), edits);
     let mut solved = compared(name, document.case.clone(), selection);
     if let Err(problems) = &mut solved.found {
         problems.sort_by_key(|problem| document.place(&problem.field));
@@ -294,22 +287,22 @@ fn solve((file, edits, document): &Edited, selection: &Selection) -> ComparedCas
 pub struct Plot {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", required_unless_present = "sweep", value_hint = ValueHint::FilePath)]
-    pub case: Option<PathBuf>,
+    case: Option<PathBuf>,
     /// The changes of the case
     #[command(flatten)]
-    pub changes: Changes,
+    changes: Changes,
     /// The chart to draw
     #[arg(long, value_name = "NAME", default_value = "force", value_parser = charts())]
-    pub chart: Picture,
+    chart: Picture,
     /// Draw the CSV file of a sweep instead of a case
     #[arg(long, value_name = "FILE", conflicts_with_all = ["case", "chart", "variant", "method", "settings"], value_hint = ValueHint::FilePath)]
-    pub sweep: Option<PathBuf>,
+    sweep: Option<PathBuf>,
     /// The quantities of the sweep
     #[arg(long, value_name = "QUANTITY,...", requires = "sweep", hide_possible_values = true, value_parser = Quantities)]
-    pub only: Vec<Vec<&'static Quantity>>,
+    only: Vec<Vec<&'static Quantity>>,
     /// The file
     #[command(flatten)]
-    pub destination: Destination,
+    destination: Destination,
 }
 
 fn charts() -> impl TypedValueParser<Value = Picture> {
@@ -339,7 +332,7 @@ impl Plot {
                     .map_err(|reason| Failure::new(Exit::BadCase, format!("{name}: {reason}")))?,
             )
         } else {
-            let opened = cases::open(source, &self.changes.edits(), &[], streams)?;
+            let opened = cli::open(source, &self.changes.edits(), &[], streams)?;
             let source = opened.unsolved();
             let drawn = follow("parts", |go_on| chart.of_case(source, go_on))?;
             drawn.map_err(|reason| match reason {
@@ -347,7 +340,7 @@ impl Plot {
                 NoPicture::Absent(reason) => opened.failed(&reason),
             })?
         };
-        destination.write(streams, |sink| sink.write_all(text.as_bytes()))
+        write_to(out, streams, |sink| sink.write_all(text.as_bytes()))
     }
 }
 
@@ -359,18 +352,18 @@ const MOST_SWEEP_BYTES: usize = 64 << 20;
 pub struct Report {
     /// The cases
     #[command(flatten)]
-    pub input: Cases,
+    input: Cases,
     /// What the page shows
     #[command(flatten)]
-    pub settings: page::Settings,
+    settings: page::Settings,
     /// File to write; the extension selects the format; replaces an existing file
     #[arg(long, required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub out: PathBuf,
+    out: PathBuf,
 }
 
 impl Report {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let Report { input: Cases { cases, changes }, settings, out } = self;
+        let Report { input, settings, out } = self;
         let Some(format) = format_of(out) else {
             return Err(Failure::usage(format!(
                 "--out {}: the file extension selects the format: use {}",
@@ -378,11 +371,9 @@ impl Report {
                 ENDINGS
             )));
         };
-        check_out(Some(out), &cases.iter().map(AsRef::as_ref).collect::<Vec<_>>())?;
-        let edits = changes.edits();
+        check_out(Some(out), &input.cases.iter().map(AsRef::as_ref).collect::<Vec<_>>())?;
         let mut subjects = Vec::new();
-        let worst = cases::each(cases, streams, |path, streams| {
-            let opened = cases::open(path, &edits, &[], streams)?;
+        let worst = input.each(None, streams, |opened, _| {
             let (source, file) = (opened.unsolved(), opened.document.render());
             let subject = follow("parts", |go_on| source.subject(file, format, go_on))?;
             subjects.push(subject.map_err(|refusal| opened.refused(&refusal))?);
@@ -393,5 +384,198 @@ impl Report {
             write_to(Some(out), streams, |sink| sink.write_all(text.as_bytes()))?;
         }
         Ok(worst)
+    }
+}
+
+/// The options of the command.
+#[derive(Debug, Args)]
+pub struct New {
+    /// Start from this example instead of an empty case
+    #[arg(long, value_name = "EXAMPLE", value_parser = examples())]
+    from: Option<&'static Example>,
+    /// List the examples instead, each with its pair and its verdict
+    #[arg(long, conflicts_with_all = ["from", "file"])]
+    list: bool,
+    /// File to write (default: standard output); must not exist yet
+    #[arg(value_hint = ValueHint::FilePath)]
+    file: Option<PathBuf>,
+}
+
+impl New {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        if self.list {
+            list(streams.output.as_mut())?;
+            return Ok(Exit::Done);
+        }
+        let text = self.from.map_or_else(
+            || Document::new(Case::fresh()).render(),
+            |example| example.text.to_owned(),
+        );
+        write_case(self.file.as_deref(), &text, streams)
+    }
+}
+
+/// Writes a case to a file that must not exist yet, or to standard output.
+fn write_case(file: Option<&Path>, text: &str, streams: &mut Streams) -> Done {
+    match file.filter(|file| file.as_os_str() != "-") {
+        None => streams.output.write_all(text.as_bytes())?,
+        Some(path) => file::write(path, text.as_bytes(), false).map_err(|error| match error {
+            SaveError::AlreadyThere(name) => {
+                let line = format!("{name}: the file exists: choose another name");
+                Failure::new(Exit::Unreadable, line)
+            }
+            other => other.into(),
+        })?,
+    }
+    Ok(Exit::Done)
+}
+
+/// The examples, each with its title, its pair and its verdict.
+fn list(out: &mut dyn Write) -> io::Result<()> {
+    let width = EXAMPLES.iter().map(|example| example.name.len()).max().unwrap_or(0);
+    for example in EXAMPLES {
+        let digest = digest(example);
+        writeln!(out, "{:width$}  {}", example.name, digest.title)?;
+        writeln!(out, "{:width$}  {}; {}", "", digest.pair, digest.load)?;
+        writeln!(out, "{:width$}  {}", "", digest.outcome)?;
+        for (standing, limit) in &digest.limits {
+            writeln!(out, "{:width$}  {} {limit}", "", standing.word())?;
+        }
+    }
+    Ok(())
+}
+
+fn digest(example: &Example) -> Digest {
+    let case = example.document().case;
+    let inputs = case.inputs().ok();
+    inputs
+        .and_then(|inputs| solve::digest(&case, &inputs, System::Metric, &|_| true))
+        .unwrap_or_default()
+}
+
+fn examples() -> impl TypedValueParser<Value = &'static Example> {
+    PossibleValuesParser::new(EXAMPLES.iter().map(|example| example.name))
+        .try_map(|name| Example::find(&name))
+}
+
+/// The options of the command.
+#[derive(Debug, Args)]
+pub struct Import {
+    /// REXS model (.rexs, .rexsj or .rexsz); - is standard input
+    #[arg(value_name = "MODEL", value_hint = ValueHint::FilePath)]
+    model: PathBuf,
+    /// Import the stage with this id (default: the first stage of two external
+    /// cylindrical gears)
+    #[arg(long, value_name = "ID")]
+    stage: Option<String>,
+    /// File to write (default: standard output); must not exist yet
+    #[arg(long, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    out: Option<PathBuf>,
+}
+
+impl Import {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let imported = cli::read_model(&self.model, self.stage.as_deref(), streams)?;
+        write_case(self.out.as_deref(), &imported.document.render(), streams)
+    }
+}
+
+/// The options of the command.
+#[derive(Debug, Args)]
+pub struct Fields {
+    /// List the quantities instead: the names for --only and [limits]
+    #[arg(long)]
+    results: bool,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    format: Format,
+}
+
+impl Fields {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let out = streams.output.as_mut();
+        let is_json = self.format == Format::Json;
+        if self.results {
+            fields::write_quantities(is_json, out)?;
+        } else {
+            fields::write_fields(is_json, out)?;
+        }
+        Ok(Exit::Done)
+    }
+}
+
+/// The options of the command.
+#[derive(Debug, Args)]
+pub struct Schema {
+    /// Write the schema of `solve --format json` instead
+    #[arg(long)]
+    results: bool,
+}
+
+impl Schema {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let out = streams.output.as_mut();
+        if self.results {
+            schema::write_results(out)?;
+        } else {
+            schema::write_case(out)?;
+        }
+        Ok(Exit::Done)
+    }
+}
+
+/// The options of the command.
+#[derive(Debug, Args)]
+pub struct Completions {
+    /// The shell
+    shell: Shell,
+}
+
+impl Completions {
+    pub(super) fn run(&self, mut program: clap::Command, streams: &mut Streams) -> Done {
+        // The generator panics if its writer fails, and therefore writes to memory.
+        let mut script = Vec::new();
+        clap_complete::generate(self.shell, &mut program, "tipstrike", &mut script);
+        streams.output.write_all(&script)?;
+        Ok(Exit::Done)
+    }
+}
+
+/// The options of the command.
+#[derive(Debug, Args)]
+pub struct Man {
+    /// The page of this command
+    command: Option<String>,
+}
+
+impl Man {
+    pub(super) fn run(&self, program: clap::Command, streams: &mut Streams) -> Done {
+        let page = page(self.command.as_deref(), program).ok_or_else(|| {
+            Failure::usage(format!(
+                "man: there is no command {}: `tipstrike help` lists them",
+                self.command.as_deref().unwrap_or_default()
+            ))
+        })?;
+        let source = format!("tipstrike {}", env!("CARGO_PKG_VERSION"));
+        clap_mangen::Man::new(page).source(source).render(&mut streams.output)?;
+        exit_status(streams.output.as_mut())?;
+        Ok(Exit::Done)
+    }
+}
+
+fn exit_status(out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, ".SH \"EXIT STATUS\"")?;
+    Exit::MEANINGS
+        .iter()
+        .try_for_each(|&(exit, meaning)| writeln!(out, ".TP\n\\fB{}\\fR\n{meaning}", exit as u8))
+}
+
+fn page(name: Option<&str>, program: clap::Command) -> Option<clap::Command> {
+    let mut program = program.disable_help_subcommand(true);
+    program.build();
+    match name {
+        // The help ends with the exit codes, which have a separate section in the manual page.
+        None => Some(program.after_help(Resettable::Reset)),
+        Some(name) => program.find_subcommand(name).cloned(),
     }
 }

@@ -1,27 +1,37 @@
-//! Commands of studies that can be split into shards: `sweep`, `tolerance`, `gather`.
+//! Commands of studies: a sweep and a tolerance study, which can be split into shards, and questions
+//! about one case.
 
+use std::cell::Cell;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use crate::cli::Streams;
-use crate::cli::cases::Opened;
-use crate::cli::options::{CaseFile, Destination, Only, StudyOptions, count, formats};
-use crate::cli::output::{Done, Exit, Failure, check_out, follow, write_to};
-use crate::model::Quantity;
+use crate::cli::options::{
+    CaseFile, Destination, Edits, Only, StudyOptions, Threads, count, formats,
+};
+use crate::cli::{self, Done, Exit, Failure, Opened, Streams, check_out, follow, write_to};
+use crate::model::{Inputs, Quantity};
+use crate::numeric::decimal::shortest;
 use crate::report::absence::Absence;
 use crate::report::export::is_picture;
+use crate::report::relief::ReliefReport;
 use crate::report::results::Named;
+use crate::report::seek::SeekReport;
+use crate::report::stiffness::{StiffnessReport, no_field};
 use crate::report::svg::draw;
 use crate::report::sweep::{self, RowWriter};
 use crate::report::tolerance::ToleranceReport;
-use crate::study::axis::Axis;
+use crate::study::axis::{Axis, AxisRange, Sampling, with_unit};
 use crate::study::batch::{Points, Refusals, Row, solve_all};
-use crate::study::condition::headline;
+use crate::study::condition::{Condition, headline};
+use crate::study::relief::{Criterion, Demand, NoRelief, demand, specify};
+use crate::study::seek::{USUAL_SCAN, seek};
 use crate::study::shard::{
     Complete, Format, Header, Kind, PointsRequest, Request, ShardWriter, Study, in_order,
 };
+use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare_flanks, compare_path};
 use crate::study::sweep::Grid;
 use crate::study::tolerance::{self, MOST_SAMPLES, Samples, Size, USUAL_SAMPLES};
+use crate::study::trade::{self, STEADY};
 use clap::{Args, ValueHint};
 
 /// The options of the command.
@@ -30,26 +40,26 @@ pub struct Sweep {
     /// Vary a field over a range, such as 'operation.speed=500..3000 rpm', or over a list, such as
     /// 'driven.teeth=20,30,40'; of several fields the first varies slowest
     #[arg(long, required = true, value_name = "KEY=FROM..TO")]
-    pub vary: Vec<String>,
+    vary: Vec<String>,
     /// Number of points of each range, both ends included; default 101, or every whole number.
     /// Given once for all ranges, or once for each
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
-    pub points: Vec<usize>,
+    points: Vec<usize>,
     /// Use equal ratios between the points of a range instead of equal steps
     #[arg(long)]
-    pub log: bool,
+    log: bool,
     /// The case
     #[command(flatten)]
-    pub input: CaseFile,
+    input: CaseFile,
     /// The quantities
     #[command(flatten)]
-    pub only: Only,
+    only: Only,
     /// Format of the output
     #[arg(long, default_value = "csv", value_parser = formats([Format::Csv, Format::Json]))]
-    pub format: Format,
+    format: Format,
     /// How the study runs
     #[command(flatten)]
-    pub running: StudyOptions,
+    running: StudyOptions,
 }
 
 impl Sweep {
@@ -107,26 +117,26 @@ fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
 pub struct Tolerance {
     /// Number of samples
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = USUAL_SAMPLES, value_parser = count)]
-    pub samples: usize,
+    samples: usize,
     /// Seed of the samples; the same seed gives the same samples
     #[arg(long, value_name = "S", default_value_t = 1)]
-    pub seed: u64,
+    seed: u64,
     /// Number of samples for the ranking of the fields (default: 4096, at most --samples; 0: no
     /// ranking). Each sample needs one solve per field, plus one
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
-    pub ranking: Option<usize>,
+    ranking: Option<usize>,
     /// The case
     #[command(flatten)]
-    pub input: CaseFile,
+    input: CaseFile,
     /// The quantities
     #[command(flatten)]
-    pub only: Only,
+    only: Only,
     /// Format of the output
     #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
-    pub format: Format,
+    format: Format,
     /// How the study runs
     #[command(flatten)]
-    pub running: StudyOptions,
+    running: StudyOptions,
 }
 
 impl Tolerance {
@@ -159,10 +169,10 @@ impl Tolerance {
 pub struct Gather {
     /// Files that --shard wrote, in any order
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub files: Vec<PathBuf>,
+    files: Vec<PathBuf>,
     /// The file
     #[command(flatten)]
-    pub destination: Destination,
+    destination: Destination,
 }
 
 impl Gather {
@@ -293,4 +303,272 @@ fn write_study(
     }
     let is_all = refusals.total() == study.points().count();
     Ok(if is_all { Exit::BadCase } else { Exit::Done })
+}
+
+/// The options of the command.
+#[derive(Debug, Args)]
+pub struct Seek {
+    /// The field and its range, such as 'deviations.base_pitch=0..40 um'
+    #[arg(long, value_name = "KEY=FROM..TO")]
+    vary: String,
+    /// The condition, such as 'impact_force<=2500 N', 'dynamic_contact_lost=true' or
+    /// 'outcome=no-corner-contact'
+    #[arg(long, value_name = "CONDITION")]
+    until: String,
+    /// Number of points of the first scan; a finer scan finds narrower regions
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = USUAL_SCAN, value_parser = count)]
+    points: usize,
+    /// The case
+    #[command(flatten)]
+    input: CaseFile,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    format: Format,
+    /// The threads
+    #[command(flatten)]
+    threads: Threads,
+    /// The file
+    #[command(flatten)]
+    destination: Destination,
+}
+
+impl Seek {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let Seek { input, vary, until, points, destination, .. } = self;
+        let bad_range = |problem| Failure::of_option("--vary", vary, &problem);
+        let bad_condition = |problem| Failure::of_option("--until", until, &problem);
+        let range = AxisRange::parse(vary).map_err(bad_range)?;
+        let condition = Condition::parse(until).map_err(bad_condition)?;
+        destination.check(&input.case)?;
+        destination.fits(self.format)?;
+        let first = (range.field, with_unit(&shortest(range.from), &range.unit));
+        let mut opened = input.open(&[first], streams)?;
+        opened.need(condition.quantity());
+        streams.say_all(opened.without_effect(range.field, &opened.inputs));
+        condition.check(opened.inputs.method).map_err(bad_condition)?;
+        let scan = range.axis(Sampling { points: Some(*points), is_log: false });
+        let scan = scan.map_err(bad_range)?;
+        let found = follow("points", |go_on| {
+            seek(&opened.inputs, &range, &condition, scan, &self.threads.control(go_on))
+        })??;
+        let report = SeekReport {
+            method: opened.inputs.method.name(),
+            range: &range,
+            condition: &condition,
+            found: &found,
+        };
+        opened.write(&report, self.format, destination.out.as_deref(), streams)
+    }
+}
+
+/// The options of the command.
+#[derive(Debug, Args)]
+pub struct Relief {
+    /// Loads that the relief must serve, in percent of the load of the case
+    #[arg(
+        long,
+        value_name = "A..B",
+        default_value = "25..110%",
+        value_parser = demand::loads,
+        allow_hyphen_values = true
+    )]
+    load: (f64, f64),
+    /// Loads with their shares of the time, in place of the range, such as
+    /// '50%:0.2, 100%:0.7, 130%:0.1'
+    #[arg(
+        long,
+        value_name = "LOAD:SHARE,...",
+        value_parser = Spectrum::parse,
+        conflicts_with = "load",
+        allow_hyphen_values = true
+    )]
+    spectrum: Option<Spectrum>,
+    /// Manufacturing tolerance of each amount, plus and minus, such as '5 um'
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        default_value = "5 um",
+        value_parser = demand::tolerance,
+        allow_hyphen_values = true
+    )]
+    tolerance: f64,
+    /// Manufacturing tolerance of each length along the path of contact, plus and minus, such as
+    /// '0.2 mm' (default: one step of a length)
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        value_parser = demand::tolerance,
+        allow_hyphen_values = true
+    )]
+    tolerance_length: Option<f64>,
+    /// Deviation of the misalignment over the face width, plus and minus, such as '10 um'
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        default_value = "0 um",
+        value_parser = demand::tolerance,
+        allow_hyphen_values = true
+    )]
+    misalignment: f64,
+    /// The figure to minimise
+    #[arg(long, value_name = "FIGURE", default_value = "te")]
+    minimise: Criterion,
+    /// The case
+    #[command(flatten)]
+    input: CaseFile,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
+    format: Format,
+    /// The file
+    #[command(flatten)]
+    destination: Destination,
+}
+
+/// The loads of a spectrum with their shares; one argument has all of them.
+#[derive(Debug, Clone)]
+pub struct Spectrum(Vec<(f64, f64)>);
+
+impl Spectrum {
+    fn parse(text: &str) -> Result<Spectrum, String> {
+        demand::spectrum(text).map(Spectrum)
+    }
+}
+
+impl Relief {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let Relief { input, destination, .. } = self;
+        destination.check(&input.case)?;
+        if !destination.is_picture() {
+            destination.fits(self.format)?;
+        }
+        let opened = input.open(&[], streams)?;
+        let demand = Demand {
+            loads: self.load,
+            spectrum: self.spectrum.as_ref().map_or(Vec::new(), |spectrum| spectrum.0.clone()),
+            tolerance: self.tolerance,
+            tolerance_length: self.tolerance_length,
+            misalignment: self.misalignment,
+            minimise: self.minimise,
+        };
+        let found = follow("% of the budget", |go_on| {
+            specify(&opened.inputs, &demand, &|part| go_on((100.0 * part) as usize, 100))
+        })?;
+        let found = found.map_err(|none| match none {
+            NoRelief::Refused(refusal) => opened.refused(&refusal),
+            none => opened.failed(&none),
+        })?;
+        let report = ReliefReport { method: opened.inputs.method, found: &found };
+        if destination.is_picture() {
+            let chart = report.chart(&opened.inputs).map_err(|reason| opened.failed(&reason))?;
+            let picture = draw(&chart);
+            let out = destination.out.as_deref();
+            return write_to(out, streams, |sink| sink.write_all(picture.as_bytes()));
+        }
+        opened.write(&report, self.format, destination.out.as_deref(), streams)
+    }
+}
+
+/// The options of the command.
+#[derive(Debug, Args)]
+pub struct Stiffness {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    case: PathBuf,
+    /// The changes of the case
+    #[command(flatten)]
+    edits: Edits,
+    /// Number of radii on each flank, from the form circle to the tip
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = point_count)]
+    points: usize,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
+    format: Format,
+}
+
+impl Stiffness {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let opened = cli::open(&self.case, &self.edits, &[], streams)?;
+        let refused = |refusal| opened.refused(&refusal);
+        let flanks = compare_flanks(&opened.inputs, self.points).map_err(refused)?;
+        let path = compare_path(&opened.inputs, self.points).map_err(refused)?;
+        let report = StiffnessReport { flanks: &flanks, path: &path };
+        opened.write(&report, self.format, None, streams)?;
+        if self.format == Format::Csv {
+            let (name, gears) = (&opened.name, flanks.gears.iter());
+            streams
+                .say_all(gears.filter_map(|gear| {
+                    Some(format!("{name}: {}: {}", gear.gear, no_field(gear)?))
+                }));
+        }
+        Ok(Exit::Done)
+    }
+}
+
+/// Parses a number of radii on a flank.
+fn point_count(text: &str) -> Result<usize, String> {
+    let range = LEAST_POINTS..=MOST_POINTS;
+    let count = text.parse().ok().filter(|count| range.contains(count));
+    count.ok_or_else(|| format!("write a number from {LEAST_POINTS} to {MOST_POINTS}"))
+}
+
+/// The options of the command.
+#[derive(Debug, Args)]
+pub struct Trade {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    case: PathBuf,
+    /// The changes of the case
+    #[command(flatten)]
+    edits: Edits,
+    /// Greatest error of the recommended setting, such as 5% or 0.05 (default: model.within of
+    /// the case)
+    #[arg(long, value_name = "ERROR", allow_hyphen_values = true, value_parser = part)]
+    within: Option<f64>,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    format: Format,
+}
+
+impl Trade {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let opened = cli::open(&self.case, &self.edits, &[], streams)?;
+        let within = self.within.unwrap_or(opened.inputs.within);
+        let inputs = Inputs { within, ..opened.inputs.clone() };
+        let found = follow("settings", |report| {
+            let (done, planned) = (Cell::new(0), Cell::new(1));
+            let mut show = |sofar: &trade::Trade| {
+                done.set(sofar.settings.len());
+                planned.set(sofar.planned);
+            };
+            let go_on = || report(done.get(), planned.get());
+            trade::trade(&inputs, STEADY, &go_on, &mut show)
+        })?;
+        let trade = found.map_err(|refusal| opened.refused(&refusal))?;
+        opened.write(&trade, self.format, None, streams)
+    }
+}
+
+/// Parses a fraction: "5%" or 0.05.
+fn part(text: &str) -> Result<f64, String> {
+    let (number, whole) =
+        text.trim().strip_suffix('%').map_or((text.trim(), 1.0), |number| (number.trim(), 100.0));
+    let value = number
+        .parse::<f64>()
+        .ok()
+        .map(|number| number / whole)
+        .filter(|part| part.is_finite() && *part > 0.0);
+    value.ok_or_else(|| "write a number above 0, such as 5% or 0.05".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_is_written_with_or_without_its_sign() {
+        assert_eq!((part("5%"), part("0.05"), part(" 0.5 % ")), (Ok(0.05), Ok(0.05), Ok(0.005)));
+        assert!(
+            ["", "%", "five", "-1%", "0", "nan", "inf%"].iter().all(|text| part(text).is_err())
+        );
+    }
 }

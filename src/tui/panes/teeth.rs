@@ -16,7 +16,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::plot::bounds;
 use crate::case::units::System;
-use crate::case::units::system::shown;
+use crate::case::units::shown;
 use crate::model::{ContactState, Inputs, Solution, contact_state};
 use crate::report::stations::{COLUMNS, Column};
 use crate::report::teeth::{Ink, Scene, Window, scale_bar};

@@ -267,13 +267,13 @@ fn place_of_cursor(charts: &Charts, cursor: f64) -> String {
 /// Values in SI with their numbers of significant digits, in the unit of the greatest value.
 fn in_words(charts: &Charts, readings: &[(&Curve, (f64, usize))]) -> Option<String> {
     let units = readings.iter().map(|(curve, (value, digits))| {
-        units::system::unit_for(value.abs(), curve.column.shown, *digits, charts.units)
+        units::unit_for(value.abs(), curve.column.shown, *digits, charts.units)
     });
     let factor = |unit: &&str| units::factor(unit).unwrap_or(1.0);
     let unit = units.max_by(|one, other| factor(one).total_cmp(&factor(other)))?;
     let words = readings.iter().map(|(curve, (value, digits))| {
-        let number = units::system::counted(*value, unit, *digits);
-        let value = format!("{number} {}", units::system::named(unit));
+        let number = units::counted(*value, unit, *digits);
+        let value = format!("{number} {}", units::named(unit));
         format!("{} {}", curve.name(charts), value.trim_end())
     });
     Some(words.collect::<Vec<_>>().join(", "))

@@ -112,7 +112,7 @@ pub(crate) fn picture(pane: &StudyPane<'_>) -> Option<Chart> {
     (!series.is_empty()).then(|| Chart {
         title: format!("{label} over {field}"),
         across: across(axis, &field),
-        up: Axis::new(format!("{label} {}", known.symbol), units::system::named(unit)),
+        up: Axis::new(format!("{label} {}", known.symbol), units::named(unit)),
         series,
         ..Chart::default()
     })

@@ -93,7 +93,7 @@ impl RangeOf<'_> {
             let number: f64 = rounded(si);
             // Rounding must not exceed the limits of the field.
             if number * factor < least || number * factor > most {
-                si.clamp(least, most) / factor
+                units::in_unit(si.clamp(least, most), &unit)
             } else {
                 number
             }
