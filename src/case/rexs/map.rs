@@ -379,8 +379,7 @@ impl<'m> Pair<'m> {
             [Some(self.gears[gear]), left, right].into_iter().flatten()
         });
         let linked = gears.flat_map(|part| self.index.linked(&part.id));
-        let mut unused: Vec<&Node> =
-            linked.filter(|part| UNUSED.contains(&&*part.kind)).collect();
+        let mut unused: Vec<&Node> = linked.filter(|part| UNUSED.contains(&&*part.kind)).collect();
         unused.dedup_by(|one, other| std::ptr::eq(*one, *other));
         unused
     }
