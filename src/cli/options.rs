@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use super::{Done, Failure, Opened, Streams, check_out, each, open, write_to};
+use super::{Done, Failure, Opened, Streams, check_out, each, open};
 use crate::case::{Case, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};

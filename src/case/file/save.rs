@@ -22,10 +22,8 @@ use crate::system::files;
 /// A value of a case as written in a file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Written {
-    /// The keys of its table.
-    table: Vec<String>,
-    /// The key in TOML.
-    name: String,
+    /// The keys from the top level.
+    path: Vec<String>,
     /// The value in TOML.
     value: String,
 }
@@ -34,37 +32,38 @@ impl Written {
     fn of(key: &str, text: &str) -> Written {
         let variant = key.strip_prefix(variant::PREFIX).and_then(|path| path.split_once('.'));
         let own = variant.map_or(key, |(_, own)| own);
-        let field = index_of(own).map(|field| &FIELDS[field]);
-        let (table, name) = match (variant, own.split_once('.')) {
-            (None, Some(("about", name))) => (vec!["about"], key_of(name)),
-            (None, Some((table, name))) => (vec![table], name.to_owned()),
-            (None, None) => (Vec::new(), own.to_owned()),
-            (Some((variant, _)), None) => (vec!["variants", variant], own.to_owned()),
-            (Some((variant, _)), Some(_)) => {
-                (vec!["variants", variant], format!("\"{}\"", own.replace('"', "")))
-            }
+        let names = match own.split_once('.').filter(|_| variant.is_none()) {
+            Some((table, name)) => vec![table, name],
+            None => vec![own],
         };
-        let value = match (field, text.split_once(' ')) {
+        let is_about = own.starts_with(ABOUT);
+        let plain = |name: &str| if is_about { name.to_owned() } else { name.replace('"', "") };
+        let above = variant.into_iter().flat_map(|(name, _)| ["variants", name]);
+        let path = above.chain(names).map(plain).collect();
+        let value = match (index_of(own), text.split_once(' ')) {
             _ if text.is_empty() => string(""),
-            _ if own.starts_with(ABOUT) => string(text),
-            (Some(field), _) => value(field, text),
+            _ if is_about => string(text),
+            (Some(field), _) => value(&FIELDS[field], text),
             (None, Some((shape, width))) if own.starts_with(spread::PREFIX) => {
-                distribution(shape, width)
+                format!("{{ {shape} = {} }}", number(width))
             }
             _ => number(text),
         };
-        Written { table: table.into_iter().map(str::to_owned).collect(), name, value }
+        Written { path, value }
     }
 
     /// The key with its table, as [`Entry::key`].
     fn key(&self) -> String {
-        let names = self.table.iter().map(String::as_str);
-        let names: Vec<_> = names.chain([self.name.trim_matches('"')]).collect();
-        names.join(".")
+        self.path.join(".")
+    }
+
+    /// The keys of its table.
+    fn table(&self) -> &[String] {
+        &self.path[..self.path.len() - 1]
     }
 
     fn line(&self) -> String {
-        format!("{} = {}", self.name, self.value)
+        format!("{} = {}", key_of(&self.path[self.path.len() - 1]), self.value)
     }
 }
 
@@ -74,10 +73,6 @@ fn written(case: &Case) -> Vec<Written> {
     let texts = texts(case).into_iter();
     let given = texts.filter(|(key, text)| !text.is_empty() || key.starts_with(variant::PREFIX));
     given.map(|(key, text)| Written::of(&key, &text)).collect()
-}
-
-fn distribution(shape: &str, width: &str) -> String {
-    format!("{{ {shape} = {} }}", number(width))
 }
 
 /// Whether two cases have the same values, in any order.
@@ -94,7 +89,7 @@ pub(super) fn are_same(one: &Case, other: &Case) -> bool {
 pub(super) fn template(case: &Case, comments: &[(&str, String)]) -> String {
     let values = written(case);
     let of_table = |table: &[&str]| -> Vec<String> {
-        let own = values.iter().filter(|own| own.table == table);
+        let own = values.iter().filter(|own| own.table() == table);
         own.map(Written::line).collect()
     };
     let mut text = format!(
@@ -331,7 +326,7 @@ fn take_out(text: &mut String, entry: &Entry) {
 /// The line of the table that has the example of a field of the case as a comment, as in a new file.
 fn example_of(text: &str, layout: &Layout, new: &Written) -> Option<Range<usize>> {
     let comment = format!("# {}", check::assignment(&FIELDS[index_of(&new.key())?]));
-    let header = layout.headers().find(|header| header.path == new.table)?.span.end;
+    let header = layout.headers().find(|header| header.path == new.table())?.span.end;
     let next = layout.headers().map(|header| header.start).find(|&start| start > header);
     let lines = text[header..next.unwrap_or(text.len())].split_inclusive('\n');
     let starts =
@@ -344,7 +339,7 @@ fn example_of(text: &str, layout: &Layout, new: &Written) -> Option<Range<usize>
 
 /// Inserts an entry after the last entry of its table. A new table is at the end of the text.
 fn insert(text: &mut String, layout: &Layout, new: &Written) {
-    let table = new.table.as_slice();
+    let table = new.table();
     if let Some(example) = example_of(text, layout, new) {
         return text.replace_range(example, &new.line());
     }
@@ -367,7 +362,7 @@ fn insert(text: &mut String, layout: &Layout, new: &Written) {
         let given = if is_after { entry.given } else { known };
         table[given..].iter().map(|name| key_of(name) + ".").collect()
     };
-    let added = format!("{above}{} = {}", new.name, new.value);
+    let added = format!("{above}{}", new.line());
     let start = line_start(text, entry.start);
     let indent = text[start..entry.start].to_owned();
     match entry.place {
@@ -393,7 +388,7 @@ fn insert(text: &mut String, layout: &Layout, new: &Written) {
 
 /// Appends a table with an entry.
 fn append(text: &mut String, layout: &Layout, new: &Written) {
-    let (table, end) = (&new.table, line_end(text));
+    let (table, end) = (new.table(), line_end(text));
     let names: Vec<String> = table.iter().map(|name| key_of(name)).collect();
     let added = format!("[{}]{end}{}{end}", names.join("."), new.line());
     let inner = layout.headers().find(|header| header.path.starts_with(table));

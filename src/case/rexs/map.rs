@@ -226,9 +226,7 @@ impl Values {
         };
         self.put(key, load, "no load is given on a shaft at the end of the gear train");
         self.fields.sort_by_key(|(key, _)| index_of(key));
-        if let Some(planetary) = pair.planetary() {
-            self.remarks.push(planetary.remark);
-        }
+        self.remarks.extend(pair.of_sun().map(|(.., remark)| remark));
         let unused: Vec<String> = pair.unused().iter().map(|part| part.label()).collect();
         if !unused.is_empty() {
             self.remarks.push(format!("left out: {}", unused.join(", ")));
@@ -283,23 +281,14 @@ pub(super) struct Pair<'m> {
     is_negative: bool,
 }
 
-/// A mesh of the sun gear of a planetary stage.
-struct Planetary {
-    /// The part of the load that one planet transmits.
-    share: f64,
-    /// The speed relative to the carrier over the speed.
-    relative: f64,
-    remark: String,
-}
-
 /// A gear that turns with the pair.
 #[derive(Clone, Copy)]
 struct Turning<'m> {
     gear: &'m Node,
     /// The speed of the driver over that of the gear, below 0 in the opposite direction.
-    factor: f64,
-    /// Whether the whole load of the pair passes this gear.
-    is_loaded: bool,
+    speed: f64,
+    /// The torque of the driver over that of the gear, if the whole load of the pair passes the gear.
+    torque: Option<f64>,
 }
 
 impl<'m> Pair<'m> {
@@ -498,22 +487,25 @@ impl<'m> Pair<'m> {
         })
     }
 
-    /// The mesh of a sun gear with a planet; `None` for any other stage.
-    fn planetary(&self) -> Option<Planetary> {
+    /// The speed relative to the carrier over the speed, and the torque of one mesh over the torque,
+    /// of a sun gear with planets, in words. `None` for any other stage.
+    fn of_sun(&self) -> Option<(f64, f64, String)> {
         self.planetary?;
         let [sun, planet] = self.gears;
         let ring = self.ring(planet)?;
         let teeth = self.value(ring, TEETH).ok()??.value.abs();
-        let is_loaded = self.shafts(ring).iter().any(|shaft| self.has_load(shaft));
-        let relative =
-            if is_loaded { 1.0 } else { teeth / (teeth + self.number(&[0], &[TEETH])?) };
+        let is_loaded = self.shafts(ring).iter().any(|shaft| self.loads_on(shaft).next().is_some());
+        let (still, relative) = if is_loaded {
+            ("the carrier", 1.0)
+        } else {
+            ("the ring gear", teeth / (teeth + self.number(&[0], &[TEETH])?))
+        };
         let count = self.mates(sun).count();
-        let still = if is_loaded { "the carrier" } else { "the ring gear" };
         let remark = format!(
             "the speed is relative to the planet carrier while {still} stands still; {count} planets \
              share the load equally"
         );
-        Some(Planetary { share: 1.0 / count as f64, relative, remark })
+        Some((relative, 1.0 / count as f64, remark))
     }
 
     /// The ring gear that a planet meshes with.
@@ -534,27 +526,36 @@ impl<'m> Pair<'m> {
     fn train(&self) -> Vec<Turning<'m>> {
         /// A longer train is no gear unit.
         const MOST: usize = 100;
-        let teeth = |gear: &Node| Some(self.value(gear, TEETH).ok()??.value);
-        let turning = |gear, factor, is_loaded| Turning { gear, factor, is_loaded };
-        let ratio = teeth(self.gears[1]).zip(teeth(self.gears[0])).map(|(two, one)| two / one);
-        let mut train = vec![turning(self.gears[0], 1.0, true)];
+        let ratio = |one: &Node, two: &Node| {
+            let teeth = |gear| Some(self.value(gear, TEETH).ok()??.value);
+            Some(teeth(two)? / teeth(one)?)
+        };
+        let [driver, driven] = self.gears;
+        let (speed, torque, _) = self.of_sun().unwrap_or((1.0, 1.0, String::new()));
+        let mut train = vec![Turning { gear: driver, speed, torque: Some(torque) }];
         if self.planetary.is_some() {
             return train;
         }
-        train.extend(ratio.map(|ratio| turning(self.gears[1], -ratio, true)));
+        train.extend(ratio(driver, driven).map(|ratio| Turning {
+            gear: driven,
+            speed: -ratio,
+            torque: Some(-1.0 / ratio),
+        }));
         let mut at = 0;
-        while let Some(&Turning { gear, factor, is_loaded }) = train.get(at) {
+        while let Some(&Turning { gear, speed, torque }) = train.get(at) {
             at += 1;
             for shaft in self.shafts(gear) {
                 let gears: Vec<&Node> = self.gears_on(shaft).collect();
-                let passes = is_loaded && gears.len() == 2 && !self.has_load(shaft);
+                let passes = gears.len() == 2 && self.loads_on(shaft).next().is_none();
                 for &other in gears.iter().filter(|other| other.id != gear.id) {
                     for mate in self.mates(other) {
-                        let ratio = teeth(mate).zip(teeth(other)).map(|(two, one)| two / one);
                         let is_new = train.iter().all(|known| known.gear.id != mate.id);
-                        if let Some(ratio) = ratio.filter(|_| is_new && train.len() < MOST) {
-                            train.push(turning(mate, -factor * ratio, passes));
-                        }
+                        let ratio = ratio(other, mate).filter(|_| is_new && train.len() < MOST);
+                        train.extend(ratio.map(|ratio| Turning {
+                            gear: mate,
+                            speed: -speed * ratio,
+                            torque: torque.filter(|_| passes).map(|torque| -torque / ratio),
+                        }));
                     }
                 }
             }
@@ -564,10 +565,9 @@ impl<'m> Pair<'m> {
 
     /// The speed of the driver with its direction, from the nearest gear or shaft with a speed.
     fn speed(&self) -> Read {
-        let relative = self.planetary().map_or(1.0, |planetary| planetary.relative);
-        for Turning { gear, factor, .. } in self.train() {
+        for Turning { gear, speed, .. } in self.train() {
             for part in std::iter::once(gear).chain(self.shafts(gear)) {
-                if let Some(speed) = self.acting(part, SPEED, factor * relative)? {
+                if let Some(speed) = self.acting(part, SPEED, speed)? {
                     return Ok(Some(speed));
                 }
             }
@@ -575,46 +575,41 @@ impl<'m> Pair<'m> {
         Ok(None)
     }
 
-    /// The torque or power of the driver, and its field.
+    /// The torque or power of the driver, and its field: by the data of a gear for this stage, or by
+    /// the only load on the shaft of a gear that has its shaft alone.
     fn load(&self) -> Read<(&'static str, Reading)> {
-        let mut train = self.train();
-        train.retain(|turning| turning.is_loaded);
-        for Turning { gear, factor, .. } in &train {
+        let train = self.train();
+        for (gear, factor) in self.gears.into_iter().zip(train.iter().map(|own| 1.0 / own.speed)) {
+            let factor = if self.planetary.is_some() { 1.0 } else { factor };
             for data in self.gear_data(gear) {
-                if let Some(torque) = self.acting(data, TORQUE_OF_GEAR, 1.0 / factor)? {
+                if let Some(torque) = self.acting(data, TORQUE_OF_GEAR, factor)? {
                     return Ok(Some((TORQUE, torque)));
                 }
             }
         }
-        for Turning { gear, factor, .. } in &train {
+        for Turning { gear, speed, torque } in train {
+            let Some(factor) = torque else { continue };
             for shaft in self.shafts(gear) {
-                if let Some(found) = self.load_on(shaft, *factor)? {
-                    return Ok(Some(found));
+                if self.gears_on(shaft).count() != 1 {
+                    continue;
+                }
+                let mut loads = Vec::new();
+                for part in self.loads_on(shaft) {
+                    if let Some(torque) = self.acting(part, TORQUE_OF_LOAD, factor)? {
+                        loads.push((TORQUE, torque));
+                    } else if let Some(power) = self.acting(part, POWER_OF_LOAD, speed * factor)? {
+                        loads.push((POWER, power));
+                    }
+                }
+                if loads.len() > 1 {
+                    return Err(format!("{} has several loads", shaft.label()).into());
+                }
+                if let Some(load) = loads.pop() {
+                    return Ok(Some(load));
                 }
             }
         }
         Ok(None)
-    }
-
-    /// The load on a shaft if the shaft has exactly one gear and one load.
-    fn load_on(&self, shaft: &Node, factor: f64) -> Read<(&'static str, Reading)> {
-        if self.gears_on(shaft).count() != 1 {
-            return Ok(None);
-        }
-        let (share, relative) =
-            self.planetary().map_or((1.0, 1.0), |planetary| (planetary.share, planetary.relative));
-        let mut loads = Vec::new();
-        for part in self.loads_on(shaft) {
-            if let Some(torque) = self.acting(part, TORQUE_OF_LOAD, share / factor)? {
-                loads.push((TORQUE, torque));
-            } else if let Some(power) = self.acting(part, POWER_OF_LOAD, share * relative)? {
-                loads.push((POWER, power));
-            }
-        }
-        if loads.len() > 1 {
-            return Err(format!("{} has several loads", shaft.label()).into());
-        }
-        Ok(loads.pop())
     }
 
     /// A speed or load that is not zero, at the driver. Its text has no sign.
@@ -622,7 +617,7 @@ impl<'m> Pair<'m> {
         let acting = self.value(part, source)?.filter(|reading| reading.value != 0.0);
         Ok(acting.map(|own| {
             let text = own.text.trim_start_matches(['-', '+']).to_owned();
-            if (factor - 1.0).abs() < f64::EPSILON {
+            if (factor - 1.0).abs() < 1e-12 {
                 return Reading { text, ..own };
             }
             let size = Reading { value: own.value.abs(), text, ..own };
@@ -655,10 +650,6 @@ impl<'m> Pair<'m> {
     fn loads_on(&self, shaft: &Node) -> impl Iterator<Item = &'m Node> {
         let parts = self.index.related("assembly", ("assembly", &shaft.id), "part");
         parts.filter(|part| &*part.kind == "external_load")
-    }
-
-    fn has_load(&self, shaft: &Node) -> bool {
-        self.loads_on(shaft).next().is_some()
     }
 }
 
