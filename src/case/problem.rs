@@ -5,7 +5,7 @@ use std::fmt;
 use super::fields::key_of;
 use super::sanitize::sanitize;
 use crate::model::Refusal;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// A problem at one place: the cause and the fix.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -26,8 +26,7 @@ pub(super) const MISSING: &str = "missing";
 pub const NEWER_FORMAT: &str = "newer-format";
 
 /// How to fix a problem.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(from = "String")]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Fix {
     /// Write a value of a field, such as this example in TOML.
     Assign {
@@ -82,6 +81,12 @@ impl<T: Into<String>> From<T> for Fix {
 impl Serialize for Fix {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Fix {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Fix, D::Error> {
+        String::deserialize(deserializer).map(Fix::Text)
     }
 }
 
