@@ -2,6 +2,7 @@
 //! solve, a study and the workbench.
 use crate::budget::drawn;
 use crate::envelope::Random;
+use crate::support::on_all_cores;
 
 use std::collections::BTreeMap;
 
@@ -60,45 +61,54 @@ fn agree(one: &Values, other: &Values, place: &str) -> usize {
     both.map(|(key, value)| assert_eq!(value, &other[key], "{key}: {place}")).count()
 }
 
+/// The values of a case in a solve of the whole table, and how many values of solves of a few
+/// quantities, of studies and of solves with limits agree with them.
+fn of_commands(number: u64, table: &[&'static Quantity]) -> Option<(Values, usize)> {
+    const SELECTIONS: usize = 2;
+    let case = drawn(number);
+    let (method, outcome, whole) = solved(&case, table)?;
+    let inputs = case.inputs().expect("a valid case");
+    let (mut random, mut compared) = (Random::new(77 + number), 0);
+    for _ in 0..SELECTIONS {
+        let only: Vec<&Quantity> = (0..3).map(|_| random.one_of(table)).collect();
+        let keys: Vec<&str> = only.iter().map(|quantity| quantity.key).collect();
+        let place = format!("case {number}, {keys:?}");
+        let (own_method, own_outcome, some) = solved(&case, &only).expect("as the whole");
+        assert_eq!((own_method, own_outcome), (method, outcome), "{place}");
+        compared += agree(&some, &whole, &place);
+        if let Some((studied, found)) = of_study(&inputs, &only) {
+            assert_eq!(studied, outcome, "{place}");
+            compared += agree(&found, &whole, &place);
+        }
+        let mut limited = case.clone();
+        let limit = |quantity: &&Quantity| Limit::new(quantity.key, "1").ok();
+        limited.limits = only.iter().filter_map(limit).collect();
+        let (own_method, own_outcome, plain) = solved(&limited, &[]).expect("as the whole");
+        assert_eq!((own_method, own_outcome), (method, outcome), "{place}");
+        compared += agree(&plain, &whole, &place);
+    }
+    Some((whole, compared))
+}
+
 #[test]
 fn a_quantity_has_one_value_in_every_command() {
     const CASES: u64 = 100;
-    const SELECTIONS: usize = 3;
-    let slow = [Stage::SpeedRun];
-    let table: Vec<&Quantity> =
-        QUANTITIES.iter().filter(|quantity| !slow.contains(&quantity.stage)).collect();
-    let mut random = Random::new(77);
+    let is_quick = |quantity: &&Quantity| quantity.stage != Stage::SpeedRun;
+    let table: Vec<&Quantity> = QUANTITIES.iter().filter(is_quick).collect();
+    let stages = table.iter().map(|quantity| Stages::of(quantity.stage));
+    let wanted = stages.fold(Stages::NONE, Stages::and);
+    let found = on_all_cores(CASES, |number| (number, of_commands(number, &table)));
     let (mut compared, mut evaluator) = (0, Evaluator::default());
-    for number in 0..CASES {
-        let case = drawn(number);
-        let Some((method, outcome, whole)) = solved(&case, &table) else { continue };
-        let inputs = case.inputs().expect("a valid case");
-        for _ in 0..SELECTIONS {
-            let only: Vec<&Quantity> = (0..3).map(|_| random.one_of(&table)).collect();
-            let keys: Vec<&str> = only.iter().map(|quantity| quantity.key).collect();
-            let place = format!("case {number}, {keys:?}");
-            let (own_method, own_outcome, some) = solved(&case, &only).expect("as the whole");
-            assert_eq!((own_method, own_outcome), (method, outcome), "{place}");
-            compared += agree(&some, &whole, &place);
-            if let Some((studied, found)) = of_study(&inputs, &only) {
-                assert_eq!(studied, outcome, "{place}");
-                compared += agree(&found, &whole, &place);
-            }
-            let mut limited = case.clone();
-            let limit = |quantity: &&Quantity| Limit::new(quantity.key, "1").ok();
-            limited.limits = only.iter().filter_map(limit).collect();
-            let (own_method, own_outcome, plain) = solved(&limited, &[]).expect("as the whole");
-            assert_eq!((own_method, own_outcome), (method, outcome), "{place}");
-            compared += agree(&plain, &whole, &place);
-        }
+    for (number, found) in found {
+        let Some((whole, agreed)) = found else { continue };
+        compared += agreed;
         // As the workbench after edits of the form.
-        let wanted =
-            table.iter().fold(Stages::NONE, |all, quantity| all.and(Stages::of(quantity.stage)));
+        let inputs = drawn(number).inputs().expect("a valid case");
         if let Ok(solution) = evaluator.solve(&inputs, inputs.method, wanted, &|_| true) {
-            let own = table
-                .iter()
-                .filter_map(|&quantity| Some((quantity, quantity.finite_value(&solution)?)));
-            compared += agree(&values(own), &whole, &format!("case {number} after others"));
+            let value =
+                |&quantity: &&'static Quantity| Some((quantity, quantity.finite_value(&solution)?));
+            let own = values(table.iter().filter_map(value));
+            compared += agree(&own, &whole, &format!("case {number} after others"));
         }
     }
     assert!(compared > 10_000, "{compared}");

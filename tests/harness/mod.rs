@@ -50,6 +50,8 @@ pub(crate) struct Desk {
     pub(crate) copied: Option<String>,
     pub(crate) kept: Option<Settings>,
     pub(crate) recents: Vec<PathBuf>,
+    /// Whether the focus only passes a field, whose study is not needed.
+    is_passing: bool,
 }
 
 impl Desk {
@@ -89,6 +91,7 @@ impl Desk {
             copied: None,
             kept: None,
             recents: Vec::new(),
+            is_passing: false,
         }
     }
 
@@ -181,6 +184,7 @@ impl Desk {
                     Effect::Work(_, work) if work.slot == Slot::Recents => {
                         show_recents(&mut self.app, &self.recents);
                     }
+                    Effect::Work(_, work) if self.is_passing && work.slot == Slot::Study => (),
                     Effect::Work(number, work) => actions.extend(results(number, work)),
                     Effect::Quit => self.has_quit = true,
                     Effect::Copy(text) => self.copied = Some(text),
@@ -209,10 +213,10 @@ impl Desk {
     /// Goes to a field by its key.
     pub(crate) fn go_to(&mut self, key: &str) -> &mut Desk {
         let field = tipstrike::case::fields::index_of(key).expect("a field of that key");
-        self.keys(&["Ctrl-Home"]);
-        (0..field).for_each(|_| {
-            self.keys(&["Down"]);
-        });
+        for at in 0..=field {
+            self.is_passing = at < field;
+            self.keys(&[if at == 0 { "Ctrl-Home" } else { "Down" }]);
+        }
         assert_eq!(self.app.tab.form.focus, field);
         self
     }

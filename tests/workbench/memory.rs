@@ -17,7 +17,8 @@ fn an_edit_stores_its_difference_and_undo_has_no_limit() {
     const EDITS: usize = 5000;
     let mut desk = Desk::new(SMALL);
     let edit = |desk: &mut Desk, text: &str| {
-        desk.keys(&["Ctrl-U", text, "Down", "Up"]);
+        desk.keys(&["Ctrl-U"]).act(Action::Paste(text.to_owned()));
+        desk.keys(&["Down", "Up"]);
     };
     edit(&mut desk, "6 mm");
     let bytes = kept(EDITS, |number| {
