@@ -605,7 +605,8 @@ pub fn relief_chart(all: &Reliefs, geometry: &Geometry, off: Off) -> Result<Char
         let pieces = vec![curve(at, 0.0)];
         Series { name: name(at).to_owned(), pieces, kind: Kind::Curve }
     });
-    let has_band = |at: &usize| off[*at] > 0.0 || off[2 + at] > 0.0;
+    let tips = [all.driver.tip, all.driven.tip];
+    let has_band = |at: &usize| tips[*at] > 0.0 && off[*at].max(off[2 + at]) > 0.0;
     let bands = (0..2).filter(has_band).map(|at| {
         let pieces = vec![curve(at, 1.0), curve(at, -1.0)];
         Series { name: format!("{}, tolerance", name(at)), pieces, kind: Kind::Bound }
@@ -646,4 +647,29 @@ fn percent(part: f64) -> String {
 /// A change in percent.
 fn change(from: f64, to: f64) -> String {
     format!("{:+.0} %", 100.0 * (to / from - 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Stage, Stages, solve};
+
+    #[test]
+    fn a_relief_with_tolerances_has_a_band_around_its_curve() {
+        let mut case = Case::table_1();
+        for (key, text) in [("driven.tip_relief", "40 um"), ("driven.tip_relief_length", "5 mm")] {
+            case.set(key, text).unwrap();
+        }
+        let inputs = case.inputs().unwrap();
+        let geometry = solve(&inputs, Stages::of(Stage::Geometry)).unwrap().geometry;
+        let chart = relief_chart(&inputs.reliefs(), &geometry, [6e-6, 6e-6, 0.0, 1e-4]).unwrap();
+        let [_, driven, band] = &chart.series[..] else { panic!("{:?}", chart.series) };
+        let [greater, smaller] = &band.pieces[..] else { panic!("{band:?}") };
+        for (at, own) in driven.pieces[0].iter().enumerate() {
+            assert!(greater[at].1 <= own.1 && own.1 <= smaller[at].1, "{own:?}");
+        }
+        // The tip is at the start of the path.
+        assert!((driven.pieces[0][0].1 + 40.0).abs() < 1e-9, "{:?}", driven.pieces[0][0]);
+        assert!((greater[0].1 + 46.0).abs() < 1e-9 && (smaller[0].1 + 34.0).abs() < 1e-9);
+    }
 }
