@@ -35,22 +35,13 @@ impl Standing {
     /// The name for scripts.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Standing::Within => "within",
-            Standing::Exceeded => "exceeded",
-            Standing::NotApplicable => "not-applicable",
-            Standing::Unknown => "unknown",
-        }
+        ["within", "exceeded", "not-applicable", "unknown"][self as usize]
     }
 
     /// The word in front of a verdict.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            Standing::Within | Standing::NotApplicable => "ok",
-            Standing::Exceeded => "EXCEEDED",
-            Standing::Unknown => "unknown",
-        }
+        ["ok", "EXCEEDED", "ok", "unknown"][self as usize]
     }
 }
 
