@@ -63,6 +63,27 @@ fn the_formats_of_a_relief_agree_and_the_chosen_relief_solves_without_contact() 
 }
 
 #[test]
+fn a_relief_over_the_face_has_a_crowning_and_is_drawn_with_its_tolerances() {
+    let search = format!(
+        "relief {TABLE_1} --set 'pair.helix_angle=12 deg' --set model.slices=9 --load 100% --set \
+         model.tooth_compliance=kuang-yang --misalignment '6 um' --minimise peak"
+    );
+    let text = stdout_of(&words(&search));
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    for stated in ["misalignment +-6 um", "  crowning C_b, um", "peak line load, N/mm"] {
+        assert!(text.contains(stated), "{stated}: {text}");
+    }
+    let json = &lines(&stdout_of(&words(&format!("{search} --format json"))))[0];
+    assert_eq!((&json["method"], &json["misalignment"]), (&"static".into(), &6e-6.into()));
+    assert!(json["relief"]["driver"]["crowning"].as_f64().unwrap() > 0.0, "{json}");
+    assert!(json["choices"][0]["worst_peak_line_load"].as_f64().unwrap() > 1e5, "{json}");
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("relief.svg");
+    stdout_of(&words(&format!("{search} --out {}", picture.display())));
+    assert!(fs::read_to_string(picture).unwrap().contains("driven gear, tolerance"));
+}
+
+#[test]
 fn a_bad_option_of_a_relief_gets_its_fix() {
     for (option, value) in [
         ("--tolerance", "-5 um"),
