@@ -29,6 +29,7 @@ fn pictures(criterion: &mut Criterion) {
             inputs: &inputs,
             solution: &solution,
             cursor: None,
+            z: 0.0,
             view: &view,
             look: Look::FULL,
             marker: Marker::Braille,

@@ -107,6 +107,6 @@ fn picture(table: &Table) -> String {
         across: axis("time of a whole solve", |point| point.0, power_of_time),
         up: axis(up, |point| point.1, |error| format!("{error:.0e}")),
         series,
-        marks: Vec::new(),
+        ..Chart::default()
     })
 }

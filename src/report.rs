@@ -13,6 +13,7 @@ pub mod graphs;
 pub mod json;
 mod layout;
 pub mod page;
+pub mod pattern;
 pub mod pictures;
 pub mod relief;
 pub mod results;

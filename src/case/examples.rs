@@ -28,6 +28,7 @@ pub static EXAMPLES: &[Example] = examples![
     "hydro-speed-up",
     "mill-coarse-slow",
     "turbo-fine-fast",
+    "helical-20-35",
 ];
 
 impl Example {

@@ -161,7 +161,7 @@ impl FaceInputs {
 
     /// z of about `count` slices: both ends of the face, the places where an end relief begins, and
     /// even steps between them.
-    pub(super) fn places(&self, count: usize) -> Vec<f64> {
+    pub fn places(&self, count: usize) -> Vec<f64> {
         let (first, last) = (-0.5 * self.width, 0.5 * self.width);
         let begins = self.flanks.iter().flat_map(|flank| {
             let inner = 0.5 * flank.width - flank.end_relief_length;
@@ -186,7 +186,7 @@ impl FaceInputs {
 
     /// Number of slices: that of the case, or so many that the shares of the load are within 0.1 %,
     /// with two slices in a coupling length.
-    pub(super) fn count(&self, base_pitch: f64) -> usize {
+    pub fn count(&self, base_pitch: f64) -> usize {
         /// Overlap ratio, slices and coupling lengths of the usual number.
         const LEAST: usize = 33;
         const PER_PITCH: f64 = 24.0;

@@ -16,6 +16,36 @@ pub struct Chart {
     pub series: Vec<Series>,
     /// Marks on the horizontal axis, with their names.
     pub marks: Vec<(f64, &'static str)>,
+    /// Values over both axes, below the curves.
+    pub map: Option<Map>,
+}
+
+/// Values over both axes in shaded cells.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Map {
+    /// The quantity of the values.
+    pub value: Axis,
+    /// The places of the cells on the horizontal and on the vertical axis, in rising order.
+    pub places: [Vec<f64>; 2],
+    /// The cells, row by row from the lowest place.
+    pub cells: Vec<Cell>,
+    /// The least and the greatest value, with their texts, if there are values.
+    pub ends: Option<[(f64, String); 2]>,
+    /// The value of a contour, with its text.
+    pub limit: Option<(f64, String)>,
+}
+
+/// A cell of a map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cell {
+    /// No value.
+    Blank,
+    /// A value.
+    Value(f64),
+    /// No corner contact.
+    NoContact,
+    /// A point that the model refuses.
+    Refused,
 }
 
 /// The quantity of an axis.
@@ -88,6 +118,12 @@ impl Chart {
     /// The ranges of both axes.
     #[must_use]
     pub fn spans(&self) -> (Span, Span) {
+        if let Some(map) = &self.map {
+            let half = |span: Span| if span.is_empty() { 0.5 } else { 0.0 };
+            let [across, up] =
+                map.spans().map(|span| Span::new(span.from - half(span), span.to + half(span)));
+            return (across, up);
+        }
         let points = || self.series.iter().flat_map(|series| series.pieces.iter().flatten());
         let has_bars = self.has_bars();
         let marks = Span::of(self.marks.iter().map(|mark| mark.0));
@@ -110,11 +146,62 @@ impl Chart {
         self.series.iter().any(|series| series.kind == Kind::Bars)
     }
 
-    /// The quantities of both axes as a title.
+    /// The quantities of the axes as a title.
     #[must_use]
     pub fn quantities(&self) -> String {
-        format!("{} over {}", self.up.in_unit(), self.across.in_unit())
+        let [across, up] = [&self.across, &self.up].map(Axis::in_unit);
+        match &self.map {
+            Some(map) => format!("{} over {across} and {up}", map.value.in_unit()),
+            None => format!("{up} over {across}"),
+        }
     }
+}
+
+impl Map {
+    /// The cell nearest to a point.
+    #[must_use]
+    pub fn at(&self, x: f64, y: f64) -> Cell {
+        let [column, row] =
+            [(0, x), (1, y)].map(|(axis, place)| nearest(&self.places[axis], place));
+        self.cells.get(row * self.places[0].len() + column).copied().unwrap_or(Cell::Blank)
+    }
+
+    /// The shade of a value, of so many.
+    #[must_use]
+    pub fn level(&self, value: f64, shades: usize) -> usize {
+        let span =
+            self.ends.as_ref().map_or(Span::NONE, |[least, most]| Span::new(least.0, most.0));
+        let part = if span.is_empty() { 0.5 } else { span.part(value) };
+        ((part * shades as f64) as usize).min(shades - 1)
+    }
+
+    /// Whether the value exceeds the limit.
+    #[must_use]
+    pub fn is_above(&self, cell: Cell) -> bool {
+        let limit = self.limit.as_ref().map(|limit| limit.0);
+        matches!((cell, limit), (Cell::Value(value), Some(limit)) if value > limit)
+    }
+
+    /// The ranges of both axes.
+    fn spans(&self) -> [Span; 2] {
+        [0, 1].map(|axis| Span::of(self.places[axis].iter().copied()))
+    }
+}
+
+impl Cell {
+    /// Whether the teeth touch before E.
+    #[must_use]
+    pub fn is_contact(self) -> bool {
+        matches!(self, Cell::Blank | Cell::Value(_))
+    }
+}
+
+/// The index of the number nearest to a place, in rising numbers.
+#[must_use]
+pub fn nearest(places: &[f64], place: f64) -> usize {
+    let after = places.partition_point(|other| *other < place).min(places.len().max(1) - 1);
+    let is_before = after > 0 && place - places[after - 1] < places[after] - place;
+    after - usize::from(is_before)
 }
 
 impl Axis {
@@ -200,6 +287,18 @@ impl Span {
     #[must_use]
     pub fn length(self) -> f64 {
         self.to - self.from
+    }
+
+    /// The range times a factor above 0.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Span {
+        Span { from: factor * self.from, to: factor * self.to }
+    }
+
+    /// The range shifted by a length.
+    #[must_use]
+    pub fn shifted(self, by: f64) -> Span {
+        Span { from: self.from + by, to: self.to + by }
     }
 
     /// Whether the range is empty or a single point.

@@ -216,7 +216,7 @@ pub fn chart_of_spectra(all: NamedSpectra) -> Chart {
         across: Axis::new("harmonic of the mesh frequency", ""),
         up: Axis::new("Transmission error, amplitude", "um"),
         series: bars.collect(),
-        marks: Vec::new(),
+        ..Chart::default()
     }
 }
 
@@ -258,6 +258,7 @@ pub fn speed_chart(curves: &[(&str, &SpeedCurve)]) -> Result<Chart, String> {
             [(_, only)] => resonance_marks(only),
             _ => Vec::new(),
         },
+        ..Chart::default()
     })
 }
 
@@ -368,6 +369,7 @@ pub fn tooth_chart(gear: usize, flanks: &Flanks, own: ToothCompliance) -> Result
         up: Axis::new(format!("Tooth compliance q of the {name}"), "um mm/N"),
         series: all,
         marks: vec![(found.pitch_radius / MILLIMETRE, "C")],
+        ..Chart::default()
     })
 }
 

@@ -150,14 +150,14 @@ impl<'a> Page<'a> {
         // A picture of one case is drawn once for each.
         let drawn = |picture: Picture| -> Vec<String> {
             let sets: Vec<&[NamedCase]> =
-                if picture.is_of_one_case() { cases.chunks(1).collect() } else { vec![&cases[..]] };
+                if picture.is_of_one_case { cases.chunks(1).collect() } else { vec![&cases[..]] };
             sets.into_iter().filter_map(|cases| picture.draw(cases).ok()).collect()
         };
         let is_main = |picture: &Picture| MAIN_PICTURES.contains(&picture.key);
         let mut charts: Vec<String> =
             MAIN_PICTURES.iter().filter_map(|key| find(key)).flat_map(drawn).collect();
         let mut further = charts.split_off(charts.len().min(ON_FIRST_SHEET));
-        let others = pictures().filter(|picture| picture.is_on_page() && !is_main(picture));
+        let others = pictures().filter(|picture| picture.is_on_page && !is_main(picture));
         for picture in others {
             let is_first = picture.key == "teeth" && self.is_single();
             let place = if is_first { &mut charts } else { &mut further };

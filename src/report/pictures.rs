@@ -2,24 +2,27 @@
 
 use std::fmt;
 
+use super::chart::Chart;
 use super::charts::{
     NamedCase, SPECTRUM, SPEED, TOOTH_KEYS, graph_chart, spectrum_chart, speed_chart, tooth_chart,
 };
 use super::graphs::{GRAPHS, Graph};
+use super::pattern::{PATTERN, pattern_chart};
 use super::relief::{RELIEF, relief_chart, tolerances};
-use super::solve::{Part, Unsolved};
-use super::svg;
+use super::solve::{Part, Subject, Unsolved};
+use super::{Report, svg};
 use crate::model::Refusal;
 use crate::model::compliance::model_of;
 
 /// The pictures that are not charts of [`GRAPHS`]; they follow those charts.
-const OTHERS: [Picture; 6] = [
-    Picture { key: TOOTH_KEYS[0], drawing: Drawing::ToothCompliance(0) },
-    Picture { key: TOOTH_KEYS[1], drawing: Drawing::ToothCompliance(1) },
-    Picture { key: SPECTRUM, drawing: Drawing::Spectrum },
-    Picture { key: SPEED, drawing: Drawing::Speed },
-    Picture { key: RELIEF, drawing: Drawing::Relief },
-    Picture { key: "teeth", drawing: Drawing::Teeth },
+const OTHERS: [Picture; 7] = [
+    Picture { is_on_page: false, ..of_one(TOOTH_KEYS[0], Part::Flanks, |cases| tooth(0, cases)) },
+    Picture { is_on_page: false, ..of_one(TOOTH_KEYS[1], Part::Flanks, |cases| tooth(1, cases)) },
+    Picture { is_of_one_case: false, ..of_one(SPECTRUM, Part::Stations, spectrum) },
+    Picture { is_of_one_case: false, ..of_one(SPEED, Part::Speeds, speed) },
+    of_one(RELIEF, Part::Stations, reliefs),
+    of_one(PATTERN, Part::Stations, pattern),
+    of_one("teeth", Part::Stations, teeth),
 ];
 
 /// A picture of solved cases.
@@ -27,18 +30,71 @@ const OTHERS: [Picture; 6] = [
 pub struct Picture {
     /// The key, as in `plot --chart`.
     pub key: &'static str,
+    /// The results that the picture shows.
+    pub part: Part,
+    /// Whether each case has a separate picture.
+    pub is_of_one_case: bool,
+    /// Whether the page of a report includes the picture.
+    pub is_on_page: bool,
     drawing: Drawing,
 }
+
+/// The SVG of solved cases.
+type Draw = fn(&[NamedCase]) -> Result<String, String>;
 
 #[derive(Debug, Clone, Copy)]
 enum Drawing {
     Graph(&'static Graph),
-    /// The driver (0) or the driven gear (1).
-    ToothCompliance(usize),
-    Spectrum,
-    Speed,
-    Relief,
-    Teeth,
+    Other(Draw),
+}
+
+const fn of_one(key: &'static str, part: Part, draw: Draw) -> Picture {
+    let drawing = Drawing::Other(draw);
+    Picture { key, part, is_of_one_case: true, is_on_page: true, drawing }
+}
+
+fn first<'a>(cases: &[NamedCase<'a>]) -> Result<(&'a Subject, &'a Report), String> {
+    let case = cases.first().map(|(_, case)| *case);
+    case.and_then(|case| Some((case, case.own()?))).ok_or_else(|| "no case is solved".to_owned())
+}
+
+fn tooth(gear: usize, cases: &[NamedCase]) -> Result<String, String> {
+    let (case, report) = first(cases)?;
+    match &case.flanks {
+        Some(Ok(flanks)) => tooth_chart(gear, flanks, model_of(&report.inputs)).map(draw),
+        Some(Err(refusal)) => Err(refusal.to_string()),
+        None => Err("it is not computed".to_owned()),
+    }
+}
+
+fn spectrum(cases: &[NamedCase]) -> Result<String, String> {
+    spectrum_chart(cases).map(draw)
+}
+
+fn speed(cases: &[NamedCase]) -> Result<String, String> {
+    let named = cases.iter().filter_map(|(name, case)| Some((*name, case.speeds.as_ref()?)));
+    speed_chart(&named.collect::<Vec<_>>()).map(draw)
+}
+
+fn reliefs(cases: &[NamedCase]) -> Result<String, String> {
+    let (_, report) = first(cases)?;
+    let (reliefs, geometry) = (report.inputs.reliefs(), &report.solution.geometry);
+    relief_chart(&reliefs, geometry, tolerances(&report.case)).map(draw)
+}
+
+fn pattern(cases: &[NamedCase]) -> Result<String, String> {
+    let (case, report) = first(cases)?;
+    let solutions = case.reports.iter().map(|report| &report.solution);
+    pattern_chart(&report.inputs, &solutions.collect::<Vec<_>>()).map(draw)
+}
+
+fn teeth(cases: &[NamedCase]) -> Result<String, String> {
+    let (_, report) = first(cases)?;
+    Ok(svg::teeth::teeth(&report.inputs, &report.solution))
+}
+
+fn draw(chart: Chart) -> String {
+    svg::draw(&chart)
 }
 
 /// Why there is no picture.
@@ -52,7 +108,13 @@ pub enum NoPicture {
 
 /// Every picture: the charts of the stations, the charts with their own axes, the teeth.
 pub fn pictures() -> impl Iterator<Item = Picture> + Clone {
-    let graph = |graph: &'static Graph| Picture { key: graph.key, drawing: Drawing::Graph(graph) };
+    let graph = |graph: &'static Graph| Picture {
+        key: graph.key,
+        part: if graph.by_model.is_some() { Part::Path } else { Part::Stations },
+        is_of_one_case: false,
+        is_on_page: graph.is_on_page,
+        drawing: Drawing::Graph(graph),
+    };
     GRAPHS.iter().map(graph).chain(OTHERS)
 }
 
@@ -63,71 +125,15 @@ pub fn find(key: &str) -> Option<Picture> {
 }
 
 impl Picture {
-    /// Whether the page of a report includes the picture.
-    #[must_use]
-    pub fn is_on_page(self) -> bool {
-        match self.drawing {
-            Drawing::Graph(graph) => graph.is_on_page,
-            Drawing::ToothCompliance(_) => false,
-            Drawing::Spectrum | Drawing::Speed | Drawing::Relief | Drawing::Teeth => true,
-        }
-    }
-
-    /// The results that the picture shows.
-    #[must_use]
-    pub fn part(self) -> Part {
-        match self.drawing {
-            Drawing::Graph(Graph { by_model: Some(_), .. }) => Part::Path,
-            Drawing::ToothCompliance(_) => Part::Flanks,
-            Drawing::Speed => Part::Speeds,
-            Drawing::Graph(_) | Drawing::Spectrum | Drawing::Relief | Drawing::Teeth => {
-                Part::Stations
-            }
-        }
-    }
-
-    /// Whether each case has a separate picture.
-    #[must_use]
-    pub fn is_of_one_case(self) -> bool {
-        matches!(self.drawing, Drawing::Teeth | Drawing::Relief | Drawing::ToothCompliance(_))
-    }
-
     /// Draws solved cases; a picture of one case draws the first.
     ///
     /// # Errors
     /// The reason if no case has values for the picture.
     pub fn draw(self, cases: &[NamedCase]) -> Result<String, String> {
-        let first = || {
-            let case = cases.first().map(|(_, case)| *case);
-            case.and_then(|case| Some((case, case.own()?))).ok_or("no case is solved")
-        };
-        let chart = match self.drawing {
-            Drawing::Graph(graph) => graph_chart(graph, cases),
-            Drawing::ToothCompliance(gear) => {
-                let (case, report) = first()?;
-                match &case.flanks {
-                    Some(Ok(flanks)) => tooth_chart(gear, flanks, model_of(&report.inputs)),
-                    Some(Err(refusal)) => Err(refusal.to_string()),
-                    None => Err("it is not computed".to_owned()),
-                }
-            }
-            Drawing::Spectrum => spectrum_chart(cases),
-            Drawing::Speed => {
-                let named =
-                    cases.iter().filter_map(|(name, case)| Some((*name, case.speeds.as_ref()?)));
-                speed_chart(&named.collect::<Vec<_>>())
-            }
-            Drawing::Relief => {
-                let (_, report) = first()?;
-                let reliefs = report.inputs.reliefs();
-                relief_chart(&reliefs, &report.solution.geometry, tolerances(&report.case))
-            }
-            Drawing::Teeth => {
-                let (_, report) = first()?;
-                return Ok(svg::teeth::teeth(&report.inputs, &report.solution));
-            }
-        };
-        chart.map(|chart| svg::draw(&chart))
+        match self.drawing {
+            Drawing::Graph(graph) => graph_chart(graph, cases).map(draw),
+            Drawing::Other(draw) => draw(cases),
+        }
     }
 
     /// Solves a case and draws it. `go_on` receives the number of computed parts and their total,
@@ -140,9 +146,8 @@ impl Picture {
         source: Unsolved<'_>,
         go_on: &dyn Fn(usize, usize) -> bool,
     ) -> Result<String, NoPicture> {
-        let part = self.part();
-        let fix = if part == Part::Speeds { "" } else { ": choose another chart" };
-        self.draw(&[("", &source.part(part, go_on)?)])
+        let fix = if self.part == Part::Speeds { "" } else { ": choose another chart" };
+        self.draw(&[("", &source.part(self.part, go_on)?)])
             .map_err(|reason| NoPicture::Absent(format!("{self} has no curve: {reason}{fix}")))
     }
 }
@@ -150,9 +155,9 @@ impl Picture {
 /// The name of the picture in a sentence.
 impl fmt::Display for Picture {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.drawing {
-            Drawing::Teeth => f.write_str("the teeth"),
-            _ => write!(f, "the chart {}", self.key),
+        match self.key {
+            "teeth" => f.write_str("the teeth"),
+            key => write!(f, "the chart {key}"),
         }
     }
 }

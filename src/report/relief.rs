@@ -616,7 +616,7 @@ pub fn relief_chart(all: &Reliefs, geometry: &Geometry, off: Off) -> Result<Char
         across: Axis::new("roll angle of the gear", "deg"),
         up: Axis::new("Deviation from the involute", "um"),
         series: series.into_iter().chain(bands).collect(),
-        marks: Vec::new(),
+        ..Chart::default()
     })
 }
 

@@ -4,8 +4,9 @@
 pub mod teeth;
 
 use std::fmt::Write;
+use std::ops::Range;
 
-use super::chart::{Axis, Chart, Kind, Point, Series, Span};
+use super::chart::{Axis, Cell, Chart, Kind, Map, Point, Series, Span};
 use crate::case::sanitize::sanitize;
 
 /// Half the width of a printed page shows letters of about 7 pt.
@@ -25,11 +26,14 @@ const MOST_LETTERS: usize = 43;
 /// Draws the chart.
 #[must_use]
 pub fn draw(chart: &Chart) -> String {
-    let names: Vec<String> = chart.series.iter().map(|series| cut(&series.name)).collect();
-    let places = places(&names);
+    let legend: Vec<(Symbol, String)> = legend(chart);
+    let places = places(legend.iter().map(|(_, name)| name.as_str()));
     let lines = places.last().map_or(0.0, |(_, y)| y - LEGEND + LINE);
     let spans = chart.spans();
     let mut text = frame(chart, LEGEND + lines);
+    if let Some(map) = &chart.map {
+        draw_map(&mut text, map, spans);
+    }
     grid(&mut text, chart, spans);
     // Single marks are below the curves.
     let is_mark = |series: &Series| matches!(series.kind, Kind::Marks(_));
@@ -39,26 +43,117 @@ pub fn draw(chart: &Chart) -> String {
     for (at, series) in below.into_iter().chain(above) {
         draw_series(&mut text, series, (at, chart.series.len()), place);
     }
-    for (at, ((series, name), (x, y))) in chart.series.iter().zip(&names).zip(places).enumerate() {
-        let (look, middle, beside) = (at % LOOKS.len(), y - 5.0, x + 38.0);
-        let symbol = match series.kind {
-            Kind::Curve => format!("<path d=\"M{x} {middle}h30\" class=\"curve s{look}\"/>"),
-            Kind::Bound => format!("<path d=\"M{x} {middle}h30\" class=\"bound\"/>"),
-            Kind::Bars => {
+    for ((symbol, name), (x, y)) in legend.into_iter().zip(places) {
+        let (middle, beside) = (y - 5.0, x + 38.0);
+        let symbol = match symbol {
+            Symbol::Of(Kind::Curve, look) => {
+                format!("<path d=\"M{x} {middle}h30\" class=\"curve s{look}\"/>")
+            }
+            Symbol::Of(Kind::Bound, _) => {
+                format!("<path d=\"M{x} {middle}h30\" class=\"bound\"/>")
+            }
+            Symbol::Of(Kind::Bars, look) => {
                 let (x, y) = (x + 8.0, middle - 6.0);
                 format!("<rect x=\"{x}\" y=\"{y}\" width=\"14\" height=\"12\" class=\"f{look}\"/>")
             }
-            Kind::Marks(_) => {
+            Symbol::Of(Kind::Marks(_), look) => {
                 let (shape, x) = (LOOKS[look], x + 15.0);
                 format!(
                     "<path d=\"{shape}\" transform=\"translate({x} {middle})\" class=\"f{look}\"/>"
                 )
             }
+            Symbol::Shades(shades) => {
+                let (width, top) = (32.0 / shades.len() as f64, middle - 6.0);
+                let shade = |(at, shade): (usize, usize)| {
+                    let x = x + width * at as f64;
+                    format!(
+                        "<path d=\"M{x:.1} {top}h{width:.1}v12h-{width:.1}z\" class=\"m{shade}\"/>"
+                    )
+                };
+                shades.enumerate().map(shade).collect()
+            }
         };
-        let name = escaped(name);
+        let name = escaped(&name);
         let _ = writeln!(text, "{symbol}<text x=\"{beside}\" y=\"{y}\">{name}</text>");
     }
     text + "</svg>\n"
+}
+
+/// A symbol of the legend: of a series with its look, or shades of a map.
+enum Symbol {
+    Of(Kind, usize),
+    Shades(Range<usize>),
+}
+
+fn legend(chart: &Chart) -> Vec<(Symbol, String)> {
+    let mut legend = Vec::new();
+    if let Some(map) = &chart.map {
+        let ends = map.ends.as_ref().map(|[least, most]| format!("{} to {}", least.1, most.1));
+        let limit = map.limit.as_ref().map(|limit| limit.1.clone());
+        let has = |cell: Cell, name: &str| map.cells.contains(&cell).then(|| name.to_owned());
+        let parts = [
+            (Symbol::Shades(0..SHADES.len() - 2), ends),
+            (Symbol::Of(Kind::Bound, 0), limit),
+            (Symbol::Shades(NO_CONTACT..NO_CONTACT + 1), has(Cell::NoContact, "no contact")),
+            (Symbol::Shades(REFUSED..REFUSED + 1), has(Cell::Refused, "refused")),
+        ];
+        legend.extend(parts.into_iter().filter_map(|(symbol, name)| Some((symbol, name?))));
+    }
+    let series = chart.series.iter().enumerate();
+    let series =
+        series.map(|(at, series)| (Symbol::Of(series.kind, at % LOOKS.len()), cut(&series.name)));
+    legend.extend(series);
+    legend
+}
+
+/// Draws the cells of a map, in each row the cells of one shade as one rectangle, and the contour of
+/// the limit.
+fn draw_map(text: &mut String, map: &Map, (across, up): (Span, Span)) {
+    let [xs, ys] = [(0, across), (1, up)].map(|(axis, span)| {
+        let places = &map.places[axis];
+        let inner = places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1]));
+        let ends = std::iter::once(span.from).chain(inner).chain([span.to]);
+        ends.map(|value| if axis == 0 { horizontal(span, value) } else { vertical(span, value) })
+            .collect::<Vec<f64>>()
+    });
+    let shade = |cell: Cell| match cell {
+        Cell::Blank => None,
+        Cell::Value(value) => Some(map.level(value, SHADES.len() - 2)),
+        Cell::NoContact => Some(NO_CONTACT),
+        Cell::Refused => Some(REFUSED),
+    };
+    let mut areas = vec![String::new(); SHADES.len()];
+    let mut contour = String::new();
+    let rows: Vec<&[Cell]> = map.cells.chunks(map.places[0].len().max(1)).collect();
+    for (row, cells) in rows.iter().enumerate() {
+        let (bottom, top, mut from) = (ys[row], ys[row + 1], 0);
+        for run in cells.chunk_by(|one, next| shade(*one) == shade(*next)) {
+            let (left, right) = (xs[from], xs[from + run.len()]);
+            if let Some(shade) = shade(run[0]) {
+                let _ =
+                    write!(areas[shade], "M{left:.1} {bottom:.1}H{right:.1}V{top:.1}H{left:.1}z");
+            }
+            from += run.len();
+        }
+        let is_edge = |one: Cell, next: Option<&Cell>| {
+            next.is_some_and(|next| map.is_above(one) != map.is_above(*next))
+        };
+        for (at, cell) in cells.iter().enumerate() {
+            let (left, right) = (xs[at], xs[at + 1]);
+            if is_edge(*cell, cells.get(at + 1)) {
+                let _ = write!(contour, "M{right:.1} {bottom:.1}V{top:.1}");
+            }
+            if is_edge(*cell, rows.get(row + 1).and_then(|next| next.get(at))) {
+                let _ = write!(contour, "M{left:.1} {top:.1}H{right:.1}");
+            }
+        }
+    }
+    for (shade, area) in areas.iter().enumerate().filter(|(_, area)| !area.is_empty()) {
+        let _ = writeln!(text, "<path d=\"{area}\" class=\"m{shade}\"/>");
+    }
+    if !contour.is_empty() {
+        let _ = writeln!(text, "<path d=\"{contour}\" class=\"bound\"/>");
+    }
 }
 
 fn horizontal(span: Span, value: f64) -> f64 {
@@ -200,7 +295,7 @@ fn draw_series(
 }
 
 /// The positions of the names in the legend, in rows.
-fn places(names: &[String]) -> Vec<Point> {
+fn places<'a>(names: impl Iterator<Item = &'a str>) -> Vec<Point> {
     let (mut x, mut y) = (FIELD.0, LEGEND);
     let mut places = Vec::new();
     for name in names {
@@ -241,6 +336,14 @@ const COLOURS: [(&str, &str, &str); LOOKS.len()] = [
     ("#555", "#bbb", "2 4"),
 ];
 
+/// The colours of the shades of a map, then of no contact and of a refused point.
+const SHADES: [&str; 10] = [
+    "#fff0b3", "#fedd86", "#fec458", "#fda637", "#f58220", "#df5f14", "#b9420a", "#7d2a05",
+    "#9aa4ad", "#444c55",
+];
+const NO_CONTACT: usize = SHADES.len() - 2;
+const REFUSED: usize = SHADES.len() - 1;
+
 /// The rules of the style sheet of every picture: the class, its style, and its style in the dark.
 const RULES: [(&str, &str, &str); 13] = [
     ("", "font:15px 'DejaVu Sans',Helvetica,Arial,sans-serif;fill:#222", "fill:#ddd"),
@@ -272,6 +375,9 @@ fn style() -> String {
         }
         let _ = write!(dark, ".tipstrike .s{at}{{stroke:{own_dark}}}");
     }
+    for (at, colour) in SHADES.into_iter().enumerate() {
+        let _ = write!(light, ".tipstrike .m{at}{{fill:{colour}}}");
+    }
     for (class, own, own_dark) in RULES {
         let _ = write!(light, ".tipstrike{class}{{{own}}}");
         if !own_dark.is_empty() {
@@ -301,6 +407,7 @@ mod tests {
             up: Axis::new("y", "N"),
             series: vec![Series { name: "exact & <co>".to_owned(), pieces: vec![points], kind }],
             marks: vec![(0.0, "E"), (0.001, "D")],
+            ..Chart::default()
         })
     }
 
@@ -341,7 +448,7 @@ mod tests {
     #[test]
     fn a_long_legend_takes_more_lines() {
         let name = "a name of forty letters in the legend....".to_owned();
-        let places = places(&vec![name; 4]);
+        let places = places(std::iter::repeat_n(name.as_str(), 4));
         assert!(places.windows(2).all(|pair| pair[0] != pair[1]));
         assert!(places[3].1 > places[0].1);
     }

@@ -166,7 +166,7 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
         across: Axis { labels, ..Axis::new(label(key), across_unit) },
         up: Axis::new(up, units::named(unit)),
         series,
-        marks: Vec::new(),
+        ..Chart::default()
     })
 }
 

@@ -92,8 +92,6 @@ pub struct Scene {
     pub lines: Vec<(Ink, Vec<Point2<f64>>)>,
     /// Points with a name, the most important first.
     pub points: Vec<(&'static str, Point2<f64>)>,
-    /// Where the line of action leaves the window towards a hidden point of tangency.
-    pub exits: Vec<(&'static str, Point2<f64>)>,
     /// The contacts of two flanks.
     pub contacts: Vec<Point2<f64>>,
 }
@@ -133,7 +131,6 @@ impl Scene {
         Scene {
             lines,
             points: points(inputs, solution),
-            exits: exits(solution, window),
             contacts: moment.map_or_else(Vec::new, |moment| contacts(solution, moment)),
         }
     }
@@ -243,18 +240,6 @@ fn points(inputs: &Inputs, solution: &Solution) -> Vec<(&'static str, Point2<f64
         ("O2", Point2::new(geometry.centre_distance, 0.0)),
     ]);
     points
-}
-
-fn exits(solution: &Solution, window: &Window) -> Vec<(&'static str, Point2<f64>)> {
-    let geometry = &solution.geometry;
-    let (first, second) = (driver_tangent_point(geometry), driven_tangent_point(geometry));
-    let Some((from, to)) = window.clip(first, second) else {
-        return Vec::new();
-    };
-    let inward = 1e-9 * (to - from);
-    let ends = [("to N1", first, from + inward), ("to N2", second, to - inward)];
-    let hidden = ends.into_iter().filter(|(_, end, _)| !window.sees(*end));
-    hidden.map(|(name, _, part)| (name, first + (second - first) * part)).collect()
 }
 
 /// The contact points: of the incoming pair from the first contact on, and of the pairs ahead of

@@ -195,14 +195,24 @@ fn by_compliance(trade: &Trade) -> Vec<String> {
         with 64 stations and tolerance 1e-6. >: the compliance of the case.";
     let current = trade.settings.iter().find(|measured| measured.is_current);
     let own = current.and_then(|current| taken(current).models);
+    [item("", title), compliance_table(trade, own, '>', Cell::to_string).lines()].concat()
+}
+
+/// The table of compliances and methods, with a mark before the compliance of the case.
+pub fn compliance_table(
+    trade: &Trade,
+    own: Option<StiffnessModels>,
+    mark: char,
+    text: impl Fn(&Cell) -> String,
+) -> Table {
     let head = METHODS.iter().map(|method| method.name().to_owned());
     let head = std::iter::once(String::new()).chain(head).collect();
     let rows = compliances(trade).into_iter().map(|(models, cells)| {
-        let mark = if own == Some(models) { '>' } else { ' ' };
-        let cells = cells.map(|cell| cell.map_or_else(String::new, |cell| cell.to_string()));
+        let mark = if own == Some(models) { mark } else { ' ' };
+        let cells = cells.map(|cell| cell.as_ref().map_or_else(String::new, &text));
         [format!("{mark} {}", compliance_name(models))].into_iter().chain(cells).collect()
     });
-    [item("", title), Table::of_texts(head, rows).lines()].concat()
+    Table::of_texts(head, rows)
 }
 
 /// Time and differences of each number of slices, coupled and independent.
@@ -235,7 +245,7 @@ fn by_slices(trade: &Trade) -> Vec<String> {
 }
 
 /// The models of tooth and contact in at most 22 characters.
-pub fn compliance_name(models: StiffnessModels) -> String {
+fn compliance_name(models: StiffnessModels) -> String {
     let contact = models.contact.map(|contact| format!(" {}", contact.name()));
     models.tooth.name().to_owned() + &contact.unwrap_or_default()
 }

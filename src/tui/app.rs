@@ -222,7 +222,8 @@ impl App {
 
     fn place_of_pane(&self) -> Place {
         match self.layout.focus() {
-            Pane::Chart if self.chart.worker_chart().is_some() => Place::WORKER_CHART,
+            Pane::Chart if self.chart.is_pattern() => Place::CHART.or(Place::PATTERN),
+            Pane::Chart if self.chart.own_axes().is_some() => Place::OWN_CHART,
             Pane::Study if self.study.is_tolerance => Place::TOLERANCE,
             pane => pane.place(),
         }
@@ -423,6 +424,7 @@ impl App {
             inputs: &answer.inputs,
             solution: self.tab.solution()?,
             cursor: self.cursor,
+            z: self.chart.z,
             view: &self.teeth,
             look: self.look,
             marker: self.settings.marker,

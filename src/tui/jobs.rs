@@ -3,6 +3,7 @@
 use crate::model::Inputs;
 use crate::report::chart::Chart;
 use crate::report::charts;
+use crate::report::pattern::PATTERN;
 use crate::study::trade::{Setting, Trade};
 
 /// The benchmark of a case, with error and time of every setting.
@@ -60,31 +61,35 @@ impl Traded {
 
 /// A chart with its own axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WorkerChart {
+pub enum OwnChart {
     /// Compliance of a tooth of the driver (0) or of the driven gear (1) over its flank.
     ToothCompliance(usize),
     /// Harmonics of the transmission error.
     Spectrum,
     /// Dynamic factor over speed.
     Speed,
+    /// Line load over roll angle and face width, with the contact lines; not computed by the worker.
+    Pattern,
 }
 
-impl WorkerChart {
+impl OwnChart {
     /// Every chart, in their order after the charts of the stations.
-    pub const ALL: [WorkerChart; 4] = [
-        WorkerChart::ToothCompliance(0),
-        WorkerChart::ToothCompliance(1),
-        WorkerChart::Spectrum,
-        WorkerChart::Speed,
+    pub const ALL: [OwnChart; 5] = [
+        OwnChart::ToothCompliance(0),
+        OwnChart::ToothCompliance(1),
+        OwnChart::Spectrum,
+        OwnChart::Speed,
+        OwnChart::Pattern,
     ];
 
     /// The key, as in `plot --chart`.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
-            WorkerChart::ToothCompliance(gear) => charts::TOOTH_KEYS[gear],
-            WorkerChart::Spectrum => charts::SPECTRUM,
-            WorkerChart::Speed => charts::SPEED,
+            OwnChart::ToothCompliance(gear) => charts::TOOTH_KEYS[gear],
+            OwnChart::Spectrum => charts::SPECTRUM,
+            OwnChart::Speed => charts::SPEED,
+            OwnChart::Pattern => PATTERN,
         }
     }
 
@@ -94,26 +99,33 @@ impl WorkerChart {
         const TOOTH: &str = "The deflection of the loaded tooth per unit load; surface includes the \
             contact. C is the pitch circle.";
         match self {
-            WorkerChart::ToothCompliance(0) => [
+            OwnChart::ToothCompliance(0) => [
                 "Driver tooth compliance",
                 "Show the compliance of a tooth of the driver over its flank, by every model.",
                 TOOTH,
             ],
-            WorkerChart::ToothCompliance(_) => [
+            OwnChart::ToothCompliance(_) => [
                 "Driven tooth compliance",
                 "Show the compliance of a tooth of the driven gear over its flank, by every model.",
                 TOOTH,
             ],
-            WorkerChart::Spectrum => [
+            OwnChart::Spectrum => [
                 "Spectrum",
                 "Show the harmonics of the transmission error at rest and in motion.",
                 "The amplitude of each harmonic of the mesh frequency, at rest and in motion.",
             ],
-            WorkerChart::Speed => [
+            OwnChart::Speed => [
                 "Dynamic factor over speed",
                 "Show the dynamic factor over speed, up and down, with the resonances.",
                 "N is the mesh frequency over the natural frequency. N = 1, 1/2 and 1/3 mark the \
                     resonances.",
+            ],
+            OwnChart::Pattern => [
+                "Contact pattern",
+                "Show the line load over roll angle and face width of a pair with slices, and its \
+                    contact lines.",
+                "The line load of the incoming tooth. h and l turn the gears, Up and Down move the \
+                    cursor along the contact line.",
             ],
         }
     }
@@ -123,7 +135,7 @@ impl WorkerChart {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChartRequest {
     /// The chart.
-    pub chart: WorkerChart,
+    pub chart: OwnChart,
     /// The pair.
     pub inputs: Inputs,
 }
@@ -137,7 +149,7 @@ pub struct ChartWork {
     /// The last request.
     pub request: Option<ChartRequest>,
     /// The values; those of an earlier request until the first values of the last one arrive.
-    pub found: Option<(WorkerChart, ChartValues)>,
+    pub found: Option<(OwnChart, ChartValues)>,
     /// Whether the last request is not computed yet.
     pub is_running: bool,
     /// The number of its work.
@@ -147,13 +159,13 @@ pub struct ChartWork {
 impl ChartWork {
     /// The computed part of the chart.
     #[must_use]
-    pub fn drawn(&self, chart: WorkerChart) -> Option<&Chart> {
+    pub fn drawn(&self, chart: OwnChart) -> Option<&Chart> {
         self.values(chart)?.as_ref().ok()
     }
 
     /// The reason why there is no chart.
     #[must_use]
-    pub fn missing(&self, chart: WorkerChart) -> String {
+    pub fn missing(&self, chart: OwnChart) -> String {
         match self.values(chart) {
             Some(Err(reason)) => format!("No chart: {reason}."),
             _ if self.is_running => "Computing.".to_owned(),
@@ -161,7 +173,7 @@ impl ChartWork {
         }
     }
 
-    fn values(&self, chart: WorkerChart) -> Option<&ChartValues> {
+    fn values(&self, chart: OwnChart) -> Option<&ChartValues> {
         let (_, found) = self.found.as_ref().filter(|(own, _)| *own == chart)?;
         Some(found)
     }

@@ -50,7 +50,9 @@ impl Place {
     /// The study.
     pub(crate) const STUDY: Place = Place(16384);
     /// A chart with its own axes, which has no roll angle.
-    pub(crate) const WORKER_CHART: Place = Place(32768);
+    pub(crate) const OWN_CHART: Place = Place(32768);
+    /// The contact pattern, a chart over roll angle and face width.
+    pub(crate) const PATTERN: Place = Place(131_072);
     /// The tolerance, which replaces the study.
     pub(crate) const TOLERANCE: Place = Place(65536);
     /// A field that takes text or a name.
@@ -62,13 +64,14 @@ impl Place {
         .or(Place::TRADE)
         .or(Place::STUDY)
         .or(Place::TOLERANCE)
-        .or(Place::WORKER_CHART);
+        .or(Place::OWN_CHART)
+        .or(Place::PATTERN);
     /// Every place except prompts.
     pub(crate) const WORK: Place = Place::FORM.or(Place::OUTSIDE);
     /// The places where `/` and `:` are commands.
     pub(crate) const COMMANDED: Place = Place::OUTSIDE.or(Place::CHOICE).or(Place::FRESH);
     /// Every chart.
-    pub(crate) const CHARTS: Place = Place::CHART.or(Place::WORKER_CHART);
+    pub(crate) const CHARTS: Place = Place::CHART.or(Place::OWN_CHART);
     /// The panes with the cursor of the roll angle.
     pub(crate) const CURSOR: Place = Place::CHART.or(Place::TEETH);
     pub(in crate::tui) const PAGE: Place = Place::READ.or(Place::EXPLAIN);

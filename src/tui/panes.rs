@@ -11,6 +11,7 @@ pub(crate) mod trade;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Widget};
 use unicode_width::UnicodeWidthStr;
@@ -22,6 +23,24 @@ use super::theme::Theme;
 /// Least width of a pane that shows the keys of hidden panes, and of a title beside their names.
 const LEAST_WIDTH: u16 = 30;
 const BESIDE_NAMES: usize = 44;
+
+/// Draws the lines of a table below each other: the headers, then the rows, of which one may be
+/// selected.
+pub(crate) fn draw_table(
+    lines: &[String],
+    marked: Option<usize>,
+    theme: &Theme,
+    area: Rect,
+    buffer: &mut Buffer,
+) {
+    let style = |at: usize| match at.checked_sub(1) {
+        None => theme.title,
+        row if row == marked => theme.focus,
+        _ => Style::new(),
+    };
+    let lines = lines.iter().enumerate().map(|(at, line)| Line::styled(line.as_str(), style(at)));
+    text::draw_lines(&lines.collect::<Vec<_>>(), area, buffer);
+}
 
 /// The title line of a pane.
 #[derive(Debug, Clone)]

@@ -2,6 +2,7 @@
 //! the tolerance.
 
 use crate::case::Case;
+use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity};
 use crate::study::axis::Axis;
 use crate::study::batch::{PointOutcome, Refusals};
@@ -172,6 +173,17 @@ impl StudyResults {
         match &self.request.parameters {
             StudyParameters::Grid(grid) => grid.layers.first()?.quantity(),
             StudyParameters::Tolerance(parameters) => Quantity::find(parameters.quantity),
+        }
+    }
+
+    /// The method of the first curve.
+    #[must_use]
+    pub(crate) fn method(&self) -> Method {
+        match &self.request.parameters {
+            StudyParameters::Grid(grid) => {
+                grid.layers.first().map_or(Method::Exact, |layer| layer.inputs.method)
+            }
+            StudyParameters::Tolerance(parameters) => parameters.inputs.method,
         }
     }
 

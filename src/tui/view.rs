@@ -125,7 +125,7 @@ fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
             Pane::Form => cursor = form::draw(&Form { area, ..app.form() }, buffer),
             Pane::Results => results::draw(&Results { area, ..app.results() }, buffer),
             Pane::Chart => {
-                chart::draw(&Charts { area, ..app.charts() }, &app.title(pane), buffer);
+                chart::draw(&Charts { area, ..app.charts() }, Some(&app.title(pane)), buffer);
             }
             Pane::Teeth => draw_teeth(app, area, buffer),
             Pane::Trade => trade::draw(&TradePane { area, ..app.trade() }, buffer),
@@ -173,7 +173,7 @@ fn focused(app: &App) -> String {
                 .map_or_else(String::new, |compared| format!("{compared} "));
             compared + &about
         }),
-        Pane::Chart if app.chart.worker_chart().is_some() => app.charts().own_readout(),
+        Pane::Chart if app.chart.own_axes().is_some() => app.charts().own_readout(),
         Pane::Chart | Pane::Teeth => at_cursor(app),
         Pane::Trade => trade::signs(&app.trade()).to_owned(),
         Pane::Study => study::hint(&app.study()),

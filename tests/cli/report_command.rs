@@ -142,6 +142,21 @@ fn a_chart_without_a_curve_is_refused_and_a_picture_replaces_an_older_one() {
 }
 
 #[test]
+fn the_contact_pattern_is_a_picture_of_a_pair_with_slices() {
+    let helical = "cases/helical-20-35.toml";
+    let picture = stdout_of(&["plot", helical, "--chart", "contact_pattern"]);
+    numbers_are_finite(&picture);
+    assert!(Document::parse(&picture).is_ok());
+    has(&picture, &[">E<", ">B<", ">contact lines<", ">outside E to B<", "0 N/mm to ", "z, mm"]);
+    let shades = (0..8).filter(|shade| picture.contains(&format!("class=\"m{shade}\"/>\n")));
+    assert_eq!(shades.count(), 8, "every shade from the least to the greatest line load");
+    assert!(report(&[helical], "html").contains("Contact pattern"));
+    assert!(!report(&[TABLE_1], "html").contains("Contact pattern"));
+    let (code, _, words) = crate::program::run(&["plot", TABLE_1, "--chart", "contact_pattern"]);
+    assert!(code == 3 && words.contains("a spur pair without misalignment"), "{words}");
+}
+
+#[test]
 fn a_page_needs_no_other_file_and_has_every_part() {
     let page = report(&[TABLE_1], "html");
     numbers_are_finite(&page);

@@ -365,7 +365,9 @@ fn coupling_changes_the_cases_as_much_as_the_documentation_says() {
         let path = entry.expect("an entry").path();
         let document = Document::read(&path).unwrap_or_else(|error| panic!("{error}"));
         let case = document.case.inputs().expect("a valid case");
-        for part in [0.2, 1.0] {
+        // The whole gear in two dimensions has no slices.
+        let parts = if case.face().is_some() { &[][..] } else { &[0.2, 1.0] };
+        for part in parts {
             let inputs = Inputs {
                 tooth_compliance: Some(ToothCompliance::FINITE_ELEMENT),
                 method: Method::Static,

@@ -215,7 +215,7 @@ fn v_shows_every_method_with_every_compliance_as_a_table() {
     for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
         let mut desk = timed(size);
         desk.keys(&["v"]);
-        desk.assert_shows("*kuang-yang logarithmic");
+        desk.assert_shows("* kuang-yang logarithmic");
         desk.assert_shows(" finite-element");
         assert_snapshot!(format!("table_{name}"), desk.screen());
         desk.keys(&["v"]);

@@ -4,23 +4,27 @@
 pub(crate) mod curves;
 pub(crate) mod range;
 
+use std::borrow::Cow;
+
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
 
 use super::Title;
-use super::plot::{LABEL_COLUMNS, Look as SeriesLook, Plot, TerminalChart, label_margin};
-use crate::case::units::System;
+use super::plot::{LABEL_COLUMNS, Look as SeriesLook, Plot, TerminalChart, Words};
+use crate::case::units::{self, System};
 pub use crate::model::contact_state::first_contact_of_driver as first_contact;
 use crate::model::inputs::Method;
-use crate::model::{Outcome, Solution};
+use crate::model::{Outcome, Quantity, Solution};
 use crate::numeric::decimal::significant;
 use crate::report::absence::without_contact;
-use crate::report::chart::{Axis, Chart, Kind, Span};
+use crate::report::chart::{Axis, Chart, Kind, Series, Span};
 use crate::report::graphs::{GRAPHS, Graph};
+use crate::report::pattern::{Pattern, pattern_chart};
+use crate::report::shown_in;
 use crate::tui::ascii::symbol;
-use crate::tui::jobs::{ChartWork, WorkerChart};
+use crate::tui::jobs::{ChartWork, OwnChart};
 use crate::tui::solver::Answer;
 use crate::tui::text;
 use crate::tui::theme::Look;
@@ -55,10 +59,12 @@ pub struct ChartPane {
     pub view: ChartView,
     /// The cursor of a chart with its own axes, on its x axis.
     pub(crate) place: Option<f64>,
+    /// The place of the cursor along the face from its middle, in m: that of the teeth.
+    pub z: f64,
 }
 
 /// The number of charts: those of the table, and those of the worker.
-const CHARTS: usize = GRAPHS.len() + WorkerChart::ALL.len();
+const CHARTS: usize = GRAPHS.len() + OwnChart::ALL.len();
 
 impl ChartPane {
     /// The selected chart of the table; the first one beside a chart of the worker.
@@ -67,16 +73,22 @@ impl ChartPane {
         if self.selected < GRAPHS.len() { self.selected } else { 0 }
     }
 
-    /// The selected chart of the worker, if any.
+    /// The selected chart with its own axes, if any.
     #[must_use]
-    pub fn worker_chart(&self) -> Option<WorkerChart> {
-        WorkerChart::ALL.get(self.selected.checked_sub(GRAPHS.len())?).copied()
+    pub fn own_axes(&self) -> Option<OwnChart> {
+        OwnChart::ALL.get(self.selected.checked_sub(GRAPHS.len())?).copied()
+    }
+
+    /// Whether the contact pattern is selected.
+    #[must_use]
+    pub(crate) fn is_pattern(&self) -> bool {
+        self.own_axes() == Some(OwnChart::Pattern)
     }
 
     /// The key of the selected chart, as in `plot --chart`.
     #[must_use]
     pub fn key(&self) -> &'static str {
-        self.worker_chart().map_or(GRAPHS[self.graph()].key, WorkerChart::key)
+        self.own_axes().map_or(GRAPHS[self.graph()].key, OwnChart::key)
     }
 }
 
@@ -141,10 +153,10 @@ impl Charts<'_> {
         self.view().window(&self.scale())
     }
 
-    /// The view of the pane. A chart of the path of contact starts with the whole contact.
+    /// The view of the pane. A chart of the path or of the plane of contact starts with the whole contact.
     fn view(&self) -> ChartView {
         match self.pane.view {
-            ChartView::Opening if self.is_by_model() => ChartView::Whole,
+            ChartView::Opening if self.is_by_model() || self.pane.is_pattern() => ChartView::Whole,
             view => view,
         }
     }
@@ -161,7 +173,8 @@ impl Charts<'_> {
         let mut pane = *self.pane;
         let message = match command {
             ChartCommand::Step(by) => {
-                let selected = (pane.selected + CHARTS).saturating_add_signed(by) % CHARTS;
+                let all = CHARTS - usize::from(self.pattern().is_none());
+                let selected = (pane.selected.min(all) + all).saturating_add_signed(by) % all;
                 pane = ChartPane { selected, place: None, ..pane };
                 None
             }
@@ -202,9 +215,40 @@ impl Charts<'_> {
         (pane, message)
     }
 
-    /// The chart of the worker with its own axes, as far as it is computed.
-    fn own_chart(&self) -> Option<&Chart> {
-        self.work.drawn(self.pane.worker_chart()?)
+    /// The line load of the active method over the face width.
+    #[must_use]
+    pub(crate) fn pattern(&self) -> Option<Pattern<'_>> {
+        Pattern::of(&self.answer?.inputs, self.solution()?)
+    }
+
+    /// The roll angle by which the plane of the cursor is ahead in the contact pattern, in deg.
+    #[must_use]
+    pub(crate) fn ahead(&self) -> f64 {
+        let pattern = self.pattern().filter(|_| self.pane.is_pattern());
+        pattern.map_or(0.0, |pattern| pattern.ahead(self.pane.z).to_degrees())
+    }
+
+    /// The chart with its own axes, as far as it is computed.
+    fn own_chart(&self) -> Option<Cow<'_, Chart>> {
+        match self.pane.own_axes()? {
+            OwnChart::Pattern => {
+                let pattern = self.pattern()?;
+                let angle = self.cursor.map_or(pattern.at_peak(), |cursor| 0.0 - cursor);
+                let chart = pattern.chart(angle, self.window(), self.units);
+                Some(Cow::Owned(Chart { across: self.across(), ..chart }))
+            }
+            chart => self.work.drawn(chart).map(Cow::Borrowed),
+        }
+    }
+
+    /// The x axis in the visible range.
+    fn across(&self) -> Axis {
+        let width = self.area.width.saturating_sub(MARGIN + 1);
+        let ((factor, across), window) = (self.ruler(), self.window());
+        let ends = Span::NONE.with(factor * window.from).with(factor * window.to);
+        let labels = ends.ticks(width / LABEL_COLUMNS).into_iter();
+        let labels = labels.map(|(value, label)| (value / factor, label)).collect();
+        Axis { labels, ..across }
     }
 
     /// The point or mark `by` places from the cursor of that chart; the first without a cursor.
@@ -222,8 +266,13 @@ impl Charts<'_> {
 
     /// The values of that chart at its cursor, or its description without a cursor.
     pub(crate) fn own_readout(&self) -> String {
+        if let Some((pattern, cursor)) =
+            self.pattern().zip(self.cursor).filter(|_| self.pane.is_pattern())
+        {
+            return self.pattern_readout(&pattern, cursor);
+        }
         let Some((chart, place)) = self.own_chart().zip(self.pane.place) else {
-            return self.pane.worker_chart().map_or("", |chart| chart.words()[2]).to_owned();
+            return self.pane.own_axes().map_or("", |chart| chart.words()[2]).to_owned();
         };
         let value = |value: f64, unit: &str| {
             let unit = unit.split(';').next().unwrap_or_default();
@@ -242,10 +291,32 @@ impl Charts<'_> {
         format!("{} {across}{mark}: {}.", chart.across.name, values.join(", "))
     }
 
+    /// The line load at the cursor, and the values of the tooth at its roll angle.
+    fn pattern_readout(&self, pattern: &Pattern<'_>, cursor: f64) -> String {
+        let z = self.pane.z;
+        let shown = |key: &str, value: f64| {
+            let known = Quantity::find(key);
+            known.map_or_else(String::new, |known| shown_in(known, value, self.units).to_string())
+        };
+        let load = pattern.line_load(pattern.ahead(z) - cursor, z);
+        let [z, load] = [("static_peak_line_load_z", z), ("static_peak_line_load", load)]
+            .map(|(key, value)| shown(key, value));
+        let angle = pattern.ahead(self.pane.z).to_degrees() - cursor.to_degrees();
+        let side = if angle < 0.0 { "before" } else { "after" };
+        let angle = format!("{} deg {side} E", significant(angle.abs(), DIGITS));
+        format!("In the plane at z {z}: {angle}, line load {load}. {}", readout(self, cursor))
+    }
+
     /// The roll angles of every visible curve, with round ends.
     #[must_use]
     pub fn scale(&self) -> Scale {
         let Some(answer) = self.answer else { return Scale::default() };
+        if let Some(pattern) = self.pattern().filter(|_| self.pane.is_pattern()) {
+            let across = pattern.span().scaled(1f64.to_degrees());
+            let strike = Span::new(across.from, -AFTER_E * across.from);
+            let strike = if strike.is_empty() { Span::default() } else { strike };
+            return Scale { across, strike };
+        }
         let pinned = self.baseline.and_then(|base| base.of(base.beside(answer.active)));
         let solved = answer.methods.iter().filter_map(|(_, found)| found.as_ref().ok());
         let ways = solved.chain(pinned).map(range::way).fold(Span::NONE, Span::and);
@@ -255,16 +326,6 @@ impl Charts<'_> {
         let strike = Span::new(-first, AFTER_E * first);
         let strike = if strike.is_empty() { Span::default() } else { strike.axis() };
         Scale { across: ways.axis(), strike }
-    }
-
-    /// The values of a chart within the visible roll angles, with round ends.
-    #[must_use]
-    pub fn upright(&self, graph: usize) -> Span {
-        let (graph, window) = (&GRAPHS[graph], self.window());
-        let curves = curves(self, graph);
-        let values = curves.iter().map(|curve| curve.upright_within(window));
-        let values = values.fold(Span::NONE, Span::and);
-        if graph.by_model.is_some() { values.close_axis() } else { values.axis() }
     }
 
     /// The visible charts: the selected chart, and below it the next charts of the active method.
@@ -298,23 +359,18 @@ impl Charts<'_> {
         }
     }
 
-    /// The visible charts from top to bottom, each with its plot below its title.
-    fn plots(&self) -> Vec<(usize, Rect, Plot)> {
-        let shown = self.shown();
-        let areas = Layout::vertical(vec![Constraint::Fill(1); shown.len()]).split(self.area);
-        let areas: Vec<_> = shown.into_iter().zip(areas.iter().map(|area| below(*area))).collect();
-        let up: Vec<Span> = areas.iter().map(|(graph, _)| self.upright(*graph)).collect();
-        let margin = areas.iter().zip(&up);
-        let margin = margin.map(|((_, area), up)| label_margin(&Axis::default(), *up, area.height));
-        let (margin, window) = (margin.fold(MARGIN, u16::max), self.window());
-        let plot = |((graph, area), up): ((usize, Rect), Span)| {
-            (graph, area, Plot::new(area, margin, (window, up)))
-        };
-        areas.into_iter().zip(up).map(plot).collect()
+    /// The values of a chart within the visible roll angles, with round ends.
+    #[must_use]
+    pub fn upright(&self, graph: usize) -> Span {
+        let (graph, window) = (&GRAPHS[graph], self.window());
+        let values = curves(self, graph).into_iter().map(|curve| curve.upright_within(window));
+        let values = values.fold(Span::NONE, Span::and);
+        if graph.by_model.is_some() { values.close_axis() } else { values.axis() }
     }
 
-    /// The chart of the curves, with their looks.
-    fn chart(&self, graph: &Graph, curves: &[Curve], width: u16) -> (Chart, Vec<SeriesLook>) {
+    /// The chart of a graph: its curves with their looks.
+    fn of_graph(&self, at: usize) -> Shown<'_> {
+        let (graph, curves) = (&GRAPHS[at], curves(self, &GRAPHS[at]));
         let own = self.answer.and_then(|answer| graph.column(answer.active));
         let shares_load = self.answer.is_some_and(|answer| answer.active.shares_load());
         let label = if own.is_none() && shares_load && !curves.is_empty() {
@@ -322,19 +378,78 @@ impl Charts<'_> {
         } else {
             graph.label.to_owned()
         };
-        let column = own.or_else(|| graph.all_columns().next());
-        let up = column.map(|column| {
+        let up = own.or_else(|| graph.all_columns().next()).map(|column| {
             let symbol = symbol(column.symbol, self.look.ascii);
             Axis::new(format!("{label} {symbol}"), self.units.unit(column.shown))
         });
-        let (factor, across) = self.ruler();
-        let window = self.window();
-        let ends = Span::NONE.with(factor * window.from).with(factor * window.to);
-        let labels = ends.ticks(width / LABEL_COLUMNS).into_iter();
-        let labels = labels.map(|(value, label)| (value / factor, label)).collect();
         let (series, looks) = curves.iter().rev().map(|curve| curve.series(self)).unzip();
-        let across = Axis { labels, ..across };
-        (Chart { across, up: up.unwrap_or_default(), series, ..Chart::default() }, looks)
+        let chart =
+            Chart { across: self.across(), up: up.unwrap_or_default(), series, ..Chart::default() };
+        let is_drawn = !curves.is_empty() && !self.window().is_empty();
+        Shown {
+            title: if self.answer.is_some() { chart.quantities() } else { "Chart".to_owned() },
+            missing: self.missing(graph, &curves),
+            spans: (self.window(), self.upright(at)),
+            chart: is_drawn.then_some(Cow::Owned(chart)),
+            looks,
+            words: vec![("time ->".to_owned(), Style::new())],
+            margin: MARGIN,
+            is_compared: graph.by_model.is_some(),
+            marks: marks(self),
+            cursor: self.cursor.map(|cursor| (0.0 - cursor.to_degrees(), None)),
+        }
+    }
+
+    /// The chart with its own axes, or why it is missing.
+    fn of_own(&self, of: OwnChart) -> Shown<'_> {
+        const SIGNS: [char; 4] = ['*', '+', '×', '∘'];
+        let (theme, chart, is_pattern) =
+            (self.look.theme, self.own_chart(), of == OwnChart::Pattern);
+        let look = |(at, series): (usize, &Series)| {
+            let style = if at == 0 { theme.active } else { theme.other };
+            match series.kind {
+                Kind::Curve if is_pattern => {
+                    (Marker::Custom(if at == 0 { '/' } else { '×' }), theme.focus)
+                }
+                Kind::Marks(_) if is_pattern => (Marker::Custom('◆'), theme.focus),
+                Kind::Marks(_) => (Marker::Custom('×'), theme.note),
+                Kind::Bars => (Marker::Custom(if at == 0 { '█' } else { '▒' }), style),
+                Kind::Curve | Kind::Bound if at == 0 => (self.marker, style),
+                Kind::Curve | Kind::Bound => (Marker::Custom(SIGNS[at % SIGNS.len()]), style),
+            }
+        };
+        let looks =
+            chart.iter().flat_map(|chart| chart.series.iter().enumerate().map(look)).collect();
+        let running = self.work.is_running && !self.is_stale && !is_pattern;
+        let words =
+            chart.as_ref().map_or_else(|| of.words()[0].to_owned(), |chart| chart.quantities());
+        let missing = || match self.answer {
+            Some(answer) if is_pattern => {
+                let solution: Vec<_> = self.solution().into_iter().collect();
+                let reason = pattern_chart(&answer.inputs, &solution).err();
+                reason.map_or_else(String::new, |reason| format!("No chart: {reason}."))
+            }
+            _ => self.work.missing(of),
+        };
+        let up = chart.as_ref().map_or("", |chart| &chart.up.unit);
+        let height = self.pane.z / units::factor(up).unwrap_or(1.0);
+        let in_pattern = |cursor: f64| (self.ahead() - cursor.to_degrees(), Some(height));
+        Shown {
+            title: format!("{}{words}", if running { "computing: " } else { "" }),
+            missing: chart.is_none().then(missing),
+            spans: chart.as_ref().map_or_else(Default::default, |chart| chart.spans()),
+            looks,
+            words: Vec::new(),
+            margin: 0,
+            is_compared: matches!(of, OwnChart::ToothCompliance(_)),
+            marks: Vec::new(),
+            cursor: if is_pattern {
+                self.cursor.map(in_pattern)
+            } else {
+                self.pane.place.map(|place| (place, None))
+            },
+            chart,
+        }
     }
 
     // The reason why the active method has no curve.
@@ -369,78 +484,98 @@ impl Charts<'_> {
     }
 }
 
-/// Draws the title of the pane and the charts.
-pub(crate) fn draw(charts: &Charts, title: &Title, buffer: &mut Buffer) {
-    let stale = if charts.is_stale { "LAST VALID, " } else { "" };
-    if let Some(of) = charts.pane.worker_chart() {
-        return draw_worker_chart(charts, of, (title, stale), buffer);
-    }
-    for (at, (graph, area, plot)) in charts.plots().into_iter().enumerate() {
-        let graph = &GRAPHS[graph];
-        let curves = curves(charts, graph);
-        let (chart, looks) = charts.chart(graph, &curves, plot.cells.width);
-        if at > 0 {
-            let above = Rect { y: area.y - 1, height: 1, ..area };
-            text::titled(&chart.quantities(), above, charts.look.theme, buffer);
-        } else if charts.answer.is_some() {
-            title.draw(&format!("{stale}{}", chart.quantities()), charts.area, buffer);
-        } else {
-            title.draw("Chart", charts.area, buffer);
+/// A visible chart with all that is drawn in its area.
+struct Shown<'a> {
+    title: String,
+    /// Why the active method has no curve.
+    missing: Option<String>,
+    chart: Option<Cow<'a, Chart>>,
+    spans: (Span, Span),
+    looks: Vec<SeriesLook>,
+    /// Further words of the legend.
+    words: Vec<Words>,
+    /// Least width of the labels beside the plot.
+    margin: u16,
+    is_compared: bool,
+    /// Names on the x axis.
+    marks: Vec<(f64, &'static str, Style)>,
+    /// The cursor, on a map with its height.
+    cursor: Option<(f64, Option<f64>)>,
+}
+
+impl Shown<'_> {
+    /// Draws the reason and the chart below it.
+    fn draw(self, charts: &Charts, area: Rect, buffer: &mut Buffer) -> Plot {
+        let theme = charts.look.theme;
+        let missing = self.missing.unwrap_or_default();
+        let lines = text::wrap(&missing, usize::from(area.width).saturating_sub(2)).len();
+        text::draw_words(&missing, area, buffer);
+        let rows = if missing.is_empty() { 0 } else { (lines as u16).min(area.height) };
+        let area = Rect { y: area.y + rows, height: area.height - rows, ..area };
+        let Some(chart) = &self.chart else { return Plot::new(Rect::ZERO, 0, self.spans) };
+        let Shown { looks, words, is_compared, .. } = self;
+        let drawn = TerminalChart { chart, looks, words, is_compared, theme };
+        let plot = drawn.draw(area, self.spans, self.margin, buffer);
+        if plot.cells.is_empty() {
+            return plot;
         }
-        draw_panel(charts, (graph, &curves), (&chart, looks), (area, plot), buffer);
+        for (x, name, style) in self.marks {
+            plot.draw_mark(x, name, style, buffer);
+        }
+        match self.cursor {
+            Some((x, Some(y))) => plot.draw_cursor_at((x, y), theme, buffer),
+            Some((x, None)) => plot.draw_cursor(x, theme, buffer),
+            None => (),
+        }
+        plot
     }
 }
 
-/// The area below a title.
-fn below(area: Rect) -> Rect {
-    Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
+/// Draws the charts below their titles. Returns their plots.
+pub(crate) fn draw(charts: &Charts, title: Option<&Title>, buffer: &mut Buffer) -> Vec<Plot> {
+    let all: Vec<Shown> = match charts.pane.own_axes() {
+        Some(of) => vec![charts.of_own(of)],
+        None => charts.shown().into_iter().map(|graph| charts.of_graph(graph)).collect(),
+    };
+    let areas = Layout::vertical(vec![Constraint::Fill(1); all.len()]).split(charts.area);
+    let stale = if charts.is_stale { "LAST VALID, " } else { "" };
+    let draw = |(at, (shown, area)): (usize, (Shown, &Rect))| {
+        let inner = match title {
+            Some(title) if at == 0 => title.draw(&format!("{stale}{}", shown.title), *area, buffer),
+            _ => text::titled(&shown.title, *area, charts.look.theme, buffer),
+        };
+        shown.draw(charts, inner, buffer)
+    };
+    all.into_iter().zip(areas.iter()).enumerate().map(draw).collect()
+}
+
+/// The plots of the visible charts.
+fn plots(charts: &Charts) -> Vec<Plot> {
+    if charts.area.is_empty() {
+        return Vec::new();
+    }
+    draw(charts, None, &mut Buffer::empty(charts.area))
 }
 
 /// The width of the visible chart in columns, or of a default chart if none is visible.
 #[must_use]
 pub(crate) fn columns(charts: &Charts) -> u16 {
-    let columns = charts.plots().first().map_or(0, |(_, _, plot)| plot.cells.width);
+    let columns = plots(charts).first().map_or(0, |plot| plot.cells.width);
     if columns > 1 { columns } else { USUAL_COLUMNS }
 }
 
-/// The driver's roll angle before E at a cell of a plot, in rad.
-pub(crate) fn angle_at(charts: &Charts, at: Position) -> Option<f64> {
-    let plots = charts.plots();
-    let (.., plot) = plots.iter().find(|(.., plot)| plot.cells.contains(at))?;
-    let angle = 0.0 - plot.value(at.x).to_radians();
-    (charts.pane.worker_chart().is_none() && angle.is_finite()).then_some(angle)
-}
-
-fn draw_panel(
-    charts: &Charts,
-    (graph, curves): (&Graph, &[Curve]),
-    (chart, looks): (&Chart, Vec<SeriesLook>),
-    (area, plot): (Rect, Plot),
-    buffer: &mut Buffer,
-) {
-    let theme = charts.look.theme;
-    let missing = charts.missing(graph, curves);
-    let lines = |words: &String| text::wrap(words, usize::from(area.width).saturating_sub(2)).len();
-    let rows = missing.as_ref().map_or(0, lines) as u16;
-    text::draw_words(missing.as_deref().unwrap_or_default(), area, buffer);
-    if curves.is_empty() || charts.window().is_empty() {
-        return;
-    }
-    let margin = plot.cells.x.saturating_sub(area.x);
-    let area = Rect { y: area.y + rows, height: area.height.saturating_sub(rows), ..area };
-    let is_compared = graph.by_model.is_some();
-    let words = vec![("time ->".to_owned(), Style::new())];
-    let drawn = TerminalChart { chart, looks, words, is_compared, theme };
-    let plot = drawn.draw(area, (plot.across, plot.up), margin, buffer);
-    if plot.cells.is_empty() {
-        return;
-    }
-    for (x, name, style) in marks(charts) {
-        plot.draw_mark(x, name, style, buffer);
-    }
-    if let Some(cursor) = charts.cursor {
-        plot.draw_cursor(0.0 - cursor.to_degrees(), theme, buffer);
-    }
+/// The driver's roll angle before E at a cell of a plot, in rad, with the place along the face, in m.
+pub(crate) fn cursor_at(charts: &Charts, at: Position) -> Option<(f64, f64)> {
+    let plot = plots(charts).into_iter().find(|plot| plot.cells.contains(at))?;
+    let angle = plot.value(at.x).to_radians();
+    let pattern = charts.pattern().filter(|_| charts.pane.is_pattern());
+    let (ahead, z) = pattern.as_ref().map_or((0.0, charts.pane.z), |pattern| {
+        let unit = units::factor(charts.units.unit("mm")).unwrap_or(1.0);
+        let z = pattern.beside(unit * plot.height(at.y), 0);
+        (pattern.ahead(z), z)
+    });
+    let is_angle = charts.pane.own_axes().is_none() || pattern.is_some();
+    (is_angle && angle.is_finite()).then_some((ahead - angle, z))
 }
 
 /// The marks of the contact: E; D; the last contact L; B, the end of the path of contact; D of the
@@ -465,39 +600,4 @@ fn marks(charts: &Charts) -> Vec<(f64, &'static str, Style)> {
     let others = others.map(|solution| (first_contact(solution), "d", theme.other));
     let all = own.into_iter().flatten().chain(others);
     all.filter_map(|(angle, name, style)| Some((0.0 - angle?.to_degrees(), name, style))).collect()
-}
-
-fn draw_worker_chart(
-    charts: &Charts,
-    of: WorkerChart,
-    (title, stale): (&Title, &str),
-    buffer: &mut Buffer,
-) {
-    const SIGNS: [char; 4] = ['*', '+', '×', '∘'];
-    let drawn = charts.own_chart();
-    let words = drawn.map_or_else(|| of.words()[0].to_owned(), Chart::quantities);
-    let running = charts.work.is_running && stale.is_empty();
-    let state = if running { "computing: " } else { stale };
-    let inner = title.draw(&format!("{state}{words}"), charts.area, buffer);
-    let Some(chart) = drawn else {
-        text::draw_words(&charts.work.missing(of), inner, buffer);
-        return;
-    };
-    let theme = charts.look.theme;
-    let look = |(at, kind): (usize, Kind)| {
-        let style = if at == 0 { theme.active } else { theme.other };
-        match kind {
-            Kind::Marks(_) => (Marker::Custom('×'), theme.note),
-            Kind::Bars => (Marker::Custom(if at == 0 { '█' } else { '▒' }), style),
-            Kind::Curve | Kind::Bound if at == 0 => (charts.marker, style),
-            Kind::Curve | Kind::Bound => (Marker::Custom(SIGNS[at % SIGNS.len()]), style),
-        }
-    };
-    let looks = chart.series.iter().map(|series| series.kind).enumerate().map(look).collect();
-    let is_compared = matches!(of, WorkerChart::ToothCompliance(_));
-    let drawn = TerminalChart { chart, looks, words: Vec::new(), is_compared, theme };
-    let plot = drawn.draw(inner, chart.spans(), 0, buffer);
-    if let Some(place) = charts.pane.place.filter(|_| !plot.cells.is_empty()) {
-        plot.draw_cursor(place, theme, buffer);
-    }
 }

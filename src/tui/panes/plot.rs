@@ -1,15 +1,15 @@
-//! Draws charts on the terminal: the legend, two axes with their labels, curves, bars, points and
-//! marks.
+//! Draws charts on the terminal: the legend, two axes with their labels, a map, curves, bars, points
+//! and marks.
 
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::Rect;
-use ratatui::style::{Color, Style};
+use ratatui::layout::{Position, Rect};
+use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::widgets::canvas::{Canvas, Line, Points};
 use ratatui::widgets::{Block, Borders, Widget};
 use unicode_width::UnicodeWidthStr;
 
-use crate::report::chart::{Axis, Chart, Kind, Labels, Point, Series, Span};
+use crate::report::chart::{Axis, Cell as MapCell, Chart, Kind, Labels, Map, Point, Series, Span};
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
@@ -19,6 +19,13 @@ pub(crate) const LABEL_COLUMNS: u16 = 9;
 const LABEL_ROWS: u16 = 2;
 /// The smallest plot.
 const LEAST: (u16, u16) = (12, 2);
+/// Shades of a map from the least to the greatest value.
+const SHADES: [char; 5] = ['∙', '░', '▒', '▓', '█'];
+/// The signs of a map: the limit, the edge of contact, no contact, and a refused point.
+const LIMIT: char = '+';
+const EDGE: char = 'o';
+pub(crate) const NO_CONTACT: char = '_';
+pub(crate) const REFUSED: char = '!';
 
 /// The marker and the style of a series.
 pub(crate) type Look = (Marker, Style);
@@ -56,13 +63,14 @@ impl TerminalChart<'_> {
         margin: u16,
         buffer: &mut Buffer,
     ) -> Plot {
-        let Chart { across, up, series, marks, .. } = self.chart;
+        let Chart { across, up, series, marks, map, .. } = self.chart;
         let names = series.iter().zip(&self.looks).map(|(series, look)| {
             let missing = if series.pieces.is_empty() { " (no value)" } else { "" };
             let name = series.name.split(',').next().unwrap_or_default();
             (format!("{} {name}{missing}", sample(look.0)), look.1)
         });
-        let words: Vec<Words> = names.chain(self.words.iter().cloned()).collect();
+        let shades = map.iter().flat_map(|map| map_words(map, self.theme));
+        let words: Vec<Words> = shades.chain(names).chain(self.words.iter().cloned()).collect();
         let most = area.height.saturating_sub(2 + LEAST.1);
         let rows = draw_legend(&words, Rect { height: most, ..area }, buffer);
         let area = Rect { y: area.y + rows, height: area.height - rows, ..area };
@@ -71,9 +79,14 @@ impl TerminalChart<'_> {
         let plot = Plot::new(area, margin, spans);
         if !plot.cells.is_empty() {
             plot.draw_axes(across, up, self.theme, buffer);
+            map.iter().for_each(|map| plot.draw_map(map, self.theme, buffer));
+            for column in marks.iter().filter_map(|mark| plot.column(mark.0)) {
+                let line = Rect { x: column, width: 1, ..plot.cells };
+                line.positions().filter(|_| map.is_some()).for_each(|at| _ = buffer[at].reset());
+            }
             self.draw_series(&plot, buffer);
             // The 0 of logarithms means nothing.
-            if up.labels.is_empty() && spans.1.from < 0.0 && spans.1.to > 0.0 {
+            if map.is_none() && up.labels.is_empty() && spans.1.from < 0.0 && spans.1.to > 0.0 {
                 plot.draw_level(0.0, "┄", self.theme.faint, buffer);
             }
             for (x, name) in marks {
@@ -145,9 +158,13 @@ impl Plot {
 
     /// The row of a value, or the nearest row: that of its Braille dot.
     pub(crate) fn row(&self, y: f64) -> u16 {
-        let last = f64::from((4 * self.cells.height).saturating_sub(1));
-        let dot = ((1.0 - self.up.part(y)).clamp(0.0, 1.0) * last).round() as u16;
-        self.cells.y + dot / 4
+        self.cells.y + row_in(self.cells.height, self.up, y)
+    }
+
+    /// The value on a row: the first and the last row show the ends of the axis.
+    pub(crate) fn height(&self, row: u16) -> f64 {
+        let last = f64::from(self.cells.height.max(2) - 1);
+        self.up.to - f64::from(row.saturating_sub(self.cells.y)) / last * self.up.length()
     }
 
     /// Draws the lines, ticks and labels of both axes, and the unit of the horizontal one.
@@ -157,16 +174,8 @@ impl Plot {
         let frame = Rect { x: left, width: cells.width + 1, height: cells.height + 1, ..cells };
         let lines = Block::new().borders(Borders::LEFT | Borders::BOTTOM).border_style(rule);
         lines.render(frame, buffer);
-        // In a low plot only every second label, or fewer, has a row.
-        let labels = beside(up, self.up, cells.height);
-        let rows = |step: &usize| {
-            let mut rows = labels.iter().step_by(*step).map(|label| self.row(label.0));
-            let first = rows.next();
-            rows.try_fold(first, |last, row| (last != Some(row)).then_some(Some(row))).is_some()
-        };
-        let step = (1..=labels.len()).find(rows).unwrap_or(1);
-        for (value, label) in labels.iter().step_by(step) {
-            let (y, room) = (self.row(*value), label.width() as u16 + 1);
+        for (value, label) in labels_beside(up, self.up, cells.height) {
+            let (y, room) = (self.row(value), label.width() as u16 + 1);
             buffer.set_string(left.saturating_sub(room), y, label, Style::new());
             buffer.set_string(left, y, "┤", rule);
         }
@@ -206,6 +215,45 @@ impl Plot {
         self.draw_upright(x, "┊", theme.faint, buffer);
         if let Some(column) = self.column(x) {
             buffer.set_string(column, self.cells.bottom(), "▴", theme.focus);
+        }
+    }
+
+    /// Draws the cursor of a map: its cell, and a mark on both axes.
+    pub(crate) fn draw_cursor_at(&self, (x, y): Point, theme: &Theme, buffer: &mut Buffer) {
+        let (Some(column), row) = (self.column(x), self.map_row(y)) else { return };
+        buffer[(column, row)].modifier |= Modifier::REVERSED;
+        buffer.set_string(column, self.cells.bottom(), "▴", theme.focus);
+        buffer.set_string(self.cells.x - 1, row, "▸", theme.focus);
+    }
+
+    /// The row of a value on a map.
+    fn map_row(&self, y: f64) -> u16 {
+        let last = f64::from(self.cells.height.saturating_sub(1));
+        self.cells.y + ((1.0 - self.up.part(y)).clamp(0.0, 1.0) * last).round() as u16
+    }
+
+    /// Draws the nearest value of a map in each cell, with the contours of the limit and of contact.
+    fn draw_map(&self, map: &Map, theme: &Theme, buffer: &mut Buffer) {
+        const BESIDE: [(i16, i16); 4] = [(-1, 0), (1, 0), (0, -1), (0, 1)];
+        let found = |at: Position| map.at(self.value(at.x), self.height(at.y));
+        for at in self.cells.positions() {
+            let has_beside = |is: &dyn Fn(MapCell) -> bool| {
+                BESIDE.into_iter().any(|(x, y)| {
+                    let (x, y) = (at.x.wrapping_add_signed(x), at.y.wrapping_add_signed(y));
+                    self.cells.contains(Position::new(x, y)) && is(found(Position::new(x, y)))
+                })
+            };
+            let (sign, style) = match found(at) {
+                MapCell::Blank => continue,
+                MapCell::Refused => (REFUSED, theme.problem),
+                MapCell::NoContact if has_beside(&MapCell::is_contact) => (EDGE, theme.note),
+                MapCell::NoContact => (NO_CONTACT, theme.note),
+                cell if map.is_above(cell) && has_beside(&|beside| !map.is_above(beside)) => {
+                    (LIMIT, theme.problem)
+                }
+                MapCell::Value(value) => shade(map, value, theme),
+            };
+            buffer[at].set_char(sign).set_style(style);
         }
     }
 
@@ -252,7 +300,7 @@ impl Plot {
 
     /// The pieces of a curve in cells of their own; a piece with one point is a dot. A sign is in
     /// the cells that a Braille curve crosses, so that a curve covers those that coincide with it.
-    fn layer(&self, pieces: &[Vec<Point>], (marker, style): Look) -> Buffer {
+    pub(crate) fn layer(&self, pieces: &[Vec<Point>], (marker, style): Look) -> Buffer {
         let mut layer = Buffer::empty(self.cells);
         let is_sign = matches!(marker, Marker::Custom(_));
         let canvas = Canvas::default()
@@ -286,6 +334,27 @@ impl Plot {
     }
 }
 
+/// Draws a layer over a buffer. The dots of both stay visible in a common cell.
+pub(crate) fn put(layer: &Buffer, buffer: &mut Buffer) {
+    let dots = |cell: &Cell| cell.symbol().chars().next().map_or(0, u32::from);
+    let is_braille = |dots: u32| (0x2800..0x2900).contains(&dots);
+    for position in layer.area.positions() {
+        let (over, under) = (&layer[position], &mut buffer[position]);
+        let both = match [dots(over), dots(under)] {
+            _ if over.symbol() == " " => continue,
+            [over, under] if is_braille(over) && is_braille(under) => char::from_u32(over | under),
+            _ if ["▀▄", "▄▀"].contains(&[over.symbol(), under.symbol()].concat().as_str()) => {
+                Some('█')
+            }
+            _ => None,
+        };
+        *under = over.clone();
+        if let Some(both) = both {
+            under.set_char(both);
+        }
+    }
+}
+
 /// The unit below the corner of the axes, without a remark.
 fn unit_of(across: &Axis) -> &str {
     across.unit.split(';').next().unwrap_or_default()
@@ -293,12 +362,49 @@ fn unit_of(across: &Axis) -> &str {
 
 /// The width of the labels of the vertical axis of a plot, with its line, in an area of this height.
 pub(crate) fn label_margin(up: &Axis, span: Span, height: u16) -> u16 {
-    let labels = beside(up, span, height.saturating_sub(2)).into_iter();
+    let labels = labels_beside(up, span, height.saturating_sub(2)).into_iter();
     labels.map(|(_, label)| label.width() as u16).max().unwrap_or(0) + 2
 }
 
-fn beside(up: &Axis, span: Span, height: u16) -> Labels {
-    up.ticks(span, height.saturating_sub(1) / LABEL_ROWS)
+/// As many labels beside a plot as have a row each.
+fn labels_beside(up: &Axis, span: Span, height: u16) -> Labels {
+    let are_apart = |labels: &Labels| {
+        let rows = |pair: &[(f64, String)]| [0, 1].map(|at| row_in(height, span, pair[at].0));
+        labels.windows(2).map(rows).all(|[one, other]| one != other)
+    };
+    let most = (height.saturating_sub(1) / LABEL_ROWS).max(1);
+    let mut fewer = (1..=most).rev().map(|most| up.ticks(span, most));
+    fewer.find(are_apart).unwrap_or_else(|| up.ticks(span, 1).into_iter().take(1).collect())
+}
+
+/// The row of the Braille dot of a value, from the top.
+fn row_in(height: u16, up: Span, y: f64) -> u16 {
+    let last = f64::from((4 * height).saturating_sub(1));
+    ((1.0 - up.part(y)).clamp(0.0, 1.0) * last).round() as u16 / 4
+}
+
+fn shade(map: &Map, value: f64, theme: &Theme) -> (char, Style) {
+    let at = map.level(value, SHADES.len());
+    let styles = [theme.baseline, theme.driver, theme.active, theme.note, theme.problem];
+    (SHADES[at], styles[at])
+}
+
+/// The legend of a map.
+fn map_words(map: &Map, theme: &Theme) -> Vec<Words> {
+    let ends = map.ends.iter().flatten().map(|(value, words)| {
+        let (sign, style) = shade(map, *value, theme);
+        (format!("{sign} {words}"), style)
+    });
+    let limit = map.limit.iter().map(|(_, words)| (format!("{LIMIT} {words}"), theme.problem));
+    let has = |cell: MapCell| map.cells.contains(&cell);
+    let signs = [
+        (has(MapCell::NoContact), EDGE, "edge of contact", theme.note),
+        (has(MapCell::NoContact), NO_CONTACT, "no contact", theme.note),
+        (has(MapCell::Refused), REFUSED, "refused", theme.problem),
+    ];
+    let signs = signs.into_iter().filter(|(is_present, ..)| *is_present);
+    let signs = signs.map(|(_, sign, name, style)| (format!("{sign} {name}"), style));
+    ends.chain(limit).chain(signs).collect()
 }
 
 /// Draws words beside each other in as many rows as they need. Returns the number of rows.

@@ -1,10 +1,8 @@
 //! The study pane: a result over the range of a field, a map over two fields, the same as a table, or
 //! the tolerance of the case.
 
-pub(crate) mod curve;
-mod map;
+pub(crate) mod points;
 pub(crate) mod range;
-mod table;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -12,11 +10,10 @@ use ratatui::symbols::Marker;
 use ratatui::text::Line;
 
 use super::Title;
+use super::plot::{NO_CONTACT, REFUSED};
 use crate::case::units::System;
 use crate::case::{Case, FIELDS};
 use crate::model::Outcome;
-use crate::model::inputs::Method;
-use crate::report::chart::Axis;
 use crate::report::{common_unit, shown_in, shown_with};
 use crate::study::axis::Axis as StudyAxis;
 use crate::study::batch::PointOutcome;
@@ -36,9 +33,6 @@ const MAP_MARGIN: (u16, u16) = (12, 6);
 const TALL: u16 = 8;
 /// The texts below a plot get at most this fraction of the rows.
 const WORDS: u16 = 4;
-/// Signs of a point without contact and of a refused point.
-const NO_CONTACT: &str = "_";
-const REFUSED: &str = "!";
 
 /// The state of the pane.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -109,11 +103,10 @@ pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
     };
     let (about, width) = (below(pane, shown), usize::from(inner.width).saturating_sub(2));
     let (plot, words) = split(inner, text::wrap(&about, width).len());
-    match grid.axes.as_slice() {
-        _ if pane.state.is_table => table::draw(pane, shown, grid, plot, buffer),
-        [across] => curve::draw(pane, shown, across, plot, buffer),
-        [up, across] => map::draw(pane, shown, (across, up), plot, buffer),
-        _ => {}
+    if pane.state.is_table {
+        points::draw_table(pane, shown, grid, plot, buffer);
+    } else {
+        points::draw(pane, shown, grid, plot, buffer);
     }
     text::draw_words(&about, words, buffer);
 }
@@ -238,24 +231,18 @@ fn top(pane: &StudyPane<'_>, shown: &StudyResults) -> usize {
 
 fn title(pane: &StudyPane<'_>) -> String {
     let shown = pane.study.shown.as_ref().filter(|_| pane.study.obstacle.is_none());
-    let Some((shown, known)) = shown.and_then(|shown| Some((shown, shown.quantity()?))) else {
+    let Some(shown) = shown.filter(|shown| shown.quantity().is_some()) else {
         return "Study".to_owned();
     };
     let state = progress(shown);
     let words = match &shown.request.parameters {
         StudyParameters::Tolerance(_) => format!("Tolerance{}{state}", position(pane, shown)),
         StudyParameters::Grid(grid) => {
-            let method = grid.layers.first().map_or(Method::Exact, |layer| layer.inputs.method);
-            let values = shown.layers.iter().flat_map(|found| &found.values);
-            let up = Axis::new(
-                known.symbol_in(method),
-                common_unit(known, values.flatten().copied(), pane.units),
-            );
-            let field = |axis: &StudyAxis| {
-                Axis::new(FIELDS[axis.field].full_label(), axis.unit.clone()).in_unit()
-            };
-            let fields: Vec<String> = grid.axes.iter().rev().map(field).collect();
-            format!("Study{state}: {} over {}", up.in_unit(), fields.join(" and "))
+            let chart = points::chart(pane, shown, grid);
+            format!(
+                "Study{state}: {}",
+                chart.map_or_else(String::new, |(chart, _)| chart.quantities())
+            )
         }
     };
     symbol(&words, pane.look.ascii).into_owned()

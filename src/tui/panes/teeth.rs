@@ -4,20 +4,20 @@ mod view;
 
 use std::fmt;
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::Point2;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
-use ratatui::style::{Color, Modifier, Style};
+use ratatui::style::{Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
-use ratatui::widgets::canvas::{Canvas, Context, Line as Segment};
-use unicode_width::UnicodeWidthStr;
 
-use super::plot::bounds;
+use super::plot::{Plot, bounds, put};
 use crate::case::units::System;
 use crate::case::units::shown;
-use crate::model::{ContactState, Inputs, Solution, contact_state};
+use crate::model::{ContactState, Inputs, Interpolated, Solution, contact_state};
+use crate::report::chart::{Point, Span};
+use crate::report::pattern::Pattern;
 use crate::report::stations::{COLUMNS, Column};
 use crate::report::teeth::{Ink, Scene, Window, scale_bar};
 use crate::tui::ascii::symbol;
@@ -123,6 +123,8 @@ pub struct Picture<'a> {
     pub solution: &'a Solution,
     /// The driver's roll angle before E, in rad. By default D, or E without corner contact.
     pub cursor: Option<f64>,
+    /// The plane across the axis in which the teeth are drawn, from the middle of the face, in m.
+    pub z: f64,
     /// The visible part of the plane.
     pub view: &'a TeethView,
     /// The capabilities of the terminal.
@@ -141,6 +143,29 @@ impl Picture<'_> {
     pub fn angle(&self) -> f64 {
         let contact = || contact_state::first_contact_of_driver(self.solution).unwrap_or(0.0);
         self.cursor.filter(|cursor| cursor.is_finite()).unwrap_or_else(contact)
+    }
+
+    /// The state of the teeth, and the values of a pair with slices in the plane of the cursor.
+    fn state(&self) -> (Option<ContactState>, Vec<Reading>) {
+        let (inputs, solution, angle, z) = (self.inputs, self.solution, self.angle(), self.z);
+        let pattern = Pattern::of(inputs, solution).filter(|_| self.cursor.is_some());
+        let Some(pattern) = pattern else {
+            return (ContactState::at(inputs, solution, angle), Vec::new());
+        };
+        let in_plane = angle - pattern.ahead(z);
+        let load = pattern.line_load(-in_plane, z);
+        // A flank without load is apart at least by its own gap.
+        let opening = |opening: f64| if load > 0.0 { 0.0 } else { opening.max(pattern.gap(z)) };
+        let state = ContactState::at(inputs, solution, in_plane).map(|state| ContactState {
+            opening: opening(state.opening),
+            interpolated: Interpolated::at(inputs, solution, angle),
+            ..state
+        });
+        let reading = |symbol, value, unit| {
+            let (number, unit) = shown(value, unit, GAP_DIGITS, self.units);
+            Reading { symbol, number: Some(number), unit }
+        };
+        (state, vec![reading("z", z, "mm"), reading("p", load, "N/mm")])
     }
 }
 
@@ -168,11 +193,9 @@ impl fmt::Display for Reading {
 pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
     let area = area.intersection(buffer.area);
     let (inputs, solution) = (picture.inputs, picture.solution);
-    let moment = ContactState::at(inputs, solution, picture.angle());
-    let values = moment
-        .as_ref()
-        .map(|moment| readings(moment, (inputs, solution), picture.units))
-        .unwrap_or_default();
+    let (moment, mut values) = picture.state();
+    let of_moment = moment.iter();
+    values.extend(of_moment.flat_map(|moment| readings(moment, (inputs, solution), picture.units)));
     let in_line = usize::from(area.width.saturating_sub(1) / VALUE).max(1);
     let most =
         1 + u16::from(area.height >= TWO_LINES_FROM) + u16::from(area.height >= THREE_LINES_FROM);
@@ -191,7 +214,7 @@ pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Draws a picture into an area with the canvas of ratatui.
+/// Draws a picture into an area.
 struct Painter<'a> {
     picture: &'a Picture<'a>,
     area: Rect,
@@ -200,10 +223,6 @@ struct Painter<'a> {
     dots: (u16, u16),
     window: Window,
 }
-
-/// Indices of the styles of marks and contacts, after those of the lines.
-const MARK: u8 = 6;
-const CONTACT: u8 = 7;
 
 /// A word on the picture.
 type Word = (Position, String, Style);
@@ -225,24 +244,21 @@ impl<'a> Painter<'a> {
         let factor = moment.map_or(1.0, |moment| view.factor(inputs, solution, moment));
         let lead = moment.map_or(0.0, |moment| moment.lead(factor));
         let scene = Scene::of(inputs, solution, moment, lead, &self.window);
-        let ([left, right], [low, high]) = self.bounds();
-        let canvas = Canvas::default()
-            .marker(self.marker)
-            .x_bounds([left, right])
-            .y_bounds([low, high])
-            .paint(|context| self.draw_scene(&scene, context));
-        canvas.render(self.area, buffer);
-        self.set_styles(buffer);
+        for (pieces, style) in self.layers(&scene) {
+            put(&self.plot().layer(&pieces, (self.marker, style)), buffer);
+        }
         for (at, word, style) in self.words(&scene, moment.map(|_| factor)) {
             let room = self.area.right().saturating_sub(at.x).into();
             buffer.set_stringn(at.x, at.y, word, room, Style::reset().patch(style));
         }
     }
 
-    fn bounds(&self) -> ([f64; 2], [f64; 2]) {
+    /// The area as a plot without axes.
+    fn plot(&self) -> Plot {
         let (low, high) =
             (self.window.centre - self.window.half, self.window.centre + self.window.half);
-        (bounds(low.x, high.x), bounds(low.y, high.y))
+        let span = |from, to| Span::of(bounds(from, to).into_iter());
+        Plot { cells: self.area, across: span(low.x, high.x), up: span(low.y, high.y) }
     }
 
     fn dot_height(&self) -> f64 {
@@ -253,9 +269,25 @@ impl<'a> Painter<'a> {
         self.window.dot * f64::from(self.dots.0)
     }
 
-    fn draw_scene(&self, scene: &Scene, context: &mut Context) {
+    /// The lines of the scene by their styles, in drawing order; the last ones are the crosses of
+    /// the named points and of the contacts.
+    fn layers(&self, scene: &Scene) -> Vec<(Vec<Vec<Point>>, Style)> {
+        let theme = self.picture.look.theme;
+        let bold = |style: Style| style.add_modifier(Modifier::BOLD);
+        let [driven, driver] = [theme.driven, theme.driver];
+        let styles = [
+            theme.faint,
+            theme.path,
+            driven,
+            bold(driven),
+            driver,
+            bold(driver),
+            theme.focus,
+            theme.active,
+        ];
+        let mut layers = styles.map(|style| (Vec::new(), style)).to_vec();
         for (ink, points) in &scene.lines {
-            let (style, dash) = match ink {
+            let (at, dash) = match ink {
                 Ink::BaseCircle => (0, Some((0.0, 4.0))),
                 Ink::LineOfAction => (0, Some((5.0, 4.0))),
                 Ink::PathOfContact => (1, None),
@@ -266,33 +298,29 @@ impl<'a> Painter<'a> {
                 Ink::StruckTooth => (5, None),
             };
             match dash {
-                None => points.windows(2).for_each(|ends| stroke(context, ends[0], ends[1], style)),
-                Some(dash) => self.draw_dashed(points, dash, style, context),
+                None => layers[at].0.push(points.iter().map(|point| (point.x, point.y)).collect()),
+                Some(dash) => layers[at].0.extend(self.dashes(points, dash)),
             }
         }
         // A cross of five dots, or one dot if a cell has one dot.
         let arm = f64::from(u8::from(self.dots.0 > 1));
-        let arms =
-            [Vector2::new(arm * self.window.dot, 0.0), Vector2::new(0.0, arm * self.dot_height())];
+        let (x, y) = (arm * self.window.dot, arm * self.dot_height());
+        let cross = |at: Point2<f64>| {
+            [vec![(at.x - x, at.y), (at.x + x, at.y)], vec![(at.x, at.y - y), (at.x, at.y + y)]]
+        };
         let marks = scene.distinct_points(&self.window, 2.0 * self.column());
-        let marks = marks.into_iter().map(|(_, at)| (at, MARK));
+        layers[6].0.extend(marks.into_iter().flat_map(|(_, at)| cross(at)));
         let contacts = scene.contacts.iter().filter(|at| self.window.sees(**at));
-        for (at, style) in marks.chain(contacts.map(|at| (*at, CONTACT))) {
-            for arm in arms {
-                stroke(context, at - arm, at + arm, style);
-            }
+        layers[7].0.extend(contacts.flat_map(|at| cross(*at)));
+        if self.picture.is_stale {
+            layers.iter_mut().for_each(|(_, style)| *style = style.patch(theme.faint));
         }
+        layers
     }
 
-    /// Draws dashes and gaps of a length in dots; dashes of length 0 are dots.
-    fn draw_dashed(
-        &self,
-        points: &[Point2<f64>],
-        (on, off): (f64, f64),
-        style: u8,
-        context: &mut Context,
-    ) {
-        let mut before = 0.0;
+    /// Dashes and gaps of a length in dots along a line; dashes of length 0 are dots.
+    fn dashes(&self, points: &[Point2<f64>], (on, off): (f64, f64)) -> Vec<Vec<Point>> {
+        let (mut before, mut dashes) = (0.0, Vec::new());
         for ends in points.windows(2) {
             let (from, way) = (ends[0], ends[1] - ends[0]);
             let length = way.norm() / self.window.dot;
@@ -300,30 +328,27 @@ impl<'a> Painter<'a> {
             if self.window.clip(from, ends[1]).is_some() {
                 let first = ((before - on) / (on + off)).ceil() as i64;
                 let starts = (first..).map(|dash| dash as f64 * (on + off) - before);
-                for start in starts.take_while(|start| *start < length) {
-                    stroke(context, at(start), at(start + on), style);
-                }
+                let starts = starts.take_while(|start| *start < length);
+                let dash = |start: f64| [start, start + on].map(at).map(|end| (end.x, end.y));
+                dashes.extend(starts.map(|start| dash(start).to_vec()));
             }
             before += length;
         }
+        dashes
     }
 
     /// The words of the picture: the gears, the scale and the factor of the gap in the corners, and
     /// names beside their points, of points close together only the most important one.
     fn words(&self, scene: &Scene, factor: Option<f64>) -> Vec<Word> {
         let (area, theme) = (self.area, self.picture.look.theme);
-        let beside = |(name, point): (&str, Point2<f64>), style: Style| {
+        let beside = |(name, point): (&str, Point2<f64>)| {
             let at = self.cell(point)?;
-            let last = area.right().saturating_sub(name.width() as u16).max(area.x);
-            Some((Position { x: (at.x + 1).min(last), ..at }, name.to_owned(), style))
+            let at = Position { x: at.x + 1, ..at };
+            let has_room = usize::from(at.x) + name.len() <= area.right().into();
+            has_room.then(|| (at, name.to_owned(), theme.focus))
         };
         let names = scene.distinct_points(&self.window, APART * self.column());
-        let has_room = |name: &&(&str, Point2<f64>)| {
-            let room = self.column() * (name.0.width() + 1) as f64;
-            name.1.x + room < self.window.centre.x + self.window.half.x
-        };
-        let names = names.iter().filter(has_room).filter_map(|name| beside(*name, theme.focus));
-        let exits = scene.exits.iter().filter_map(|exit| beside(*exit, theme.faint));
+        let names = names.into_iter().filter_map(beside);
         let (length, name) = scale_bar(BAR * 2.0 * self.window.half.x, self.picture.units);
         let columns = (length / self.column()).round() as usize;
         let bar = format!("├{}┤ {name}", "─".repeat(columns.max(2) - 2));
@@ -340,51 +365,18 @@ impl<'a> Painter<'a> {
             (at("", false, bottom), bar, theme.focus),
             (at(&gap, true, bottom), gap, theme.focus),
         ];
-        exits.chain(names).chain(corners).collect()
+        names.chain(corners).collect()
     }
 
     /// The cell of a visible point.
     fn cell(&self, point: Point2<f64>) -> Option<Position> {
-        let ([left, _], [_, high]) = self.bounds();
+        let (left, high) = (self.plot().across.from, self.plot().up.to);
         let dot = |off: f64, size: f64, dots: u16| (off / size).round() as u16 / dots;
         self.window.sees(point).then(|| Position {
             x: self.area.x + dot(point.x - left, self.window.dot, self.dots.0),
             y: self.area.y + dot(high - point.y, self.dot_height(), self.dots.1),
         })
     }
-
-    /// Sets the styles of the cells. The canvas stores only colours: the number of a colour is the
-    /// index of its style.
-    fn set_styles(&self, buffer: &mut Buffer) {
-        let theme = self.picture.look.theme;
-        let bold = |style: Style| style.add_modifier(Modifier::BOLD);
-        let (driven, driver) = (theme.driven, theme.driver);
-        let (marks, contacts) = (theme.focus, theme.active);
-        let styles =
-            [theme.faint, theme.path, driven, bold(driven), driver, bold(driver), marks, contacts];
-        let faint = if self.picture.is_stale { theme.faint } else { Style::new() };
-        let style_of = |colour: Color| match colour {
-            Color::Indexed(number) => styles.get(usize::from(number)).copied(),
-            _ => None,
-        };
-        for position in self.area.positions() {
-            let cell = &mut buffer[position];
-            let Some(style) = style_of(cell.fg) else { continue };
-            // A half block has two colours, for its upper and its lower half.
-            let below = style_of(cell.bg).map(|style| style.fg);
-            (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
-            cell.set_style(style.patch(faint));
-            match below {
-                Some(Some(colour)) if Some(colour) != style.fg => _ = cell.set_bg(colour),
-                Some(_) => _ = cell.set_symbol("█"),
-                None => (),
-            }
-        }
-    }
-}
-
-fn stroke(context: &mut Context, from: Point2<f64>, to: Point2<f64>, style: u8) {
-    context.draw(&Segment::new(from.x, from.y, to.x, to.y, Color::Indexed(style)));
 }
 
 /// Every value of the method at a contact state, and the opening, in a fixed order.
@@ -441,7 +433,9 @@ fn without_contact(moment: &ContactState, key: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector2;
     use ratatui::layout::Size;
+    use unicode_width::UnicodeWidthStr;
 
     use super::*;
     use crate::case::Case;
@@ -459,6 +453,7 @@ mod tests {
                             inputs: &inputs,
                             solution: &solution,
                             cursor: None,
+                            z: 0.0,
                             view: &TeethView { centre, zoom, ..TeethView::default() },
                             look: Look::FULL,
                             marker,
@@ -488,14 +483,8 @@ mod tests {
             );
             for (right, up) in [(0.02, -0.03), (-0.99, 0.99), (0.999, 0.999), (0.51, 0.13)] {
                 let point = centre + Vector2::new(right * half.x, up * half.y);
-                let mut buffer = Buffer::empty(size);
-                let (across, upright) = painter.bounds();
-                Canvas::default()
-                    .marker(painter.marker)
-                    .x_bounds(across)
-                    .y_bounds(upright)
-                    .paint(|context| stroke(context, point, point, MARK))
-                    .render(size, &mut buffer);
+                let look = (painter.marker, Style::new());
+                let buffer = painter.plot().layer(&[vec![(point.x, point.y)]], look);
                 let drawn = size.positions().find(|position| buffer[*position].symbol() != " ");
                 assert_eq!(drawn, painter.cell(point), "{size:?} {right} {up}");
             }

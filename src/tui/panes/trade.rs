@@ -5,8 +5,6 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
-use ratatui::text::Line;
-use ratatui::widgets::{Row, Table, Widget};
 
 use super::Title;
 use super::plot::TerminalChart;
@@ -14,10 +12,10 @@ use crate::model::Inputs;
 use crate::model::inputs::Method;
 use crate::report::chart::{Axis, Chart, Kind, Point, Series};
 use crate::report::trade::{
-    NO_CONTACT, build, compliance_name, compliances, parts, percent, plotted_error, power_of_time,
-    summary,
+    Cell, NO_CONTACT, build, compliance_table, compliances, parts, percent, plotted_error,
+    power_of_time, summary,
 };
-use crate::study::trade::{METHODS, MeasuredSetting, Setting, Trade};
+use crate::study::trade::{MeasuredSetting, Setting, Trade};
 use crate::tui::jobs::{TradeView, Traded};
 use crate::tui::text;
 use crate::tui::theme::Look;
@@ -26,11 +24,6 @@ use crate::tui::theme::Look;
 const TALL: u16 = 8;
 const INVITATION: &str = "runs every method with its settings on this case for a few seconds. Esc stops the \
     benchmark and keeps its results. Enter then applies the selected setting to the case.";
-
-/// Width of a compliance with its mark.
-const COMPLIANCE_NAME: u16 = 23;
-/// Width of a cell with time and difference, and with only the difference.
-const CELL: [u16; 2] = [14, 8];
 
 /// The pane with the benchmark that it shows.
 #[derive(Debug, Clone)]
@@ -258,34 +251,22 @@ fn draw_table(
     area: Rect,
     buffer: &mut Buffer,
 ) {
-    let theme = pane.look.theme;
-    let is_wide = COMPLIANCE_NAME + CELL[0] * METHODS.len() as u16 <= area.width;
-    let own = own(pane).and_then(|own| own.models);
-    let rows = compliances(trade);
+    let table = |is_wide: bool| {
+        let own = own(pane).and_then(|own| own.models);
+        let text = |cell: &Cell| {
+            let mark = if traded.marked == Some(cell.setting) { "▸" } else { "" };
+            if is_wide { format!("{mark}{cell}") } else { format!("{mark}{}", cell.total) }
+        };
+        compliance_table(trade, own, '*', text).lines()
+    };
+    let fits = |line: &String| line.chars().count() <= area.width.into();
+    let lines = Some(table(true)).filter(|lines| lines.iter().all(fits));
+    let lines = lines.unwrap_or_else(|| table(false));
+    let marked = lines.iter().position(|line| line.contains('▸'));
     let [above, below] =
-        Layout::vertical([Constraint::Length(rows.len() as u16 + 2), Constraint::Fill(1)])
+        Layout::vertical([Constraint::Length(lines.len() as u16 + 1), Constraint::Fill(1)])
             .areas(area);
-    let table = rows.into_iter().map(|(models, cells)| {
-        let mark = if own == Some(models) { '*' } else { ' ' };
-        let name = Line::raw(format!("{mark}{}", compliance_name(models)));
-        let cells = cells.into_iter().map(|cell| {
-            let Some(cell) = cell else { return Line::default() };
-            let text = if is_wide { cell.to_string() } else { cell.total.clone() };
-            if traded.marked == Some(cell.setting) {
-                Line::styled(format!("▸{text}"), theme.key).right_aligned()
-            } else {
-                Line::raw(text).right_aligned()
-            }
-        });
-        Row::new(std::iter::once(name).chain(cells))
-    });
-    let names = METHODS.map(|method| Line::styled(method.name(), theme.title).right_aligned());
-    let mut widths = vec![Constraint::Length(COMPLIANCE_NAME)];
-    widths.extend([Constraint::Length(CELL[usize::from(!is_wide)]); METHODS.len()]);
-    Table::new(table, widths)
-        .header(Row::new(std::iter::once(Line::default()).chain(names)))
-        .column_spacing(0)
-        .render(above, buffer);
+    super::draw_table(&lines, marked.map(|line| line - 1), pane.look.theme, above, buffer);
     text::draw_words(&build(trade), below, buffer);
 }
 

@@ -17,7 +17,7 @@ use crate::tui::app::actions::{Action, Binding, Choice, Effect, Run};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::page::Page;
 use crate::tui::app::dialogs::picker::{Item, Picker, Typed};
-use crate::tui::jobs::WorkerChart;
+use crate::tui::jobs::OwnChart;
 use crate::tui::keys::{self, Place};
 use crate::tui::layout::Pane;
 use crate::tui::panes::chart::ChartCommand as Chart;
@@ -64,14 +64,15 @@ const SIGNS: [&str; 6] = [
         before E. Crosses: named points. Bold dots: contacts.",
 ];
 
-const PLACES: [(&str, Place); 15] = [
+const PLACES: [(&str, Place); 16] = [
     ("Everywhere", Place::WORK),
     ("In a field", Place::TEXT),
     ("Outside a field (Esc leaves the field)", Place::FIELD),
     ("In a field of choices", Place::CHOICE),
     ("In the results", Place::RESULTS),
     ("In chart and teeth", Place::CURSOR),
-    ("In a chart with its own axes", Place::WORKER_CHART),
+    ("In a chart with its own axes", Place::OWN_CHART),
+    ("In the contact pattern", Place::PATTERN),
     ("In accuracy against run time", Place::TRADE),
     ("In the study", Place::STUDY),
     ("In the tolerance", Place::TOLERANCE),
@@ -204,7 +205,7 @@ impl Context {
             let symbols: Vec<_> = graph.all_columns().map(|column| column.symbol).collect();
             (graph.label, format!("Show {} over the driver's roll angle.", symbols.join(", ")))
         });
-        let others = WorkerChart::ALL.into_iter().map(|chart| {
+        let others = OwnChart::ALL.into_iter().map(|chart| {
             let [name, about, _] = chart.words();
             (name, about.to_owned())
         });
@@ -325,11 +326,13 @@ pub static BINDINGS: &[Binding] = &[
         "Move the cursor to E, where the normal path of contact begins."),
     row(Place::OUTSIDE, "a", "cursor to angle", panes::ask_cursor,
         "Move the cursor to a roll angle, a time, D, E, B, L or the peak."),
-    pair(Place::WORKER_CHART, "l/h Right/Left", "point", |app, by| panes::run_chart(app, Chart::Move(by)),
+    pair(Place::OWN_CHART, "l/h Right/Left", "point", |app, by| panes::run_chart(app, Chart::Move(by)),
         "One point right or left in a chart with its own axes.").shown(),
-    pair(Place::WORKER_CHART, "L/H Shift-Right/Shift-Left", "", |app, by| panes::run_chart(app, Chart::Move(10 * by)),
+    pair(Place::OWN_CHART, "L/H Shift-Right/Shift-Left", "", |app, by| panes::run_chart(app, Chart::Move(10 * by)),
         "Move that cursor ten points right or left."),
-    row(Place::CURSOR.or(Place::WORKER_CHART), "c", "hide cursor", panes::hide_cursor, "Hide the cursor."),
+    row(Place::CURSOR.or(Place::OWN_CHART), "c", "hide cursor", panes::hide_cursor, "Hide the cursor."),
+    pair(Place::PATTERN, "Up/Down", "slice", panes::step_slice,
+        "Move the cursor along the face to the next slice.").shown(),
     row(Place::CHARTS, "j Down", "next chart", |app| panes::run_chart(app, Chart::Step(1)),
         "Show the next chart.").shown(),
     row(Place::CHARTS, "k Up", "previous chart", |app| panes::run_chart(app, Chart::Step(-1)),

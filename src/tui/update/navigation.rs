@@ -11,7 +11,7 @@ use crate::tui::app::actions::{Effect, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::browser::Browser;
 use crate::tui::layout::Pane;
-use crate::tui::panes::chart::{ChartCommand, angle_at};
+use crate::tui::panes::chart::{ChartCommand, cursor_at};
 use crate::tui::panes::form;
 use crate::tui::panes::teeth::TeethCommand;
 use crate::tui::tab::Tab;
@@ -255,10 +255,10 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) {
         }
         Pane::Chart => {
             // The focus may widen the pane.
-            let angle = angle_at(&app.charts(), at);
+            let found = cursor_at(&app.charts(), at);
             panes::show(app, pane);
-            if let Some(angle) = angle {
-                app.cursor = Some(angle);
+            if let Some((angle, z)) = found {
+                (app.cursor, app.chart.z) = (Some(angle), z);
                 panes::stop_playing(app);
             }
         }

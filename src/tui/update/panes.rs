@@ -18,7 +18,7 @@ use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::cursor_to::{CursorTo, Reach, cursor_range};
 use crate::tui::app::dialogs::page::{Explanation, Page};
 use crate::tui::ascii;
-use crate::tui::jobs::{ChartRequest, ChartValues, WorkerChart};
+use crate::tui::jobs::{ChartRequest, ChartValues, OwnChart};
 use crate::tui::layout::Pane;
 use crate::tui::panes::chart::{self, ChartCommand, first_contact};
 use crate::tui::panes::results as results_pane;
@@ -188,8 +188,20 @@ pub(super) fn select_chart(app: &mut App, at: usize) {
 /// Scrolls to a moved cursor.
 pub(super) fn follow_cursor(app: &mut App, cursor_before: Option<f64>) {
     if let Some(cursor) = app.cursor.filter(|_| app.cursor != cursor_before) {
-        let scale = app.charts().scale();
-        app.chart.view = app.chart.view.following(0.0 - cursor.to_degrees(), &scale);
+        let (scale, ahead) = (app.charts().scale(), app.charts().ahead());
+        app.chart.view = app.chart.view.following(ahead - cursor.to_degrees(), &scale);
+    }
+}
+
+/// Moves the cursor along the face by slices.
+pub(super) fn step_slice(app: &mut App, by: isize) {
+    let moved = app
+        .charts()
+        .pattern()
+        .map(|pattern| (pattern.beside(app.chart.z, by), app.cursor.unwrap_or(-pattern.at_peak())));
+    match moved {
+        Some((z, cursor)) => (app.chart.z, app.cursor) = (z, Some(cursor)),
+        None => app.complain("no line load over the face width to move in"),
     }
 }
 
@@ -246,7 +258,7 @@ pub(super) fn cursor_to_end(app: &mut App) {
 }
 
 pub(super) fn hide_cursor(app: &mut App) {
-    (app.cursor, app.chart.place) = (None, None);
+    (app.cursor, app.chart.place, app.chart.z) = (None, None, 0.0);
     stop_playing(app);
 }
 
@@ -290,7 +302,7 @@ pub(super) fn stop_playing(app: &mut App) -> bool {
 /// Requests the visible chart, unless it is the last request; stops a hidden one.
 pub(super) fn request_chart(app: &mut App) {
     let is_visible = app.layout.plan().shows(Pane::Chart);
-    let chart = app.chart.worker_chart().filter(|_| is_visible);
+    let chart = app.chart.own_axes().filter(|_| is_visible && !app.chart.is_pattern());
     let Some((chart, inputs)) = chart.zip(app.tab.inputs().cloned()) else {
         if app.cancel(Slot::Chart) {
             let work = &mut app.tab.chart_work;
@@ -316,9 +328,10 @@ pub(super) fn request_chart(app: &mut App) {
 /// Computes a chart for a tab and sends its values as they arrive.
 fn compute(tab: usize, request: &ChartRequest, running: &Running<'_>) {
     let found = match request.chart {
-        WorkerChart::ToothCompliance(gear) => tooth_compliance(gear, &request.inputs),
-        WorkerChart::Spectrum => spectrum(&request.inputs, running),
-        WorkerChart::Speed => over_speed(tab, request, running),
+        OwnChart::ToothCompliance(gear) => tooth_compliance(gear, &request.inputs),
+        OwnChart::Spectrum => spectrum(&request.inputs, running),
+        OwnChart::Speed => over_speed(tab, request, running),
+        OwnChart::Pattern => return,
     };
     let found = match found {
         Ok(found) => Some(found),

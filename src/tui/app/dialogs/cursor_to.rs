@@ -154,7 +154,8 @@ pub(in crate::tui) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
     let pitch = solution.geometry.base_pitch / solution.geometry.driver.base;
     let start = first_contact(solution).unwrap_or(0.0);
     let end = last_contact(solution).unwrap_or(0.0).min(0.0);
-    let axis = scope.charts.scale().across;
+    let ahead = scope.charts.ahead();
+    let axis = scope.charts.scale().across.shifted(-ahead);
     let before =
         if axis.is_empty() { start.max(pitch / 10.0) } else { start.max(-axis.from.to_radians()) };
     let columns = f64::from(columns(&scope.charts).max(2) - 1);
@@ -169,7 +170,7 @@ pub(in crate::tui) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
             column: before / columns,
         });
     }
-    let window = scope.charts.window();
+    let window = scope.charts.window().shifted(-ahead);
     let (least, shown) = if axis.is_empty() {
         (end, before)
     } else {

@@ -85,7 +85,7 @@ fn letters_are_text_and_not_commands_inside_a_field() {
 #[test]
 fn outside_a_field_no_letter_is_text() {
     let panes = Pane::ALL.map(Pane::place);
-    for place in panes.into_iter().chain([Place::TOLERANCE, Place::WORKER_CHART, Place::READ]) {
+    for place in panes.into_iter().chain([Place::TOLERANCE, Place::OWN_CHART, Place::READ]) {
         for letter in '!'..='~' {
             assert!(!matches!(of_key(plain(letter), place), Some(Action::Insert(_))));
         }
@@ -220,7 +220,7 @@ fn a_list_of_fields_names_the_gear() {
 #[test]
 fn an_empty_filter_shows_the_whole_list() {
     let all = PALETTE(&Context::default()).fitting();
-    let charts = GRAPHS.len() + WorkerChart::ALL.len();
+    let charts = GRAPHS.len() + OwnChart::ALL.len();
     assert_eq!(all.len(), commands().len() + charts);
     assert_eq!(Context::default().search().fitting().len(), FIELDS.len());
 }
