@@ -126,11 +126,8 @@ impl<'a> Pattern<'a> {
             let (name, kind) = (LINES[usize::from(is_outside)].to_owned(), Kind::Curve);
             Series { name, pieces: lines.into_iter().map(line).collect(), kind }
         };
-        let peaks = Series {
-            name: "peaks: tooth, before E, after B".to_owned(),
-            pieces: vec![peaks],
-            kind: Kind::Marks(None),
-        };
+        let peaks =
+            Series { name: "peaks".to_owned(), pieces: vec![peaks], kind: Kind::Marks(None) };
         Chart {
             title: "Contact pattern: line load of the incoming tooth".to_owned(),
             across: Axis::new("driver roll angle after E in each plane", "deg"),

@@ -26,7 +26,7 @@ const MOST_LETTERS: usize = 43;
 /// Draws the chart.
 #[must_use]
 pub fn draw(chart: &Chart) -> String {
-    let legend: Vec<(Symbol, String)> = legend(chart);
+    let legend = legend(chart);
     let places = places(legend.iter().map(|(_, name)| name.as_str()));
     let lines = places.last().map_or(0.0, |(_, y)| y - LEGEND + LINE);
     let spans = chart.spans();
@@ -44,65 +44,52 @@ pub fn draw(chart: &Chart) -> String {
         draw_series(&mut text, series, (at, chart.series.len()), place);
     }
     for ((symbol, name), (x, y)) in legend.into_iter().zip(places) {
-        let (middle, beside) = (y - 5.0, x + 38.0);
-        let symbol = match symbol {
-            Symbol::Of(Kind::Curve, look) => {
-                format!("<path d=\"M{x} {middle}h30\" class=\"curve s{look}\"/>")
-            }
-            Symbol::Of(Kind::Bound, _) => {
-                format!("<path d=\"M{x} {middle}h30\" class=\"bound\"/>")
-            }
-            Symbol::Of(Kind::Bars, look) => {
-                let (x, y) = (x + 8.0, middle - 6.0);
-                format!("<rect x=\"{x}\" y=\"{y}\" width=\"14\" height=\"12\" class=\"f{look}\"/>")
-            }
-            Symbol::Of(Kind::Marks(_), look) => {
-                let (shape, x) = (LOOKS[look], x + 15.0);
-                format!(
-                    "<path d=\"{shape}\" transform=\"translate({x} {middle})\" class=\"f{look}\"/>"
-                )
-            }
-            Symbol::Shades(shades) => {
-                let (width, top) = (32.0 / shades.len() as f64, middle - 6.0);
-                let shade = |(at, shade): (usize, usize)| {
-                    let x = x + width * at as f64;
-                    format!(
-                        "<path d=\"M{x:.1} {top}h{width:.1}v12h-{width:.1}z\" class=\"m{shade}\"/>"
-                    )
-                };
-                shades.enumerate().map(shade).collect()
-            }
-        };
-        let name = escaped(&name);
-        let _ = writeln!(text, "{symbol}<text x=\"{beside}\" y=\"{y}\">{name}</text>");
+        let (beside, name) = (x + 38.0, escaped(&name));
+        let _ = writeln!(
+            text,
+            "<g transform=\"translate({x} {y})\">{symbol}</g><text x=\"{beside}\" y=\"{y}\">{name}</text>"
+        );
     }
     text + "</svg>\n"
 }
 
-/// A symbol of the legend: of a series with its look, or shades of a map.
-enum Symbol {
-    Of(Kind, usize),
-    Shades(Range<usize>),
-}
-
-fn legend(chart: &Chart) -> Vec<(Symbol, String)> {
+/// The symbols and names of the legend.
+fn legend(chart: &Chart) -> Vec<(String, String)> {
+    let shades = |shades: Range<usize>| {
+        let shade = |(at, shade): (usize, usize)| {
+            format!("<path d=\"M{}-11h4v12h-4z\" class=\"m{shade}\"/>", 4 * at)
+        };
+        shades.enumerate().map(shade).collect::<String>()
+    };
+    let line = |class: &str| format!("<path d=\"M0-5h30\" class=\"{class}\"/>");
     let mut legend = Vec::new();
     if let Some(map) = &chart.map {
         let ends = map.ends.as_ref().map(|[least, most]| format!("{} to {}", least.1, most.1));
         let limit = map.limit.as_ref().map(|limit| limit.1.clone());
         let has = |cell: Cell, name: &str| map.cells.contains(&cell).then(|| name.to_owned());
         let parts = [
-            (Symbol::Shades(0..SHADES.len() - 2), ends),
-            (Symbol::Of(Kind::Bound, 0), limit),
-            (Symbol::Shades(NO_CONTACT..NO_CONTACT + 1), has(Cell::NoContact, "no contact")),
-            (Symbol::Shades(REFUSED..REFUSED + 1), has(Cell::Refused, "refused")),
+            (shades(0..NO_CONTACT), ends),
+            (line("bound"), limit),
+            (shades(NO_CONTACT..REFUSED), has(Cell::NoContact, "no contact")),
+            (shades(REFUSED..SHADES.len()), has(Cell::Refused, "refused")),
         ];
         legend.extend(parts.into_iter().filter_map(|(symbol, name)| Some((symbol, name?))));
     }
-    let series = chart.series.iter().enumerate();
-    let series =
-        series.map(|(at, series)| (Symbol::Of(series.kind, at % LOOKS.len()), cut(&series.name)));
-    legend.extend(series);
+    legend.extend(chart.series.iter().enumerate().map(|(at, series)| {
+        let look = at % LOOKS.len();
+        let symbol = match series.kind {
+            Kind::Curve => line(&format!("curve s{look}")),
+            Kind::Bound => line("bound"),
+            Kind::Bars => {
+                format!("<rect x=\"8\" y=\"-11\" width=\"14\" height=\"12\" class=\"f{look}\"/>")
+            }
+            Kind::Marks(_) => {
+                let shape = LOOKS[look];
+                format!("<path d=\"{shape}\" transform=\"translate(15 -5)\" class=\"f{look}\"/>")
+            }
+        };
+        (symbol, cut(&series.name))
+    }));
     legend
 }
 
@@ -118,7 +105,7 @@ fn draw_map(text: &mut String, map: &Map, (across, up): (Span, Span)) {
     });
     let shade = |cell: Cell| match cell {
         Cell::Blank => None,
-        Cell::Value(value) => Some(map.level(value, SHADES.len() - 2)),
+        Cell::Value(value) => Some(map.level(value, NO_CONTACT)),
         Cell::NoContact => Some(NO_CONTACT),
         Cell::Refused => Some(REFUSED),
     };
@@ -426,8 +413,8 @@ mod tests {
     #[test]
     fn every_single_point_has_a_mark_and_the_chosen_one_has_a_ring() {
         let text = drawn(vec![(1e-6, 1e-3), (2e-5, 1e-16)], Kind::Marks(Some(1)));
-        // The label of the upward axis, two marks and the legend.
-        assert_eq!(text.matches("translate(").count(), 1 + 2 + 1, "{text}");
+        // The label of the upward axis, two marks, and the symbol of the legend in its place.
+        assert_eq!(text.matches("translate(").count(), 1 + 2 + 2, "{text}");
         assert_eq!(text.matches("<circle").count(), 1);
     }
 

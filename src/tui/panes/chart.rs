@@ -174,7 +174,8 @@ impl Charts<'_> {
         let message = match command {
             ChartCommand::Step(by) => {
                 let all = CHARTS - usize::from(self.pattern().is_none());
-                let selected = (pane.selected.min(all) + all).saturating_add_signed(by) % all;
+                let last = all - usize::from(by > 0);
+                let selected = (pane.selected.min(last) + all).saturating_add_signed(by) % all;
                 pane = ChartPane { selected, place: None, ..pane };
                 None
             }
@@ -221,11 +222,16 @@ impl Charts<'_> {
         Pattern::of(&self.answer?.inputs, self.solution()?)
     }
 
+    /// The same while the contact pattern is selected.
+    fn shown_pattern(&self) -> Option<Pattern<'_>> {
+        self.pattern().filter(|_| self.pane.is_pattern())
+    }
+
     /// The roll angle by which the plane of the cursor is ahead in the contact pattern, in deg.
     #[must_use]
     pub(crate) fn ahead(&self) -> f64 {
-        let pattern = self.pattern().filter(|_| self.pane.is_pattern());
-        pattern.map_or(0.0, |pattern| pattern.ahead(self.pane.z).to_degrees())
+        let ahead = self.shown_pattern().map(|pattern| pattern.ahead(self.pane.z));
+        ahead.unwrap_or_default().to_degrees()
     }
 
     /// The chart with its own axes, as far as it is computed.
@@ -266,9 +272,7 @@ impl Charts<'_> {
 
     /// The values of that chart at its cursor, or its description without a cursor.
     pub(crate) fn own_readout(&self) -> String {
-        if let Some((pattern, cursor)) =
-            self.pattern().zip(self.cursor).filter(|_| self.pane.is_pattern())
-        {
+        if let Some((pattern, cursor)) = self.shown_pattern().zip(self.cursor) {
             return self.pattern_readout(&pattern, cursor);
         }
         let Some((chart, place)) = self.own_chart().zip(self.pane.place) else {
@@ -293,25 +297,26 @@ impl Charts<'_> {
 
     /// The line load at the cursor, and the values of the tooth at its roll angle.
     fn pattern_readout(&self, pattern: &Pattern<'_>, cursor: f64) -> String {
-        let z = self.pane.z;
-        let shown = |key: &str, value: f64| {
+        let (z, angle) = (self.pane.z, pattern.ahead(self.pane.z) - cursor);
+        let side = if angle < 0.0 { "before" } else { "after" };
+        let [z, load] = [
+            ("static_peak_line_load_z", z),
+            ("static_peak_line_load", pattern.line_load(angle, z)),
+        ]
+        .map(|(key, value)| {
             let known = Quantity::find(key);
             known.map_or_else(String::new, |known| shown_in(known, value, self.units).to_string())
-        };
-        let load = pattern.line_load(pattern.ahead(z) - cursor, z);
-        let [z, load] = [("static_peak_line_load_z", z), ("static_peak_line_load", load)]
-            .map(|(key, value)| shown(key, value));
-        let angle = pattern.ahead(self.pane.z).to_degrees() - cursor.to_degrees();
-        let side = if angle < 0.0 { "before" } else { "after" };
-        let angle = format!("{} deg {side} E", significant(angle.abs(), DIGITS));
-        format!("In the plane at z {z}: {angle}, line load {load}. {}", readout(self, cursor))
+        });
+        let angle = significant(angle.abs().to_degrees(), DIGITS);
+        let place = format!("In the plane at z {z} {angle} deg {side} E");
+        format!("{place}: line load {load}. {}", readout(self, cursor))
     }
 
     /// The roll angles of every visible curve, with round ends.
     #[must_use]
     pub fn scale(&self) -> Scale {
         let Some(answer) = self.answer else { return Scale::default() };
-        if let Some(pattern) = self.pattern().filter(|_| self.pane.is_pattern()) {
+        if let Some(pattern) = self.shown_pattern() {
             let across = pattern.span().scaled(1f64.to_degrees());
             let strike = Span::new(across.from, -AFTER_E * across.from);
             let strike = if strike.is_empty() { Span::default() } else { strike };
@@ -405,12 +410,21 @@ impl Charts<'_> {
         const SIGNS: [char; 4] = ['*', '+', '×', '∘'];
         let (theme, chart, is_pattern) =
             (self.look.theme, self.own_chart(), of == OwnChart::Pattern);
+        // The contact lines lean as the teeth do.
+        let lean = match self.shown_pattern().map_or(0.0, |pattern| pattern.ahead(1.0)) {
+            0.0 => '|',
+            ahead => {
+                if ahead > 0.0 {
+                    '/'
+                } else {
+                    '\\'
+                }
+            }
+        };
         let look = |(at, series): (usize, &Series)| {
             let style = if at == 0 { theme.active } else { theme.other };
             match series.kind {
-                Kind::Curve if is_pattern => {
-                    (Marker::Custom(if at == 0 { '/' } else { '×' }), theme.focus)
-                }
+                Kind::Curve if is_pattern => (Marker::Custom([lean, '×'][at]), theme.focus),
                 Kind::Marks(_) if is_pattern => (Marker::Custom('◆'), theme.focus),
                 Kind::Marks(_) => (Marker::Custom('×'), theme.note),
                 Kind::Bars => (Marker::Custom(if at == 0 { '█' } else { '▒' }), style),
@@ -568,7 +582,7 @@ pub(crate) fn columns(charts: &Charts) -> u16 {
 pub(crate) fn cursor_at(charts: &Charts, at: Position) -> Option<(f64, f64)> {
     let plot = plots(charts).into_iter().find(|plot| plot.cells.contains(at))?;
     let angle = plot.value(at.x).to_radians();
-    let pattern = charts.pattern().filter(|_| charts.pane.is_pattern());
+    let pattern = charts.shown_pattern();
     let (ahead, z) = pattern.as_ref().map_or((0.0, charts.pane.z), |pattern| {
         let unit = units::factor(charts.units.unit("mm")).unwrap_or(1.0);
         let z = pattern.beside(unit * plot.height(at.y), 0);
