@@ -612,7 +612,7 @@ fn every_example_is_drawn_at_every_method() {
             // The closed form `paper` refuses a helical pair.
             let answer = desk.app.tab.answer.as_ref();
             let Some(solution) = answer.and_then(|answer| answer.of(answer.active)) else {
-                assert!(desk.app.tab.inputs().is_some_and(|inputs| inputs.face().is_some()));
+                assert!(desk.app.tab.case.inputs().is_ok_and(|inputs| inputs.face().is_some()));
                 continue;
             };
             let (method, strikes) = (solution.method, solution.outcome == Outcome::CornerContact);
@@ -741,7 +741,7 @@ fn every_model_of_the_stiffness_is_visible_on_a_small_screen() {
         let path = entry.expect("a case").path();
         let text = fs::read_to_string(&path).expect("a case");
         let mut desk = Desk::on(SMALL, "case.toml", &text);
-        if desk.app.tab.inputs().is_some_and(|inputs| inputs.face().is_some()) {
+        if desk.app.tab.case.inputs().is_ok_and(|inputs| inputs.face().is_some()) {
             continue;
         }
         desk.keys(&["Esc", ":", "mesh stiff", "Enter"]);
@@ -859,7 +859,7 @@ fn the_cursor_of_the_pattern_moves_along_the_contact_line_and_the_teeth_follow()
     let after = desk.buffer(LARGE);
     assert!(teeth.positions().any(|at| before[at] != after[at]), "another section");
     desk.keys(&["Down"; 99]);
-    let width = desk.app.tab.inputs().expect("a case").common_width();
+    let width = desk.app.tab.case.inputs().expect("a case").common_width();
     assert!((desk.app.chart.z + 0.5 * width).abs() < 1e-12, "the face ends here");
     let area = chart_area(&desk);
     desk.act(Action::Click(Position::new(area.x + area.width / 2, area.y + area.height / 2)));
