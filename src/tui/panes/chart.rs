@@ -249,7 +249,7 @@ impl Charts<'_> {
 
     /// The x axis in the visible range.
     fn across(&self) -> Axis {
-        let width = self.area.width.saturating_sub(MARGIN + 1);
+        let width = self.area.width.saturating_sub(MARGIN + 5);
         let ((factor, across), window) = (self.ruler(), self.window());
         let ends = Span::NONE.with(factor * window.from).with(factor * window.to);
         let labels = ends.ticks(width / LABEL_COLUMNS).into_iter();

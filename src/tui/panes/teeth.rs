@@ -244,7 +244,7 @@ impl<'a> Painter<'a> {
         let factor = moment.map_or(1.0, |moment| view.factor(inputs, solution, moment));
         let lead = moment.map_or(0.0, |moment| moment.lead(factor));
         let scene = Scene::of(inputs, solution, moment, lead, &self.window);
-        for (pieces, style) in self.layers(&scene) {
+        for (pieces, style) in self.layers(&scene).into_iter().filter(|layer| !layer.0.is_empty()) {
             put(&self.plot().layer(&pieces, (self.marker, style)), buffer);
         }
         for (at, word, style) in self.words(&scene, moment.map(|_| factor)) {
