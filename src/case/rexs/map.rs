@@ -41,6 +41,8 @@ type Read<T = Reading> = Result<Option<T>, Unread>;
 struct Source {
     /// The name, after the type of its component where the name repeats.
     attribute: &'static str,
+    /// Another attribute that must agree, or empty.
+    also: &'static str,
     /// The unit in a case, and that of an attribute without a unit.
     unit: &'static str,
     /// Converts the reading for gear 0 or 1 of the pair.
@@ -50,7 +52,11 @@ struct Source {
 type Convert = fn(&Pair, usize, Reading) -> Read;
 
 const fn from(attribute: &'static str, unit: &'static str) -> Source {
-    Source { attribute, unit, convert: None }
+    both(attribute, "", unit)
+}
+
+const fn both(attribute: &'static str, also: &'static str, unit: &'static str) -> Source {
+    Source { attribute, also, unit, convert: None }
 }
 
 impl Source {
@@ -115,8 +121,6 @@ const HELIX: [Source; 3] = [
     from("helix_angle_base_diameter", "deg").by(at_reference_diameter),
     from("helix_angle_base_circle", "deg").by(at_reference_diameter),
 ];
-const OTHER_CROWNING: Source = from("helix_crowning_amount_non_datum_face", "mm");
-const OTHER_LENGTH: Source = from("end_relief_length_non_datum_face", "mm");
 const BASE_PITCH: Source = from("base_pitch_deviation_din_3962_1978", "um");
 /// The unit of a text.
 const TEXT: &str = "text";
@@ -157,27 +161,24 @@ const ROWS: &[Row] = &[
         from("root_relief.shape_of_relief", TEXT),
     ]),
     row("helix_slope", Optional, &[from("helix_slope", "mm")]),
-    row("crowning", Optional, &[
-        from("helix_crowning_amount_datum_face", "mm")
-            .by(|pair, gear, own| agreed(Some(own), pair.read(gear, OTHER_CROWNING)?)),
-        OTHER_CROWNING,
-    ]),
+    row("crowning", Optional, &[both(
+        "helix_crowning_amount_datum_face", "helix_crowning_amount_non_datum_face", "mm",
+    )]),
     row("end_relief_minus", Optional, &[from("end_relief_depth_datum_face", "mm")]),
     row("end_relief_plus", Optional, &[from("end_relief_depth_non_datum_face", "mm")]),
-    row("end_relief_length", After("end_relief"), &[
-        from("end_relief_length_datum_face", "mm")
-            .by(|pair, gear, own| agreed(Some(own), pair.read(gear, OTHER_LENGTH)?)),
-        OTHER_LENGTH,
-    ]),
+    row("end_relief_length", After("end_relief"), &[both(
+        "end_relief_length_datum_face", "end_relief_length_non_datum_face", "mm",
+    )]),
     row("deviations.base_pitch", Usual, &[
         from("transverse_base_pitch_deviation_iso_6336_2019", "um"),
         from("transverse_base_pitch_deviation_iso_6336_2006", "um"),
         BASE_PITCH.by(greater),
     ]),
+    row("deviations.backlash", Usual, &[both(
+        "minimum_normal_backlash", "maximum_normal_backlash", "mm",
+    )]),
 ];
 
-const BACKLASHES: [Source; 2] =
-    [from("minimum_normal_backlash", "mm"), from("maximum_normal_backlash", "mm")];
 const SPEED: Source = from("rotational_speed", "rpm");
 const TORQUE_OF_GEAR: Source = from("torque", "N m");
 const TORQUE_OF_LOAD: Source = from("torque_around_u_axis", "N m");
@@ -211,9 +212,6 @@ impl Values {
                 self.row(row, &format!("{table}.{name}"), &[gear], pair);
             }
         }
-        let [least, greatest] = BACKLASHES.map(|source| pair.read(0, source));
-        let backlash = least.and_then(|least| agreed(least, greatest?));
-        self.put("deviations.backlash", backlash, "the model gives no normal backlash");
         if let Some(offset) = pair.offset() {
             self.fields.push(("pair.face_offset", Ok(offset)));
         }
@@ -221,8 +219,7 @@ impl Values {
         self.put("operation.speed", speed, missing);
         let (key, load) = match pair.load() {
             Ok(Some((key, load))) => (key, Ok(Some(load))),
-            Ok(None) => (TORQUE, Ok(None)),
-            Err(unread) => (TORQUE, Err(unread)),
+            other => (TORQUE, other.map(|_| None)),
         };
         self.put(key, load, "no load is given on a shaft at the end of the gear train");
         self.fields.sort_by_key(|(key, _)| index_of(key));
@@ -408,6 +405,12 @@ impl<'m> Pair<'m> {
                     (one, whole) => agreed(one, whole)?,
                 }
             }
+        };
+        let reading = if source.also.is_empty() {
+            reading
+        } else {
+            let also = Source { attribute: source.also, also: "", ..source };
+            agreed(reading, self.read(gear, also)?)?
         };
         match (source.convert, reading) {
             (Some(convert), Some(reading)) => convert(self, gear, reading),
