@@ -6,6 +6,7 @@ pub mod charts;
 pub mod compare;
 pub mod data;
 pub mod digest;
+pub mod excitation;
 pub mod explain;
 pub mod export;
 pub mod fields;

@@ -3,6 +3,7 @@
 pub mod axis;
 pub mod batch;
 pub mod condition;
+pub mod excitation;
 pub mod relief;
 pub mod sample;
 pub mod seek;

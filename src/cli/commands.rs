@@ -45,6 +45,18 @@ pub enum Command {
     /// model does not cover the gear. JSON: one object in SI units; missing values are absent,
     /// and gaps and refusal give the reason.
     Stiffness(studies::Stiffness),
+    /// Export stiffness, transmission error and forces of the mesh for other solvers
+    ///
+    /// The mesh at rest over one base pitch of equal pairs (part `period`), as Fourier series, and
+    /// over the passage of the incoming tooth with its deviation (part `passage`), contact before E
+    /// and after B included. The equation of motion is m x'' + c x' + k(t) (x - e(t)) = F0 with x =
+    /// rb1 phi1 - rb2 phi2, positive where the driver is ahead: mesh_stiffness k,
+    /// displacement_excitation e, damping c, reduced_mass m and mesh_force F0. For a solver with
+    /// constant stiffness exciting_force is the mean stiffness times the deviation of the loaded
+    /// transmission error from its mean. The force of the incoming tooth is tooth_force +
+    /// tooth_stiffness (x - transmission_error). CSV has one row per place, JSON is one object with
+    /// the constants and the series; all in SI units.
+    Excitation(studies::Excitation),
     /// Solve a case over a range of one or more fields, as a table
     ///
     /// CSV has one row per point: the varied fields in the units of --vary, then the quantities
@@ -141,6 +153,7 @@ impl Command {
             Command::Explain(command) => command.run(streams),
             Command::Trade(command) => command.run(streams),
             Command::Stiffness(command) => command.run(streams),
+            Command::Excitation(command) => command.run(streams),
             Command::Sweep(command) => command.run(streams),
             Command::Tolerance(command) => command.run(streams),
             Command::Gather(command) => command.run(streams),

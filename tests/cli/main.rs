@@ -13,6 +13,7 @@ mod case_files;
 mod commands;
 mod compare;
 mod drawing_sizes;
+mod excitation_command;
 mod explain;
 mod import_command;
 mod meaning;

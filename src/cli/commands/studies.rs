@@ -12,6 +12,7 @@ use crate::cli::{self, Done, Exit, Failure, Opened, Streams, check_out, follow, 
 use crate::model::{Inputs, Quantity};
 use crate::numeric::decimal::shortest;
 use crate::report::absence::Absence;
+use crate::report::excitation::ExcitationReport;
 use crate::report::export::is_picture;
 use crate::report::relief::ReliefReport;
 use crate::report::results::Named;
@@ -23,6 +24,7 @@ use crate::report::tolerance::ToleranceReport;
 use crate::study::axis::{Axis, AxisRange, Sampling, with_unit};
 use crate::study::batch::{Points, Refusals, Row, solve_all};
 use crate::study::condition::{Condition, headline};
+use crate::study::excitation::{Excitation as Exported, POINTS};
 use crate::study::relief::{Criterion, Demand, NoRelief, demand, specify};
 use crate::study::seek::{USUAL_SCAN, seek};
 use crate::study::shard::{
@@ -506,9 +508,46 @@ impl Stiffness {
 
 /// Parses a number of radii on a flank.
 fn point_count(text: &str) -> Result<usize, String> {
-    let range = LEAST_POINTS..=MOST_POINTS;
-    let count = text.parse().ok().filter(|count| range.contains(count));
-    count.ok_or_else(|| format!("write a number from {LEAST_POINTS} to {MOST_POINTS}"))
+    count_within(text, LEAST_POINTS, MOST_POINTS)
+}
+
+fn count_within(text: &str, least: usize, most: usize) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| (least..=most).contains(count));
+    count.ok_or_else(|| format!("write a number from {least} to {most}"))
+}
+
+/// The options of the command.
+#[derive(Debug, Args)]
+pub struct Excitation {
+    /// The case
+    #[command(flatten)]
+    input: CaseFile,
+    /// Number of places in a base pitch
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = POINTS[1], value_parser = place_count)]
+    points: usize,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
+    format: Format,
+    /// The file
+    #[command(flatten)]
+    destination: Destination,
+}
+
+impl Excitation {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let Excitation { input, destination, .. } = self;
+        destination.check(&input.case)?;
+        destination.fits(self.format)?;
+        let opened = input.open(&[], streams)?;
+        let found = follow("places", |go_on| Exported::of(&opened.inputs, self.points, go_on))?;
+        let found = found.map_err(|refusal| opened.refused(&refusal))?;
+        opened.write(&ExcitationReport(&found), self.format, destination.out.as_deref(), streams)
+    }
+}
+
+/// Parses a number of places in a base pitch.
+fn place_count(text: &str) -> Result<usize, String> {
+    count_within(text, POINTS[0], POINTS[2])
 }
 
 /// The options of the command.

@@ -1,0 +1,294 @@
+//! The mesh as the excitation of another solver: stiffness, transmission error and forces at rest over
+//! one base pitch, as Fourier series, and over the passage of the incoming tooth.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use crate::model::dynamic::Settings;
+use crate::model::inputs::{GearSide, Method};
+use crate::model::masses::Inertia;
+use crate::model::pair_forces::Touching;
+use crate::model::slices::Face;
+use crate::model::slices::balance::{Loads, Until};
+use crate::model::{Geometry, Inputs, Mesh, Refusal, Solution, Stage, Stages, solve};
+use crate::numeric::{quadrature, root};
+
+/// Number of values of a [`Sample`].
+pub const VALUES: usize = 6;
+/// Place of a value in a sample.
+pub const STIFFNESS: usize = 0;
+const ERROR: usize = 1;
+const DISPLACEMENT: usize = 2;
+const FORCE: usize = 3;
+const TOOTH_STIFFNESS: usize = 4;
+const TOOTH_FORCE: usize = 5;
+
+/// Least, usual and greatest number of places in a base pitch.
+pub const POINTS: [usize; 3] = [8, 256, 4096];
+/// Number of harmonics of a Fourier series, the mean excluded.
+pub const ORDERS: usize = 20;
+
+/// The balance at rest at one place of the incoming pair.
+///
+/// # Formula
+/// ```text
+/// k = d(Σ w_k F_k)/dx,   e = x − F0/k,   Σ w_k F_k ≈ k (x − e) near the balance
+/// k_0 = dF_0/dx,         F_0 ≈ F_0 + k_0 (x − x_rest) of the incoming tooth
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Path of the incoming pair since E along the line of action, in m.
+    pub way: f64,
+    /// In order: mesh stiffness k, in N/m; displacement of the driver ahead x (the loaded
+    /// transmission error), in m; displacement excitation e, in m; sum of the forces of all pairs,
+    /// in N; stiffness k_0, in N/m, and force F_0, in N, of the incoming tooth.
+    pub values: [f64; VALUES],
+}
+
+/// The mesh at rest as an excitation, with all that an equation of motion needs.
+///
+/// # Formula
+/// ```text
+/// m x'' + c x' + k(t) (x − e(t)) = F0,   x = rb1 φ1 − rb2 φ2,   1/m = rb1²/J1 + rb2²/J2
+/// J1 φ1'' = T1 − rb1 F,   J2 φ2'' = rb2 F − T2,   F = c x' + k (x − e),   c = 2 ζ √(k_m m)
+/// ```
+/// Both angles count in the direction of rotation of their gear.
+///
+/// # Source
+/// The balance of [`static_load`](crate::model::static_load::static_load), linear about the balance;
+/// the oscillator of [`dynamic`](crate::model::dynamic::dynamic).
+///
+/// # Valid for
+/// A motion in which the pairs do not lose contact. Pairs gain and lose contact where they do at
+/// rest.
+#[derive(Debug, Clone)]
+pub struct Excitation {
+    /// One base pitch of equal pairs, from E on.
+    pub period: Vec<Sample>,
+    /// Whole base pitches around the passage of the incoming tooth, which alone deviates.
+    pub passage: Vec<Sample>,
+    /// Coefficients of cosine and sine of each value of `period` and each order, from the mean on:
+    /// v(t) = Σ a_n cos(2 π n f_z t) + b_n sin(2 π n f_z t), with t = 0 at E.
+    pub harmonics: Vec<[[f64; 2]; VALUES]>,
+    /// p_b, in m.
+    pub base_pitch: f64,
+    /// Base radii of driver and driven gear, in m.
+    pub base_radii: [f64; 2],
+    /// Moments of inertia of driver and driven gear, in kg m².
+    pub inertias: [f64; 2],
+    /// Mass at the line of action m, in kg.
+    pub mass: f64,
+    /// c, in N s/m.
+    pub damping: f64,
+    /// Mean stiffness of the mesh on the line of action k_m, which the damping uses, in N/m.
+    pub stiffness: f64,
+    /// F0, in N.
+    pub force: f64,
+    /// Speed of the driver, in rad/s.
+    pub speed: f64,
+}
+
+impl Excitation {
+    /// The excitation of a pair, with `points` places in a base pitch.
+    ///
+    /// # Errors
+    /// The refusal of method `static`; [`Refusal::Stopped`] if `go_on` returns false.
+    pub fn of(
+        inputs: &Inputs,
+        points: usize,
+        go_on: &dyn Fn(usize, usize) -> bool,
+    ) -> Result<Excitation, Refusal> {
+        let inputs = Inputs { method: Method::Static, ..inputs.clone() };
+        let wanted = Stages::of(Stage::Static).and(Stages::of(Stage::StaticSpectrum));
+        let solution = solve(&inputs, wanted)?;
+        if let Some(Err(refusal)) = solution.static_spectrum {
+            return Err(refusal);
+        }
+        let Some(mesh) = solution.mesh.clone() else { return Err(Refusal::BeyondReach) };
+        let pair = At::of(&inputs, &solution.geometry, mesh)?;
+        let pitch = pair.mesh.base_pitch;
+        let (first, last) = pitches(&solution, pitch);
+        let of_passage = (last - first) as usize * points;
+        let total = points + of_passage + 1;
+        let sample = |number: usize, from: f64, step: usize, deviates: bool| {
+            if !go_on(number, total) {
+                return Err(Refusal::Stopped);
+            }
+            let way = pitch * (from + step as f64 / points as f64);
+            Ok(Sample { way, values: pair.at(way, deviates)? })
+        };
+        let period = (0..points).map(|step| sample(step, 0.0, step, false));
+        let period = period.collect::<Result<_, _>>()?;
+        let passage = (0..=of_passage).map(|step| sample(points + step, first, step, true));
+        let passage = passage.collect::<Result<_, _>>()?;
+        let Geometry { driver, driven, .. } = &solution.geometry;
+        let inertias = [
+            Inertia::of(&inputs, GearSide::Driver, driver)?.moment,
+            Inertia::of(&inputs, GearSide::Driven, driven)?.moment,
+        ];
+        let settings = Settings::of(&inputs, solution.reduced_mass);
+        let stiffness = pair.mesh.mean_stiffness();
+        Ok(Excitation {
+            period,
+            passage,
+            harmonics: pair.harmonics()?,
+            base_pitch: pitch,
+            base_radii: [driver.base, driven.base],
+            inertias,
+            mass: settings.mass,
+            damping: 2.0 * settings.damping_ratio * (stiffness * settings.mass).sqrt(),
+            stiffness,
+            force: solution.mesh_force,
+            speed: inputs.speed,
+        })
+    }
+
+    /// Time of a base pitch, in s.
+    pub fn mesh_period(&self) -> f64 {
+        self.base_pitch / (self.speed * self.base_radii[0])
+    }
+}
+
+/// The first and the last border between base pitches around the passage of the incoming tooth, in
+/// base pitches after E.
+fn pitches(solution: &Solution, pitch: f64) -> (f64, f64) {
+    let base = solution.geometry.driver.base;
+    let ends = solution.static_load.as_ref().map(|load| &load.stations);
+    let ends = ends.and_then(|all| Some([all.first()?, all.last()?]));
+    let length = solution.geometry.end - solution.geometry.start;
+    let [first, last] = ends
+        .map_or([0.0, length], |ends| ends.map(|station| 0.0 - station.roll_angle_driver * base));
+    ((first / pitch).floor().min(-1.0), (last / pitch).ceil())
+}
+
+/// The pair at any place.
+struct At {
+    mesh: Arc<Mesh>,
+    /// The mesh of equal pairs.
+    equal: Mesh,
+    /// The face width in slices, with the width of each slice.
+    face: Option<(Face, Vec<f64>)>,
+}
+
+impl At {
+    fn of(inputs: &Inputs, geometry: &Geometry, mesh: Arc<Mesh>) -> Result<At, Refusal> {
+        let face = inputs.face().map(|face| Face::new(&face, geometry, &mesh)).transpose()?;
+        let face = face.map(|face| {
+            let places: Vec<f64> = face.places().collect();
+            let width = |at: usize| {
+                let after = places.get(at + 1).unwrap_or(&places[at]);
+                0.5 * (after - places[at.saturating_sub(1)])
+            };
+            let widths = (0..places.len()).map(width).collect();
+            (face, widths)
+        });
+        Ok(At { equal: mesh.without_error(), mesh, face })
+    }
+
+    /// The values with the incoming pair at a place, on the side behind it.
+    fn at(&self, s: f64, deviates: bool) -> Result<[f64; VALUES], Refusal> {
+        /// On the next side of a border.
+        const BESIDE: f64 = 1e-9;
+        let mesh = if deviates { &self.mesh } else { &self.equal };
+        let mut values = match &self.face {
+            Some((face, widths)) => over_face(face, widths, mesh, s)?,
+            None => in_plane(mesh, s, s + BESIDE * mesh.base_pitch),
+        };
+        values[DISPLACEMENT] = values[ERROR] - mesh.force / values[STIFFNESS];
+        let is_finite = values.iter().all(|value| value.is_finite());
+        if is_finite { Ok(values) } else { Err(Refusal::BeyondReach) }
+    }
+
+    /// The places between which the same pairs carry, over a base pitch of equal pairs.
+    fn cuts(&self) -> Vec<f64> {
+        const LOOKS: usize = 16;
+        let (mesh, pitch) = (&self.equal, self.equal.base_pitch);
+        if self.face.is_some() {
+            return (0..=LOOKS).map(|step| pitch * step as f64 / LOOKS as f64).collect();
+        }
+        let mut cuts = Vec::new();
+        for ends in mesh.borders(0.0, pitch).windows(2) {
+            let (inside, length) = (f64::midpoint(ends[0], ends[1]), ends[1] - ends[0]);
+            let carrying = |s: f64| mesh.pair_set(s, inside).balance(mesh.force).carrying;
+            let place = |step: usize| ends[0] + length * step as f64 / LOOKS as f64;
+            cuts.push(ends[0]);
+            for step in 0..LOOKS {
+                let (from, to) = (place(step), place(step + 1));
+                let first = carrying(from);
+                if carrying(to) != first {
+                    cuts.push(root::last_where(from, to, |s| carrying(s) == first));
+                }
+            }
+        }
+        cuts.push(pitch);
+        cuts
+    }
+
+    /// The Fourier series of all values of equal pairs. Between two cuts each value is smooth.
+    fn harmonics(&self) -> Result<Vec<[[f64; 2]; VALUES]>, Refusal> {
+        /// Quadrature intervals in a base pitch, which resolve the highest order.
+        const INTERVALS: f64 = 16.0;
+        let pitch = self.equal.base_pitch;
+        let mut sums = vec![[[0.0; 2]; VALUES]; ORDERS + 1];
+        for ends in self.cuts().windows(2) {
+            let length = ends[1] - ends[0];
+            let count = (INTERVALS * length / pitch).ceil().max(1.0);
+            for interval in 0..count as u32 {
+                for (node, weight) in quadrature::nodes() {
+                    let s = ends[0] + length * (f64::from(interval) + node) / count;
+                    let values = self.at(s, false)?;
+                    for (order, sum) in sums.iter_mut().enumerate() {
+                        let twice = if order == 0 { 1.0 } else { 2.0 };
+                        let height = twice * weight * length / (count * pitch);
+                        let (sine, cosine) = (TAU * order as f64 * s / pitch).sin_cos();
+                        for ([a, b], value) in sum.iter_mut().zip(values) {
+                            *a += height * value * cosine;
+                            *b += height * value * sine;
+                        }
+                    }
+                }
+            }
+        }
+        Ok(sums)
+    }
+}
+
+/// The values of a spur pair; on a border of the mesh `inside` selects the side.
+fn in_plane(mesh: &Mesh, s: f64, inside: f64) -> [f64; VALUES] {
+    let pairs = mesh.pair_set(s, inside);
+    let (displacement, forces) = pairs.shared(mesh.force);
+    let carries = (0..forces.len()).filter(|&at| forces[at] > 0.0);
+    let touching = carries.fold(Touching::NONE, Touching::with);
+    let [held, moved] = [0.0, 1.0].map(|x| pairs.leads(touching, x));
+    let mut values = [0.0; VALUES];
+    values[ERROR] = displacement;
+    for (index, pair) in pairs.pairs().iter().enumerate().filter(|&(at, _)| touching.has(at)) {
+        let slope = (moved[index] - held[index]) * pair.stiffness;
+        values[STIFFNESS] += pair.weight * slope;
+        values[FORCE] += forces[index];
+        if pair.ahead == 0 {
+            (values[TOOTH_STIFFNESS], values[TOOTH_FORCE]) = (slope, forces[index]);
+        }
+    }
+    values
+}
+
+/// The values of a pair in slices.
+fn over_face(face: &Face, widths: &[f64], mesh: &Mesh, s: f64) -> Result<[f64; VALUES], Refusal> {
+    /// Of the displacement.
+    const STEP: f64 = 1e-5;
+    let loads = face.loads(s, mesh.error, Until::Force(mesh.force), None)?;
+    let force = |loads: &Loads, ahead: i32| -> f64 {
+        widths.iter().enumerate().map(|(slice, width)| width * loads.at(ahead, slice)).sum()
+    };
+    let x = loads.displacement;
+    let further = face.loads(s, mesh.error, Until::Displacement(x * (1.0 + STEP)), None)?;
+    let tooth = force(&loads, 0);
+    let mut values = [0.0; VALUES];
+    values[STIFFNESS] = loads.stiffness;
+    values[ERROR] = x;
+    values[FORCE] = loads.pairs().map(|ahead| force(&loads, ahead)).sum();
+    values[TOOTH_STIFFNESS] = (force(&further, 0) - tooth) / (x * STEP);
+    values[TOOTH_FORCE] = tooth;
+    Ok(values)
+}
