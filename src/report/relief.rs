@@ -15,7 +15,7 @@ use crate::model::inputs::{Method, ReliefShape};
 use crate::model::relief::{GearReliefs, Relief, Reliefs};
 use crate::numeric::decimal::shortest;
 use crate::study::relief::{
-    Begin, Choice, Figures, MOST_LOAD, MapPoint, Off, Specification, TipReliefs,
+    Begin, Choice, Criterion, Figures, MOST_LOAD, MapPoint, Off, Specification, TipReliefs,
 };
 
 /// A relief to specify with the method of its case.
@@ -37,7 +37,7 @@ impl ReliefReport<'_> {
         let within = match found.demand.minimise.worth() {
             0.0 => "without force before E".to_owned(),
             worth => {
-                format!("within {:.0} % of the least {}", 100.0 * worth, found.demand.minimise)
+                format!("within {:.0} % of the least {}", 100.0 * worth, self.criterion())
             }
         };
         let costs = ["least_load_error", "least_load_change", "unloaded_contact_ratio"];
@@ -110,11 +110,19 @@ impl ReliefReport<'_> {
              on lengths{tilt}; computed by method {}{reason}.",
             demand.loads_text().replace("..", " to "),
             tidy(*torque, 4),
-            demand.minimise,
+            self.criterion(),
             tidy(demand.tolerance * 1e6, 3),
             tidy(self.tolerance_length() * 1e3, 3),
             method.name()
         )
+    }
+
+    /// The figure to minimise.
+    fn criterion(&self) -> String {
+        match self.found.demand.minimise {
+            Criterion::Peak if self.found.is_over_face => "peak line load".to_owned(),
+            other => other.to_string(),
+        }
     }
 
     fn tolerance_length(&self) -> f64 {
@@ -239,7 +247,7 @@ impl ReliefReport<'_> {
                  relief on both gears together.",
                 best.name,
                 100.0 * gain,
-                demand.minimise,
+                self.criterion(),
                 um(cost)
             )
         })
