@@ -124,12 +124,15 @@ pub(super) fn pair_ahead(k: &Context) -> Option<Finding> {
 
 /// The impact ends before E.
 pub(super) fn within_approach(k: &Context) -> Option<Finding> {
-    let (duration, transit) = (k.solution.impact?.duration, k.solution.velocity?.transit_time);
-    Finding::new(
-        "T_S <= t_DE: the impact ends before the normal mesh begins",
-        format!("T_S = {}, t_DE = {}", micro(duration, "us"), micro(transit, "us")),
-        duration <= transit,
-    )
+    let range = "T_S <= t_DE: the impact ends before the normal mesh begins";
+    ends_before_start(k, range, ("T_S", k.solution.impact?.duration))
+}
+
+/// A duration with its symbol is at most the time from D to E.
+fn ends_before_start(k: &Context, range: &str, (symbol, duration): (&str, f64)) -> Option<Finding> {
+    let transit = k.solution.velocity?.transit_time;
+    let here = format!("{symbol} = {}, t_DE = {}", micro(duration, "us"), micro(transit, "us"));
+    Finding::new(range, here, duration <= transit)
 }
 
 /// Force and duration are consistent.
@@ -170,12 +173,7 @@ pub(super) fn coulomb(k: &Context) -> Option<Finding> {
 /// D' is before E.
 pub(super) fn before_start(k: &Context) -> Option<Finding> {
     let printed = k.solution.impact?.duration_printed;
-    let transit = k.solution.velocity?.transit_time;
-    Finding::new(
-        "T_S,32 <= t_DE: D' is before E",
-        format!("T_S,32 = {}, t_DE = {}", micro(printed, "us"), micro(transit, "us")),
-        printed <= transit,
-    )
+    ends_before_start(k, "T_S,32 <= t_DE: D' is before E", ("T_S,32", printed))
 }
 
 /// The range of the tooth compliance of the case.
