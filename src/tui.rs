@@ -7,7 +7,6 @@
 
 mod app;
 mod ascii;
-mod events;
 mod form_aids;
 mod header;
 mod input;
@@ -42,7 +41,7 @@ use std::sync::Arc;
 use crate::system::terminal::{die_of, hold};
 
 use app::actions::Action;
-use events::Events;
+use input::Events;
 use session::journal::JournalWriter;
 use terminal::{Screen, TERMINAL_LOST};
 use workbench::{End, session};

@@ -126,13 +126,11 @@ pub struct Message {
 
 impl App {
     /// The workbench on a document with all its results, which may take long.
-    #[must_use]
     pub(crate) fn new(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
         App::answered(document, path, (look, size), |request| Some(solver::answer(request)))
     }
 
     /// The workbench for the first frame, without results that need an elastic field.
-    #[must_use]
     pub fn at_start(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
         App::answered(document, path, (look, size), solver::answer_without_fields)
     }
@@ -203,13 +201,11 @@ impl App {
     }
 
     /// The state of every open case for the autosave.
-    #[must_use]
     pub fn sheets(&self) -> Vec<OpenCase<'_>> {
         self.tabs().map(Tab::sheet).collect()
     }
 
     /// The place that decides the meaning of keys.
-    #[must_use]
     pub fn place(&self) -> Place {
         match self.prompts.last() {
             Some(prompt) => prompt.dialog().place(),
@@ -230,7 +226,6 @@ impl App {
     }
 
     /// Whether typed letters go into the focused field.
-    #[must_use]
     pub fn has_line(&self) -> bool {
         self.layout.focus() == Pane::Form && self.is_editing
     }
@@ -251,7 +246,6 @@ impl App {
     }
 
     /// The completion of the typed text of the focused field: its unit, or the rest of a name.
-    #[must_use]
     pub fn ending(&self) -> Option<String> {
         let (tab, system) = (&self.tab, self.settings.units);
         let typed = || {
@@ -288,7 +282,6 @@ impl App {
     }
 
     /// The title line of a pane.
-    #[must_use]
     pub(crate) fn title(&self, pane: Pane) -> Title {
         let plan = self.layout.plan();
         let hidden =
@@ -322,7 +315,6 @@ impl App {
     }
 
     /// The form with its case.
-    #[must_use]
     pub(crate) fn form(&self) -> Form<'_> {
         let tab = &self.tab;
         Form {
@@ -342,7 +334,6 @@ impl App {
     }
 
     /// The results pane with its results.
-    #[must_use]
     pub fn results(&self) -> Results<'_> {
         let tab = &self.tab;
         Results {
@@ -365,7 +356,6 @@ impl App {
     }
 
     /// The trade pane with its benchmark.
-    #[must_use]
     pub(crate) fn trade(&self) -> TradePane<'_> {
         TradePane {
             traded: self.tab.traded.as_ref(),
@@ -378,7 +368,6 @@ impl App {
     }
 
     /// The study pane with its study.
-    #[must_use]
     pub(crate) fn study(&self) -> StudyPane<'_> {
         let tab = &self.tab;
         let quantity = tab.study.shown.as_ref().and_then(StudyResults::quantity);
@@ -398,7 +387,6 @@ impl App {
     }
 
     /// The chart pane with its results.
-    #[must_use]
     pub fn charts(&self) -> Charts<'_> {
         Charts {
             pane: &self.chart,
@@ -417,7 +405,6 @@ impl App {
     }
 
     /// The picture of the teeth, if the active method has results.
-    #[must_use]
     pub(crate) fn picture(&self) -> Option<Picture<'_>> {
         let answer = self.tab.answer.as_ref()?;
         Some(Picture {
@@ -434,7 +421,6 @@ impl App {
     }
 
     /// The stages of the visible results.
-    #[must_use]
     pub(crate) fn wanted(&self) -> Stages {
         if self.is_pinning {
             return Stages::EVERY;
@@ -489,20 +475,17 @@ impl App {
     }
 
     /// Whether the work with this number is the running work of its slot.
-    #[must_use]
     pub(crate) fn runs(&self, slot: Slot, number: u64) -> bool {
         self.running.get(&slot) == Some(&number)
     }
 
     /// Whether the benchmark of the current case runs.
-    #[must_use]
     pub(crate) fn is_measuring(&self) -> bool {
         let traded = self.tab.traded.as_ref();
         traded.is_some_and(|traded| self.runs(Slot::Benchmark, traded.work))
     }
 
     /// Whether work of a slot runs.
-    #[must_use]
     pub fn is_busy(&self, slot: Slot) -> bool {
         self.running.contains_key(&slot)
     }

@@ -87,7 +87,6 @@ const ONE_CELL: [(&str, char); 31] = [
 ];
 
 /// Whether a character is safe to print on a terminal.
-#[must_use]
 pub fn is_safe(character: char) -> bool {
     !is_hidden(character)
 }
@@ -103,7 +102,6 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
 }
 
 /// A symbol in the characters of the terminal.
-#[must_use]
 pub(crate) fn symbol(text: &str, ascii: bool) -> Cow<'_, str> {
     if !ascii || text.is_ascii() {
         return Cow::Borrowed(text);
@@ -112,7 +110,6 @@ pub(crate) fn symbol(text: &str, ascii: bool) -> Cow<'_, str> {
 }
 
 /// A line of a page in ASCII. Its columns keep their positions if the gaps before them have room.
-#[must_use]
 pub fn written_out(line: &str) -> Cow<'_, str> {
     if line.is_ascii() {
         return Cow::Borrowed(line);

@@ -1,12 +1,14 @@
-//! Help for the form: stepping of values, units and ranges, search of fields, materials.
+//! Help for the form: stepping of values, units and ranges, the words of problems, materials, and the
+//! search of fields.
 
 pub(crate) mod materials;
 mod search;
-mod words;
 
-use crate::case::fields::{AUTO, Absent, FIELDS, Field, Kind};
+use std::sync::LazyLock;
+
+use crate::case::fields::{Absent, FIELDS, Field, Kind, index_of};
 use crate::case::units::{self, Dimension, Open, System};
-use crate::case::{Case, Limit};
+use crate::case::{Case, Fix, Limit, Problem};
 use crate::model::Quantity;
 use crate::model::explanation::tidy;
 use crate::numeric::decimal::significant;
@@ -19,42 +21,34 @@ const RANGE_DIGITS: usize = 3;
 /// Significant digits of a derived value.
 const DIGITS: usize = 5;
 
+/// Quotes: a file needs them around a value, and a message has them around typed text.
+const MARKS: [char; 2] = ['"', TYPED];
+const TYPED: char = '`';
+
 impl Field {
     /// The typed value in the usual unit of the field, see [`units::converted`].
-    #[must_use]
     pub(crate) fn converted(&self, typed: &str, system: System) -> Option<String> {
-        match self.kind {
-            Kind::Number(dimension, ..) => {
-                units::converted(typed, dimension, self.usual_unit(), system)
-            }
-            _ => None,
-        }
+        let Kind::Number(dimension, ..) = self.kind else { return None };
+        units::converted(typed, dimension, self.usual_unit(), system)
     }
 
     /// The default of a field, empty without one; a measure is in the units of the system.
-    #[must_use]
     pub(crate) fn default_in(&self, system: System) -> String {
-        let Absent::Default(text) = self.absent else {
-            return String::new();
+        let (unit, text) = match self.absent {
+            Absent::Default(text) => (self.usual_unit(), text),
+            _ => return String::new(),
         };
-        let unit = self.usual_unit();
-        let measured = match self.kind {
+        let value = match self.kind {
             Kind::Number(dimension, ..) if system.unit(unit) != unit => {
                 units::parse(text, dimension, "").ok()
             }
             _ => None,
         };
-        measured.map_or_else(
-            || text.to_owned(),
-            |value| {
-                let (number, unit) = units::shown(value, unit, RANGE_DIGITS, system);
-                format!("{number} {unit}")
-            },
-        )
+        let shown = value.map(|value| units::shown(value, unit, RANGE_DIGITS, system));
+        shown.map_or_else(|| text.to_owned(), |(number, unit)| format!("{number} {unit}"))
     }
 
     /// A value in SI in the usual unit of the field, with the digits of a hint.
-    #[must_use]
     pub(crate) fn in_usual_unit(&self, value: f64) -> String {
         let unit = self.usual_unit();
         let number = tidy(value / units::factor(unit).unwrap_or(1.0), DIGITS);
@@ -63,45 +57,16 @@ impl Field {
 
     /// The least and the greatest value as in [`Field::range_text`]; in inch units they are
     /// rounded.
-    #[must_use]
     pub(crate) fn range_in(&self, system: System) -> String {
-        let Kind::Number(_, range, _) = self.kind else {
-            return self.range_text();
-        };
-        let unit = system.unit(range.unit);
-        if unit == range.unit {
-            return self.range_text();
-        }
-        let factor = units::factor(range.unit).unwrap_or(1.0);
-        let end = |value: f64| {
-            significant(value * factor / units::factor(unit).unwrap_or(1.0), RANGE_DIGITS)
-        };
-        format!("about {} to {} {unit}", end(range.from), end(range.to))
-    }
-
-    /// The dimension and unit of its numbers; `None` for texts and names.
-    #[must_use]
-    pub(crate) fn measure(&self, system: System) -> Option<Measure> {
-        let least = |from: f64, unit: &str| from * units::factor(unit).unwrap_or(1.0);
         match self.kind {
-            Kind::Number(dimension, range, _) => Some(Measure {
-                dimension,
-                unit: system.unit(self.usual_unit()),
-                least: least(range.from, range.unit),
-            }),
-            Kind::Count(from, ..) => {
-                Some(Measure { dimension: Dimension::Number, unit: "", least: f64::from(from) })
+            Kind::Number(_, range, _) if system.unit(range.unit) != range.unit => {
+                let unit = system.unit(range.unit);
+                let [from, to] = [range.unit, unit].map(|unit| units::factor(unit).unwrap_or(1.0));
+                let end = |value: f64| significant(value * from / to, RANGE_DIGITS);
+                format!("about {} to {} {unit}", end(range.from), end(range.to))
             }
-            _ => None,
+            _ => self.range_text(),
         }
-    }
-
-    /// Whether an invalid text is merely unfinished: further typing may complete it.
-    #[must_use]
-    pub(crate) fn is_unfinished(&self, typed: &str) -> bool {
-        let is_auto_begun = self.takes_auto() && AUTO.starts_with(typed.trim());
-        is_auto_begun
-            || self.measure(System::Metric).is_some_and(|measure| measure.is_unfinished(typed))
     }
 }
 
@@ -112,41 +77,44 @@ pub(crate) struct Measure {
     /// The unit of a bare number if no other unit was written; empty for a bare number.
     pub(crate) unit: &'static str,
     /// The least value, in SI.
-    pub(crate) least: f64,
-}
-
-impl Limit {
-    /// The dimension and unit of the limit.
-    #[must_use]
-    pub(crate) fn measure(&self, system: System) -> Option<Measure> {
-        let quantity = Quantity::find(self.quantity)?;
-        let unit = if quantity.shown == "1" { "" } else { system.unit(quantity.shown) };
-        Some(Measure {
-            dimension: Dimension::of_unit(quantity.unit)?,
-            unit,
-            least: f64::NEG_INFINITY,
-        })
-    }
+    least: f64,
 }
 
 impl Measure {
+    /// The measure of the numbers of a field; `None` for texts and names.
+    pub(crate) fn of_field(field: &Field, system: System) -> Option<Measure> {
+        Some(match field.kind {
+            Kind::Number(dimension, range, _) => Measure {
+                dimension,
+                unit: system.unit(field.usual_unit()),
+                least: range.from * units::factor(range.unit).unwrap_or(1.0),
+            },
+            Kind::Count(from, ..) => {
+                Measure { dimension: Dimension::Number, unit: "", least: f64::from(from) }
+            }
+            _ => return None,
+        })
+    }
+
+    /// The measure of the limit of a quantity.
+    pub(crate) fn of_quantity(quantity: &Quantity, system: System) -> Option<Measure> {
+        let dimension = Dimension::of_unit(quantity.unit)?;
+        let unit = if quantity.shown == "1" { "" } else { system.unit(quantity.shown) };
+        Some(Measure { dimension, unit, least: f64::NEG_INFINITY })
+    }
+
     /// Whether further typing may complete an invalid text: with a unit, or with digits if the
     /// number is too small.
-    #[must_use]
     pub(crate) fn is_unfinished(&self, typed: &str) -> bool {
-        let is_too_small =
-            || units::parse(typed, self.dimension, "").map_or(true, |value| value < self.least);
+        let value = units::parse(typed, self.dimension, "");
+        let is_too_small = value.map_or(true, |value| value < self.least);
         // No further typing makes a negative number positive.
-        let is_negative = || {
-            typed
-                .trim()
-                .strip_prefix('-')
-                .is_some_and(|digits| digits.contains(|c: char| matches!(c, '1'..='9')))
-        };
+        let digits = typed.trim().strip_prefix('-').unwrap_or_default();
+        let is_negative = digits.contains(|c: char| matches!(c, '1'..='9'));
         match units::open(typed, self.dimension) {
-            Some(_) if self.least >= 0.0 && is_negative() => false,
+            Some(_) if self.least >= 0.0 && is_negative => false,
             Some(Open::Unit) => true,
-            Some(Open::Number) => self.dimension != Dimension::Number || is_too_small(),
+            Some(Open::Number) => self.dimension != Dimension::Number || is_too_small,
             None => false,
         }
     }
@@ -155,7 +123,6 @@ impl Measure {
 impl Case {
     /// The text of a field after a step from its text, otherwise from its default. A field that its
     /// alternative replaces has no step.
-    #[must_use]
     pub fn stepped(&self, field: usize, by: isize) -> Option<String> {
         let default =
             if let Absent::Default(text) = FIELDS[field].absent { Some(text) } else { None };
@@ -168,7 +135,6 @@ impl Case {
 /// becomes "17 um", "0.50" becomes "0.51", "1e3 um" becomes "2e3 um". A count steps by whole
 /// numbers, a choice to the next name. `None` if the text is empty or invalid, or if the range ends
 /// here.
-#[must_use]
 pub(crate) fn step(text: &str, field: usize, by: isize) -> Option<String> {
     match FIELDS[field].kind {
         Kind::Text | Kind::List(_) => None,
@@ -178,7 +144,6 @@ pub(crate) fn step(text: &str, field: usize, by: isize) -> Option<String> {
 }
 
 /// The text of a limit after steps of its last digit, not below zero.
-#[must_use]
 pub(crate) fn step_limit(text: &str, quantity: &str, by: isize) -> Option<String> {
     moved(text, by, |text| Limit::new(quantity, text).is_ok_and(|limit| limit.value >= 0.0))
 }
@@ -213,6 +178,59 @@ fn moved(text: &str, by: isize, is_taken: impl Fn(&str) -> bool) -> Option<Strin
         is_taken(&text).then_some(text)
     };
     (1..=by.abs()).rev().find_map(after)
+}
+
+/// Every key inside a table, the longest first, so that no key matches the start of another.
+static KEYS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
+    let keys = FIELDS.iter().map(|field| field.key);
+    let mut keys: Vec<&'static str> = keys.filter(|key| key.contains('.')).collect();
+    keys.sort_by_key(|key| std::cmp::Reverse(key.len()));
+    keys
+});
+
+impl Problem {
+    /// The problem as the form shows it, where field and text are visible: `write 5 mm` for `write
+    /// "5 mm"`, a label for a key, no advice to add a line to a file. Files keep the original.
+    pub(crate) fn for_form(&self) -> Problem {
+        let fix = match &self.fix {
+            Fix::Assign { example, .. } => {
+                format!("write {example}, for example").replace(MARKS, "")
+            }
+            Fix::Text(fix) => for_form(fix),
+        };
+        Problem {
+            code: self.code.clone(),
+            ..Problem::new(&called(&self.field), for_form(&self.cause), fix)
+        }
+    }
+}
+
+/// A sentence for a file or a command line, reworded for the form.
+fn for_form(sentence: &str) -> String {
+    // A key inside typed text, between two quotes, does not change.
+    let parts = sentence.split(TYPED).enumerate().map(|(at, part)| {
+        let keys = KEYS.iter().filter(|key| at % 2 == 0 && part.contains(**key));
+        keys.fold(part.to_owned(), |text, key| text.replace(key, &called(key)))
+    });
+    parts.collect::<String>().replace(MARKS, "")
+}
+
+/// The name of the field of a key: `module`, `the driver's tip relief`, `limit of impact force`;
+/// the key itself if it belongs to no field.
+fn called(key: &str) -> String {
+    if let Some(field) = index_of(key) {
+        let Field { label, .. } = FIELDS[field];
+        return match FIELDS[field].table() {
+            "driver" => format!("the driver's {label}"),
+            "driven" => format!("the driven gear's {label}"),
+            _ => label.to_owned(),
+        };
+    }
+    let quantity = key.strip_prefix("limits.").and_then(Quantity::find);
+    quantity.map_or_else(
+        || key.to_owned(),
+        |quantity| format!("limit of {}", quantity.label.trim_start()),
+    )
 }
 
 #[cfg(test)]
@@ -256,7 +274,7 @@ mod tests {
     }
 
     fn is_unfinished(key: &str, typed: &str) -> bool {
-        FIELDS[index_of(key).unwrap()].is_unfinished(typed)
+        crate::tui::rows::is_unfinished(&Case::empty(), index_of(key).unwrap(), typed)
     }
 
     #[test]
@@ -376,6 +394,110 @@ mod tests {
         assert_eq!(step_limit("2.5 kN", "impact_force", -1).as_deref(), Some("2.4 kN"));
         assert_eq!(step_limit("0.01", "dynamic_factor", -10).as_deref(), Some("0.00"));
         assert_eq!(step_limit("2500", "impact_force", 1), None);
+    }
+
+    fn said(key: &str, text: &str) -> String {
+        let mut case = Case::table_1();
+        let field = index_of(key).unwrap();
+        case.write(field, text);
+        let problem = case
+            .inputs()
+            .unwrap_err()
+            .into_iter()
+            .find(|problem| problem.field == key)
+            .unwrap()
+            .for_form();
+        format!("{}: {}", problem.cause, problem.fix)
+    }
+
+    #[test]
+    fn a_form_names_visible_labels_instead_of_keys() {
+        for (key, text, sentence) in [
+            (
+                "pair.module",
+                "",
+                "neither module nor diametral pitch is given: write 5 mm, for example",
+            ),
+            ("driver.teeth", "", "a required value is missing: write 20, for example"),
+            ("pair.module", "5", "5 has no unit, and a length needs one: write 5 mm"),
+            (
+                "pair.module",
+                "60 mm",
+                "60 mm is above the limit of 50 mm: write a value from 0.05 to 50 mm",
+            ),
+            ("operation.power", "", "neither power nor torque is given: write 15 kW, for example"),
+            ("operation.torque", "70 N m", "power and torque are both given: remove one of them"),
+            ("model.method", "exat", "unknown choice exat: did you mean exact?"),
+            (
+                "pair.module",
+                "driver.teeth",
+                "driver.teeth does not begin with a number: write a number and its unit, such as 20 mm",
+            ),
+        ] {
+            assert_eq!(said(key, text), sentence);
+        }
+    }
+
+    #[test]
+    fn a_field_is_named_by_its_label_and_its_gear() {
+        assert_eq!(called("pair.module"), "module");
+        assert_eq!(called("driven.tip_relief_length"), "the driven gear's tip relief length");
+        assert_eq!(called("limits.impact_force"), "limit of impact force");
+        assert_eq!(called("pair.modul"), "pair.modul");
+        assert_eq!(
+            for_form("set model.tooth_compliance to beam, or leave it out"),
+            "set tooth compliance to beam, or leave it out"
+        );
+    }
+
+    #[test]
+    fn no_message_of_a_form_refers_to_a_file() {
+        let wrong = [
+            "",
+            "5",
+            "x",
+            "1e999 mm",
+            "5 kg",
+            "4,5 mm",
+            "-1",
+            "5 mm 5",
+            "99999999 GPa",
+            "nan",
+            "−5 mm",
+            "5 mmm",
+        ];
+        for (index, field) in
+            FIELDS.iter().enumerate().filter(|(_, field)| !matches!(field.kind, Kind::Text))
+        {
+            for text in wrong {
+                let mut case = Case::table_1();
+                case.write(index, text);
+                for problem in
+                    case.inputs().err().into_iter().flatten().map(|problem| problem.for_form())
+                {
+                    let said = problem.to_string();
+                    let key = FIELDS
+                        .iter()
+                        .find(|field| field.key.contains('.') && said.contains(field.key));
+                    assert!(
+                        key.is_none() && !said.contains(['"', '`', '[']) && !said.contains("add "),
+                        "{} = {text}: {said}",
+                        field.key
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_file_is_described_as_before() {
+        let mut case = Case::table_1();
+        case.write(index_of("pair.module").unwrap(), "5");
+        let problem = case.inputs().unwrap_err().remove(0);
+        assert_eq!(
+            (problem.field.as_str(), &*problem.fix.to_string()),
+            ("pair.module", "write \"5 mm\"")
+        );
     }
 
     /// A number as users type it, with a unit of the field.

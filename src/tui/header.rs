@@ -30,32 +30,22 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
-    let last = if app.tab.origin == Origin::LastCase {
-        " (last case; Alt-T: Table 1)".to_owned()
-    } else {
-        String::new()
-    };
-    let mark =
-        [if app.tab.is_unsaved() { " *unsaved*" } else { "" }, &app.tab.marks(), &last].concat();
+    let tab = &app.tab;
+    let is_last = tab.origin == Origin::LastCase;
+    let last = if is_last { " (last case; Alt-T: Table 1)" } else { "" };
+    let unsaved = if tab.is_unsaved() { " *unsaved*" } else { "" };
+    let mark = format!("{unsaved}{}{last}", tab.marks());
     let room = usize::from(width).saturating_sub(11 + mark.width());
-    let instead = app
-        .tab
-        .in_place_of
-        .as_ref()
-        .map(|path| format!(", for {} cannot be opened", path.display()));
-    let name = text::cut(&format!("{}{}", app.tab.name(), instead.unwrap_or_default()), room);
-    let title = app.tab.case.title();
-    let left = usize::from(width).saturating_sub(11 + name.width() + mark.width() + 3);
-    let title = if title.is_empty() || left <= 8 {
-        String::new()
-    } else {
-        format!("   {}", text::cut(title, left))
-    };
+    let instead = tab.in_place_of.as_ref();
+    let instead = instead.map(|path| format!(", for {} cannot be opened", path.display()));
+    let name = text::cut(&format!("{}{}", tab.name(), instead.unwrap_or_default()), room);
+    let left = room.saturating_sub(name.width() + 3);
+    let title = Some(tab.case.title()).filter(|title| !title.is_empty() && left > 8);
+    let title = title.map(|title| format!("   {}", text::cut(title, left))).unwrap_or_default();
     vec![Span::raw(name), Span::styled(mark, app.look.theme.note), Span::raw(title)]
 }
 
 /// The index of the open case whose name is at a cell, if any.
-#[must_use]
 pub(super) fn tab_at(app: &App, area: Rect, at: Position) -> Option<usize> {
     if app.others.is_empty() || !area.contains(at) {
         return None;
@@ -76,11 +66,11 @@ fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
     let (names, Range { start, end }) = shown_tabs(app, width);
     let mut spans = vec![Span::raw(if start > 0 { BEFORE } else { "" })];
     for (at, name) in names.iter().enumerate().take(end).skip(start) {
-        if at == app.place_of_tab {
-            spans.push(Span::styled(format!("[{name}]"), app.look.theme.key));
+        spans.push(if at == app.place_of_tab {
+            Span::styled(format!("[{name}]"), app.look.theme.key)
         } else {
-            spans.push(Span::raw(format!(" {name} ")));
-        }
+            Span::raw(format!(" {name} "))
+        });
     }
     spans.push(Span::raw(if end < names.len() { " ›" } else { "" }));
     spans
@@ -90,8 +80,11 @@ fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
 /// it.
 fn shown_tabs(app: &App, width: u16) -> (Vec<String>, Range<usize>) {
     const OTHER_TEXT: usize = 15;
-    let tabs = app.tabs().enumerate();
-    let names: Vec<String> = tabs.map(|(at, tab)| tab_name(at, tab)).collect();
+    let name = |(at, tab): (usize, &Tab)| {
+        let (name, marks) = (text::cut(&tab.short_name(), LONGEST_NAME), tab.marks());
+        format!("{} {name}{}{marks}", at + 1, if tab.is_unsaved() { "*" } else { "" })
+    };
+    let names: Vec<String> = app.tabs().enumerate().map(name).collect();
     let room = usize::from(width).saturating_sub(OTHER_TEXT);
     let fits = |from: usize, to: usize| {
         names[from..to].iter().map(|name| name.width() + 2).sum::<usize>() <= room
@@ -100,14 +93,4 @@ fn shown_tabs(app: &App, width: u16) -> (Vec<String>, Range<usize>) {
     let to = (at + 1..=names.len()).rev().find(|&to| fits(at, to)).unwrap_or(at + 1);
     let from = (0..at).find(|&from| fits(from, to)).unwrap_or(at);
     (names, from..to)
-}
-
-fn tab_name(at: usize, tab: &Tab) -> String {
-    format!(
-        "{} {}{}{}",
-        at + 1,
-        text::cut(&tab.short_name(), LONGEST_NAME),
-        if tab.is_unsaved() { "*" } else { "" },
-        tab.marks()
-    )
 }

@@ -1,19 +1,26 @@
-//! Reads the terminal: keys, mouse reports and pastes, in a thread that sleeps until bytes arrive.
-//! An unfinished sequence never delays later keys.
+//! Input: the bytes of the terminal become keys, mouse reports and pastes, and these become actions.
 //!
-//! The reader of crossterm keeps such a sequence for ever: after `ESC [ ? 2026 ; 2 $ y`, `ESC [ <` or
-//! a paste without an end, it takes every key, also Ctrl-Q, as a part of it.
+//! The reader of crossterm keeps an unfinished sequence for ever: after `ESC [ ? 2026 ; 2 $ y`,
+//! `ESC [ <` or a paste without an end, it takes every key, also Ctrl-Q, as a part of it. Here an
+//! unfinished sequence never delays later keys.
 
 use std::io::{self, ErrorKind};
+use std::iter::Peekable;
 use std::mem;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use crossterm::event::{
-    Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
+    Event as Input, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
 };
+use ratatui::layout::Position;
 
-use crate::system::terminal::{Input, is_in_foreground, read, wait_for_input};
+use super::app::actions::Action;
+use super::keys::Place;
+use super::update::commands::of_key;
+use crate::system::terminal::{self, is_in_foreground, read, wait_for_input};
 
 /// Less than the terminal's own buffer, so that a full read means that more bytes are ready.
 const BUFFER: usize = 1024;
@@ -30,33 +37,145 @@ const PASTE: Duration = Duration::from_secs(1);
 const LONGEST_SEQUENCE: usize = 4096;
 /// Greatest number of bytes of a paste; the rest is dropped.
 const LONGEST_PASTE: usize = 1 << 20;
-const PASTE_START: (&[u8], u8) = (b"200", b'~');
 const PASTE_END: &[u8] = b"\x1b[201~";
-
 const ESC: u8 = 0x1b;
-const BELL: u8 = 0x07;
 
-/// Reads the terminal and passes each input to `send`, until `send` returns false or the terminal
-/// closes.
-pub(super) fn read_all(mut send: impl FnMut(Event) -> bool) {
+const CHANNEL: usize = 4096;
+/// A batch is drawn after this time, even if more events are waiting.
+const BATCH: Duration = Duration::from_millis(50);
+/// Lines per step of the mouse wheel.
+const WHEEL: isize = 3;
+
+/// An event from outside the state.
+#[derive(Debug)]
+pub enum Event {
+    /// Input from the terminal.
+    Input(Input),
+    /// The number of a signal.
+    Signal(i32),
+    /// A result of a worker, or an error of the journal.
+    Action(Action),
+    /// Time for the next frame of an animation.
+    Tick,
+    /// The terminal is closed.
+    Lost,
+}
+
+/// Keys, signals and results, through one bounded channel.
+#[derive(Debug)]
+pub(crate) struct Events {
+    sender: SyncSender<Event>,
+    receiver: Receiver<Event>,
+}
+
+impl Events {
+    pub(crate) fn new() -> Events {
+        let (sender, receiver) = sync_channel(CHANNEL);
+        Events { sender, receiver }
+    }
+
+    /// Starts a thread that reads the terminal.
+    pub(crate) fn listen(&self) -> io::Result<()> {
+        let keys = self.sender.clone();
+        let listen = move || {
+            let send = |input| keys.send(Event::Input(input)).is_ok();
+            // The workbench must not run without keys, whatever ends this reader. If the receiver
+            // is closed, the workbench is ending.
+            drop(catch_unwind(AssertUnwindSafe(|| read_all(send))));
+            drop(keys.send(Event::Lost));
+        };
+        thread::Builder::new().name("keys".to_owned()).spawn(listen).map(drop)
+    }
+
+    /// A sender for the code that ends the workbench.
+    pub(crate) fn sender(&self) -> SyncSender<Event> {
+        self.sender.clone()
+    }
+
+    /// Sends actions as events.
+    pub(crate) fn action_sender(&self) -> impl Fn(Action) -> bool + Send + Sync + 'static {
+        let sender = self.sender.clone();
+        move |action| sender.send(Event::Action(action)).is_ok()
+    }
+
+    /// Waits for an event and returns all waiting events. Returns a tick after `alarm` without
+    /// events, and nothing after `deadline`.
+    pub(crate) fn batch(&self, alarm: Option<Instant>, deadline: Option<Instant>) -> Vec<Event> {
+        let first = match alarm.into_iter().chain(deadline).min() {
+            None => self.receiver.recv().unwrap_or(Event::Lost),
+            Some(until) => {
+                match self.receiver.recv_timeout(until.saturating_duration_since(Instant::now())) {
+                    Ok(event) => event,
+                    Err(RecvTimeoutError::Timeout) if alarm == Some(until) => Event::Tick,
+                    Err(RecvTimeoutError::Timeout) => return Vec::new(),
+                    Err(RecvTimeoutError::Disconnected) => Event::Lost,
+                }
+            }
+        };
+        let end = Instant::now() + BATCH;
+        let more = self.receiver.try_iter().take_while(|_| Instant::now() < end);
+        std::iter::once(first).chain(more).collect()
+    }
+}
+
+/// The action of an input in a place; a run of typed letters becomes one action.
+pub fn take_action(
+    inputs: &mut Peekable<impl Iterator<Item = Event>>,
+    place: Place,
+) -> Option<Action> {
+    match inputs.next()? {
+        Event::Input(Input::Key(key)) => match of_key(key, place)? {
+            Action::Insert(letter) if place.is_line() => Some(typed(letter, inputs, place)),
+            action => Some(action),
+        },
+        Event::Input(Input::Paste(text)) => Some(Action::Paste(text)),
+        Event::Action(action) => Some(action),
+        Event::Input(Input::Mouse(mouse)) => {
+            let at = Position::new(mouse.column, mouse.row);
+            match mouse.kind {
+                MouseEventKind::Down(MouseButton::Left) => Some(Action::Click(at)),
+                MouseEventKind::ScrollDown => Some(Action::Wheel(at, WHEEL)),
+                MouseEventKind::ScrollUp => Some(Action::Wheel(at, -WHEEL)),
+                _ => None,
+            }
+        }
+        Event::Tick => Some(Action::Tick),
+        Event::Input(_) | Event::Signal(_) | Event::Lost => None,
+    }
+}
+
+fn typed(letter: char, inputs: &mut Peekable<impl Iterator<Item = Event>>, place: Place) -> Action {
+    let mut run = String::from(letter);
+    while let Some(Event::Input(Input::Key(key))) = inputs.peek()
+        && let Some(Action::Insert(letter)) = of_key(*key, place)
+    {
+        run.push(letter);
+        inputs.next();
+    }
+    if run.len() == letter.len_utf8() { Action::Insert(letter) } else { Action::Paste(run) }
+}
+
+/// Reads the terminal, sleeping until bytes arrive, and passes each input to `send`, until `send`
+/// returns false or the terminal closes.
+fn read_all(mut send: impl FnMut(Input) -> bool) {
     let stdin = io::stdin();
-    let mut decoder = Decoder::default();
-    let mut buffer = [0; BUFFER];
-    let mut inputs = Vec::new();
+    let (mut decoder, mut buffer, mut inputs) = (Decoder::default(), [0; BUFFER], Vec::new());
     loop {
         let start = Instant::now();
         match wait_for_input(&stdin, decoder.patience()) {
-            Ok(Input::None) => decoder.expire(&mut inputs),
+            Ok(terminal::Input::None) => decoder.expire(&mut inputs),
             // The shell is in the foreground: a read would stop the process.
-            Ok(Input::Ready) if !is_in_foreground() => {
-                thread::sleep(BACKGROUND);
-            }
+            Ok(terminal::Input::Ready) if !is_in_foreground() => thread::sleep(BACKGROUND),
             Ok(state) => {
                 decoder.has_waited(start.elapsed());
                 match read(&stdin, &mut buffer) {
-                    Ok(0) if state == Input::HungUp => return,
+                    Ok(0) if state == terminal::Input::HungUp => return,
                     Ok(count) => decoder.feed(&buffer[..count], count == BUFFER, &mut inputs),
-                    Err(error) if is_passing(&error) => {}
+                    Err(error)
+                        if matches!(
+                            error.kind(),
+                            ErrorKind::Interrupted | ErrorKind::WouldBlock
+                        ) => {}
                     Err(_) => return,
                 }
             }
@@ -69,23 +188,33 @@ pub(super) fn read_all(mut send: impl FnMut(Event) -> bool) {
     }
 }
 
-fn is_passing(error: &io::Error) -> bool {
-    matches!(error.kind(), ErrorKind::Interrupted | ErrorKind::WouldBlock)
-}
-
 #[derive(Debug, Default)]
 struct Decoder {
-    state: State,
-    /// The bytes since the state began.
+    /// The bytes of the unfinished sequence or character.
     bytes: Vec<u8>,
-    /// Timeout for the next byte of the state.
+    /// The bytes of the unfinished paste.
+    paste: Option<Vec<u8>>,
+    /// A read ended with the Esc of the sequence: a following letter is a key of its own.
+    is_apart: bool,
+    /// The Esc of the sequence may begin the terminator of a text.
+    ends_text: bool,
+    /// Timeout for the next byte.
     patience: Duration,
+}
+
+/// What the bytes of a sequence are.
+enum Step {
+    Unfinished,
+    Done(Option<Input>),
+    Paste,
+    /// The last byte begins another sequence.
+    Restart(Option<Input>),
 }
 
 impl Decoder {
     /// Timeout for the next byte; `None` if nothing is unfinished.
     fn patience(&self) -> Option<Duration> {
-        (self.state != State::Ground).then_some(self.patience)
+        (self.paste.is_some() || !self.bytes.is_empty()).then_some(self.patience)
     }
 
     fn has_waited(&mut self, time: Duration) {
@@ -93,246 +222,138 @@ impl Decoder {
     }
 
     /// Decodes the bytes of one read. `is_full` if more bytes may be ready.
-    fn feed(&mut self, bytes: &[u8], is_full: bool, inputs: &mut Vec<Event>) {
-        if self.is_key_after_a_paste(bytes) {
+    fn feed(&mut self, bytes: &[u8], is_full: bool, inputs: &mut Vec<Input>) {
+        // Pastes arrive in bulk. In a paste without an end, a control character that arrives alone
+        // after a pause is a key, such as Ctrl-Q.
+        let has_paused = self.patience + SEQUENCE <= PASTE;
+        let is_whole = self.paste.as_ref().is_some_and(|paste| part_of_end(paste) == 0);
+        let is_key = matches!(bytes, [0..=0x08 | 0x0b | 0x0c | 0x0e..=0x1a | 0x1c..=0x1f]);
+        if is_whole && has_paused && is_key {
             self.expire(inputs);
         }
         for &byte in bytes {
             self.take(byte, inputs);
         }
-        if let State::Escape { is_apart, .. } = &mut self.state {
-            *is_apart |= !is_full;
-        }
-    }
-
-    /// Pastes arrive in bulk. In a paste without an end, a control character that arrives alone
-    /// after a pause is a key, such as Ctrl-Q.
-    fn is_key_after_a_paste(&self, bytes: &[u8]) -> bool {
-        let has_paused = self.patience + SEQUENCE <= PASTE;
-        let is_key = matches!(bytes, [0..=0x08 | 0x0b | 0x0c | 0x0e..=0x1a | 0x1c..=0x1f]);
-        self.state == State::Paste { matched: 0 } && has_paused && is_key
+        self.is_apart |= self.bytes == [ESC] && !is_full;
     }
 
     /// Ends the unfinished sequence after its timeout.
-    fn expire(&mut self, inputs: &mut Vec<Event>) {
-        let bytes = mem::take(&mut self.bytes);
-        match mem::take(&mut self.state) {
-            State::Escape { .. } => inputs.push(plain(KeyCode::Esc)),
-            // No sequence ends after its first letter: the user pressed Alt.
-            State::Csi if bytes.is_empty() => inputs.push(with_alt(b'[')),
-            State::Ss3 if bytes.is_empty() => inputs.push(with_alt(b'O')),
-            State::Text { introducer } if bytes.is_empty() => inputs.push(with_alt(introducer)),
+    fn expire(&mut self, inputs: &mut Vec<Input>) {
+        let Decoder { bytes, paste, .. } = mem::take(self);
+        inputs.extend(match (paste, &bytes[..]) {
             // A single Esc is a key.
-            State::Paste { .. } => inputs.push(paste(&bytes)),
-            _ => {}
-        }
+            (Some(paste), _) => Some(pasted(&paste[..paste.len() - part_of_end(&paste)])),
+            (None, [ESC]) => Some(Input::Key(KeyCode::Esc.into())),
+            // No sequence ends after its first letter: the user pressed Alt.
+            (None, &[ESC, letter @ ..0x80]) => Some(of_byte(letter, KeyModifiers::ALT)),
+            _ => None,
+        });
     }
 
-    fn take(&mut self, byte: u8, inputs: &mut Vec<Event>) {
-        match self.state {
-            State::Ground => self.begin(byte, KeyModifiers::NONE, inputs),
-            State::Escape { is_apart, ends_text } => {
-                self.after_escape(byte, is_apart, ends_text, inputs);
+    fn take(&mut self, byte: u8, inputs: &mut Vec<Input>) {
+        if let Some(paste) = &mut self.paste {
+            paste.push(byte);
+            if paste.ends_with(PASTE_END) {
+                inputs.push(pasted(&paste[..paste.len() - PASTE_END.len()]));
+                *self = Decoder::default();
+            } else {
+                if paste.len() >= LONGEST_PASTE + PASTE_END.len() {
+                    paste.remove(LONGEST_PASTE);
+                }
+                self.patience = if byte == ESC { SEQUENCE } else { PASTE };
             }
-            State::Letter { modifiers } => self.in_letter(byte, modifiers, inputs),
-            State::Csi => self.in_csi(byte, inputs),
-            State::Ss3 => self.in_ss3(byte, inputs),
-            State::Mouse => self.in_mouse(byte, inputs),
-            State::Text { introducer } => self.in_text(byte, introducer, inputs),
-            State::Paste { matched } => self.in_paste(byte, matched, inputs),
-        }
-    }
-
-    fn enter(&mut self, state: State, patience: Duration) {
-        self.bytes.clear();
-        self.state = state;
-        self.patience = patience;
-    }
-
-    /// Drops the unfinished sequence; the byte begins a new state.
-    fn restart(&mut self, byte: u8, inputs: &mut Vec<Event>) {
-        self.enter(State::Ground, Duration::ZERO);
-        self.take(byte, inputs);
-    }
-
-    fn keep(&mut self, byte: u8) {
-        self.bytes.push(byte);
-        if self.bytes.len() > LONGEST_SEQUENCE {
-            self.enter(State::Ground, Duration::ZERO);
-        }
-    }
-
-    fn begin(&mut self, byte: u8, modifiers: KeyModifiers, inputs: &mut Vec<Event>) {
-        match byte {
-            ESC => {
-                let state = State::Escape { is_apart: false, ends_text: false };
-                self.enter(state, ESCAPE);
-            }
-            0x80.. => {
-                self.enter(State::Letter { modifiers }, SEQUENCE);
-                self.in_letter(byte, modifiers, inputs);
-            }
-            _ => {
-                self.enter(State::Ground, Duration::ZERO);
-                inputs.push(of_byte(byte, modifiers));
-            }
-        }
-    }
-
-    fn after_escape(&mut self, byte: u8, apart: bool, ends_text: bool, inputs: &mut Vec<Event>) {
-        match byte {
-            b'[' => self.enter(State::Csi, SEQUENCE),
-            b'O' => self.enter(State::Ss3, SEQUENCE),
-            b'\\' if ends_text => self.enter(State::Ground, Duration::ZERO),
-            _ if apart || byte == ESC => {
-                inputs.push(plain(KeyCode::Esc));
-                self.restart(byte, inputs);
-            }
-            b']' | b'P' | b'X' | b'^' | b'_' => {
-                self.enter(State::Text { introducer: byte }, SEQUENCE);
-            }
-            _ => self.begin(byte, KeyModifiers::ALT, inputs),
-        }
-    }
-
-    fn in_letter(&mut self, byte: u8, modifiers: KeyModifiers, inputs: &mut Vec<Event>) {
-        self.bytes.push(byte);
-        match str::from_utf8(&self.bytes) {
-            Ok(text) => {
-                inputs.extend(text.chars().map(|letter| of_letter(letter, modifiers)));
-                self.enter(State::Ground, Duration::ZERO);
-            }
-            Err(error) if error.error_len().is_none() => {}
-            Err(_) if self.bytes.len() > 1 => self.restart(byte, inputs),
-            Err(_) => self.enter(State::Ground, Duration::ZERO),
-        }
-    }
-
-    fn in_csi(&mut self, byte: u8, inputs: &mut Vec<Event>) {
-        match byte {
-            b'M' if self.bytes.is_empty() => self.enter(State::Mouse, SEQUENCE),
-            // A function key of the Linux console.
-            b'[' if self.bytes.is_empty() => self.keep(byte),
-            b' '..=b'?' => self.keep(byte),
-            b'@'..=b'~' if (&*self.bytes, byte) == PASTE_START => {
-                self.enter(State::Paste { matched: 0 }, PASTE);
-            }
-            b'@'..=b'~' => {
-                inputs.extend(csi(&self.bytes, byte));
-                self.enter(State::Ground, Duration::ZERO);
-            }
-            _ => self.restart(byte, inputs),
-        }
-    }
-
-    fn in_ss3(&mut self, byte: u8, inputs: &mut Vec<Event>) {
-        match byte {
-            b'0'..=b'9' | b';' => self.keep(byte),
-            b'@'..=b'~' => {
-                inputs.extend(ss3(&self.bytes, byte));
-                self.enter(State::Ground, Duration::ZERO);
-            }
-            _ => self.restart(byte, inputs),
-        }
-    }
-
-    fn in_mouse(&mut self, byte: u8, inputs: &mut Vec<Event>) {
-        if byte < b' ' {
-            return self.restart(byte, inputs);
-        }
-        self.keep(byte);
-        if let [button, column, row] = self.bytes[..] {
-            inputs.extend(mouse(button, column, row));
-            self.enter(State::Ground, Duration::ZERO);
-        }
-    }
-
-    fn in_text(&mut self, byte: u8, introducer: u8, inputs: &mut Vec<Event>) {
-        match byte {
-            BELL => self.enter(State::Ground, Duration::ZERO),
-            ESC => {
-                let state = State::Escape { is_apart: false, ends_text: true };
-                self.enter(state, ESCAPE);
-            }
-            0..b' ' if self.bytes.is_empty() => {
-                inputs.push(with_alt(introducer));
-                self.restart(byte, inputs);
-            }
-            0..b' ' => self.restart(byte, inputs),
-            _ => self.keep(byte),
-        }
-    }
-
-    fn in_paste(&mut self, byte: u8, matched: usize, inputs: &mut Vec<Event>) {
-        let is_next = PASTE_END.get(matched) == Some(&byte);
-        let matched = if is_next {
-            matched + 1
-        } else {
-            self.paste(&PASTE_END[..matched]);
-            if byte != ESC {
-                self.paste(&[byte]);
-            }
-            usize::from(byte == ESC)
-        };
-        if matched == PASTE_END.len() {
-            inputs.push(paste(&self.bytes));
-            self.enter(State::Ground, Duration::ZERO);
             return;
         }
-        self.state = State::Paste { matched };
-        self.patience = if matched == 1 { SEQUENCE } else { PASTE };
+        self.bytes.push(byte);
+        if self.bytes.len() <= 2 {
+            self.patience = if byte == ESC { ESCAPE } else { SEQUENCE };
+        }
+        match self.step() {
+            Step::Unfinished if self.bytes.len() <= LONGEST_SEQUENCE + 2 => {}
+            Step::Unfinished => *self = Decoder::default(),
+            Step::Done(input) => {
+                inputs.extend(input);
+                *self = Decoder::default();
+            }
+            Step::Paste => {
+                let paste = Some(Vec::new());
+                *self = Decoder { paste, patience: PASTE, ..Decoder::default() };
+            }
+            Step::Restart(input) => {
+                inputs.extend(input);
+                let ends_text = byte == ESC && self.bytes.get(1).is_some_and(|&byte| is_text(byte));
+                *self = Decoder { ends_text, ..Decoder::default() };
+                self.take(byte, inputs);
+            }
+        }
     }
 
-    fn paste(&mut self, bytes: &[u8]) {
-        let room = LONGEST_PASTE.saturating_sub(self.bytes.len());
-        self.bytes.extend(&bytes[..bytes.len().min(room)]);
+    fn step(&self) -> Step {
+        match self.bytes[..] {
+            [ESC] | [ESC, b'[' | b'O'] => Step::Unfinished,
+            [ESC, b'\\'] if self.ends_text => Step::Done(None),
+            [ESC, byte] if self.is_apart || byte == ESC => {
+                Step::Restart(Some(Input::Key(KeyCode::Esc.into())))
+            }
+            [ESC, byte] if is_text(byte) => Step::Unfinished,
+            [0x80.., ..] => in_letter(&self.bytes, KeyModifiers::NONE),
+            [ESC, 0x80.., ..] => in_letter(&self.bytes[1..], KeyModifiers::ALT),
+            [byte] => Step::Done(Some(of_byte(byte, KeyModifiers::NONE))),
+            [ESC, byte] => Step::Done(Some(of_byte(byte, KeyModifiers::ALT))),
+            [ESC, b'[', b'M', .., 0..b' '] => Step::Restart(None),
+            // Button, column and row, one byte each.
+            [ESC, b'[', b'M', button, column, row] => Step::Done(mouse(
+                button.checked_sub(32),
+                [column, row].map(|byte| byte.checked_sub(32).map(u16::from)),
+            )),
+            [ESC, b'[', b'M', ..] => Step::Unfinished,
+            [ESC, b'[', ref parameters @ .., last] => match last {
+                // A function key of the Linux console.
+                b'[' if parameters.is_empty() => Step::Unfinished,
+                b' '..=b'?' => Step::Unfinished,
+                b'~' if parameters == b"200" => Step::Paste,
+                b'@'..=b'~' => Step::Done(csi(parameters, last)),
+                _ => Step::Restart(None),
+            },
+            [ESC, b'O', ref parameters @ .., last] => match last {
+                b'0'..=b'9' | b';' => Step::Unfinished,
+                b'@'..=b'~' => Step::Done(ss3(parameters, last)),
+                _ => Step::Restart(None),
+            },
+            [_, _, .., 0x07] => Step::Done(None),
+            [_, _, .., ESC] => Step::Restart(None),
+            [_, letter, 0..b' '] => Step::Restart(Some(of_byte(letter, KeyModifiers::ALT))),
+            [.., 0..b' '] => Step::Restart(None),
+            _ => Step::Unfinished,
+        }
     }
 }
 
-/// `Esc [ M` and three bytes.
-fn mouse(button: u8, column: u8, row: u8) -> Option<Event> {
-    let place = |byte: u8| byte.checked_sub(33).map(u16::from);
-    at(button.checked_sub(32)?, place(column)?, place(row)?)
+/// Whether a letter after Esc begins a text reply.
+fn is_text(byte: u8) -> bool {
+    matches!(byte, b']' | b'P' | b'X' | b'^' | b'_')
 }
 
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
-enum State {
-    #[default]
-    Ground,
-    /// After Esc.
-    Escape {
-        /// A read ended with the Esc: a following letter is a key of its own.
-        is_apart: bool,
-        /// The Esc may begin the terminator of a text.
-        ends_text: bool,
-    },
-    /// Inside a character of several bytes.
-    Letter { modifiers: KeyModifiers },
-    /// After `Esc [`.
-    Csi,
-    /// After `Esc O`.
-    Ss3,
-    /// After `Esc [ M`: button, column and row, one byte each.
-    Mouse,
-    /// Inside a text reply: from `Esc ]`, `Esc P`, `Esc X`, `Esc ^` or `Esc _` on.
-    Text { introducer: u8 },
-    /// Inside a paste, with the number of bytes that match its end.
-    Paste { matched: usize },
+/// Number of bytes at the end of a paste that may begin its end mark.
+fn part_of_end(paste: &[u8]) -> usize {
+    (1..PASTE_END.len()).rev().find(|&count| paste.ends_with(&PASTE_END[..count])).unwrap_or(0)
 }
 
-fn paste(bytes: &[u8]) -> Event {
-    Event::Paste(String::from_utf8_lossy(bytes).into_owned())
+fn pasted(bytes: &[u8]) -> Input {
+    Input::Paste(String::from_utf8_lossy(bytes).into_owned())
 }
 
-fn plain(code: KeyCode) -> Event {
-    Event::Key(code.into())
+/// A character of several bytes.
+fn in_letter(bytes: &[u8], modifiers: KeyModifiers) -> Step {
+    match str::from_utf8(bytes) {
+        Ok(text) => Step::Done(text.chars().next().map(|letter| of_letter(letter, modifiers))),
+        Err(error) if error.error_len().is_none() => Step::Unfinished,
+        Err(_) if bytes.len() > 1 => Step::Restart(None),
+        Err(_) => Step::Done(None),
+    }
 }
 
-fn with_alt(letter: u8) -> Event {
-    of_letter(letter.into(), KeyModifiers::ALT)
-}
-
-fn of_byte(byte: u8, modifiers: KeyModifiers) -> Event {
+fn of_byte(byte: u8, modifiers: KeyModifiers) -> Input {
     let ctrl = modifiers | KeyModifiers::CONTROL;
     let key = match byte {
         b'\r' => KeyEvent::new(KeyCode::Enter, modifiers),
@@ -340,41 +361,44 @@ fn of_byte(byte: u8, modifiers: KeyModifiers) -> Event {
         0x7f => KeyEvent::new(KeyCode::Backspace, modifiers),
         0 => KeyEvent::new(KeyCode::Char(' '), ctrl),
         1..=0x1a => KeyEvent::new(KeyCode::Char((byte + b'a' - 1).into()), ctrl),
-        ESC => KeyEvent::new(KeyCode::Esc, modifiers),
         0x1c..=0x1f => KeyEvent::new(KeyCode::Char((byte - 0x1c + b'4').into()), ctrl),
         _ => return of_letter(byte.into(), modifiers),
     };
-    Event::Key(key)
+    Input::Key(key)
 }
 
-fn of_letter(letter: char, modifiers: KeyModifiers) -> Event {
-    let shift = if letter.is_uppercase() { KeyModifiers::SHIFT } else { KeyModifiers::NONE };
-    Event::Key(KeyEvent::new(KeyCode::Char(letter), modifiers | shift))
+fn of_letter(letter: char, modifiers: KeyModifiers) -> Input {
+    Input::Key(KeyEvent::new(KeyCode::Char(letter), modifiers))
 }
 
 /// `Esc [`, the parameters and a final letter.
-fn csi(parameters: &[u8], last: u8) -> Option<Event> {
+fn csi(parameters: &[u8], last: u8) -> Option<Input> {
     let text = str::from_utf8(parameters).ok()?;
-    if let Some(report) = text.strip_prefix('<') {
-        return sgr_mouse(report, last);
+    let report = |text: &str, offset: u8| {
+        let mut parts = text.split(';');
+        let button = parts.next()?.parse::<u8>().ok().and_then(|code| code.checked_sub(offset));
+        let mut place = || parts.next()?.parse().ok();
+        mouse(button, [place(), place()])
+    };
+    if let Some(text) = text.strip_prefix('<') {
+        // A report with a small m is of a released button.
+        return if last == b'M' { report(text, 0) } else { None };
     }
     if text == "[" {
         let number = last.checked_sub(b'A').filter(|&number| number < 5)?;
-        return Some(Event::Key(KeyCode::F(1 + number).into()));
+        return Some(Input::Key(KeyCode::F(1 + number).into()));
     }
-    let is_plain = |letter: char| letter.is_ascii_digit() || ";:".contains(letter);
-    if !text.chars().all(is_plain) {
+    if !text.chars().all(|letter| letter.is_ascii_digit() || ";:".contains(letter)) {
         return None;
     }
     let parts: Vec<&str> = text.split(';').collect();
+    let modifiers = held(parts.get(1).copied());
     match last {
-        b'M' => rxvt_mouse(&parts),
-        b'u' => key(code_of(parts[0], held(parts.get(1))?.0)?, parts.get(1)),
-        b'~' if parts[0] == "27" => {
-            key(code_of(parts.get(2)?, held(parts.get(1))?.0)?, parts.get(1))
-        }
-        b'~' => key((numbered(parts[0])?, KeyModifiers::NONE), parts.get(1)),
-        b'Z' => Some(Event::Key(KeyEvent::new(KeyCode::BackTab, KeyModifiers::SHIFT))),
+        b'M' => report(text, 32),
+        b'u' => key(of_number(parts[0], modifiers?)?, modifiers),
+        b'~' if parts[0] == "27" => key(of_number(parts.get(2)?, modifiers?)?, modifiers),
+        b'~' => key(numbered(parts[0])?, modifiers),
+        b'Z' => key(KeyCode::BackTab, Some(KeyModifiers::SHIFT)),
         // The position of the cursor.
         b'R' => None,
         _ => lettered(&parts, last),
@@ -382,12 +406,11 @@ fn csi(parameters: &[u8], last: u8) -> Option<Event> {
 }
 
 /// `Esc O`, the parameters and a final letter.
-fn ss3(parameters: &[u8], last: u8) -> Option<Event> {
-    let text = str::from_utf8(parameters).ok()?;
-    lettered(&text.split(';').collect::<Vec<_>>(), last)
+fn ss3(parameters: &[u8], last: u8) -> Option<Input> {
+    lettered(&str::from_utf8(parameters).ok()?.split(';').collect::<Vec<_>>(), last)
 }
 
-fn lettered(parts: &[&str], last: u8) -> Option<Event> {
+fn lettered(parts: &[&str], last: u8) -> Option<Input> {
     let code = match last {
         b'A' => KeyCode::Up,
         b'B' => KeyCode::Down,
@@ -399,8 +422,7 @@ fn lettered(parts: &[&str], last: u8) -> Option<Event> {
         _ => return None,
     };
     // Old terminals omit the first parameter, which is 1.
-    let held = parts.get(1).or(parts.first().filter(|part| !part.is_empty()));
-    key((code, KeyModifiers::NONE), held)
+    key(code, held(parts.get(1).or(parts.first()).copied()))
 }
 
 fn numbered(number: &str) -> Option<KeyCode> {
@@ -413,136 +435,51 @@ fn numbered(number: &str) -> Option<KeyCode> {
         6 => KeyCode::PageDown,
         number @ 11..=15 => KeyCode::F(number - 10),
         number @ 17..=21 => KeyCode::F(number - 11),
-        number @ 23..=26 => KeyCode::F(number - 12),
-        number @ 28..=29 => KeyCode::F(number - 13),
-        number @ 31..=34 => KeyCode::F(number - 14),
+        number @ 23..=24 => KeyCode::F(number - 12),
         _ => return None,
     })
 }
 
-/// A key from its number in Unicode or in the kitty protocol, and the modifiers that its character
-/// already includes.
-fn code_of(number: &str, held: KeyModifiers) -> Option<(KeyCode, KeyModifiers)> {
-    let mut numbers = number.split(':').map(|number| number.parse::<u32>().ok());
-    let code = match numbers.next()?? {
+/// A key from the number of its character.
+fn of_number(number: &str, held: KeyModifiers) -> Option<KeyCode> {
+    Some(match number.split(':').next()?.parse::<u32>().ok()? {
         0x1b => KeyCode::Esc,
         0x0d => KeyCode::Enter,
         0x09 if held.contains(KeyModifiers::SHIFT) => KeyCode::BackTab,
         0x09 => KeyCode::Tab,
         0x7f => KeyCode::Backspace,
-        number @ 57376..=57398 => KeyCode::F(u8::try_from(number - 57376 + 13).ok()?),
-        number @ 57399..=57427 => keypad(number - 57399)?,
         57344..=63743 => return None,
         number => KeyCode::Char(char::from_u32(number)?),
-    };
-    let shifted = numbers.next().flatten().and_then(char::from_u32);
-    Some(match shifted {
-        Some(letter) if held.contains(KeyModifiers::SHIFT) => {
-            (KeyCode::Char(letter), KeyModifiers::SHIFT)
-        }
-        _ => (code, KeyModifiers::NONE),
     })
 }
 
-fn keypad(number: u32) -> Option<KeyCode> {
-    use KeyCode::{Delete, Down, End, Enter, Home, Insert, Left, PageDown, PageUp, Right, Up};
-    const MOVES: [KeyCode; 10] =
-        [Left, Right, Up, Down, PageUp, PageDown, Home, End, Insert, Delete];
-    let number = usize::try_from(number).ok()?;
-    match number {
-        15 => Some(Enter),
-        18.. => MOVES.get(number - 18).copied(),
-        _ => "0123456789./*-+\n=,".chars().nth(number).map(KeyCode::Char),
-    }
+fn key(code: KeyCode, held: Option<KeyModifiers>) -> Option<Input> {
+    Some(Input::Key(KeyEvent::new(code, held?)))
 }
 
-/// A key with the modifiers of a parameter, without those that its character already includes.
-fn key((code, shown): (KeyCode, KeyModifiers), parameter: Option<&&str>) -> Option<Event> {
-    let (modifiers, kind) = held(parameter)?;
-    let key = KeyEvent::new_with_kind(code, modifiers - shown, kind);
-    Some(Event::Key(key))
-}
-
-/// Parses `modifiers:kind`, where modifiers are bits plus one. Locks are ignored.
-fn held(parameter: Option<&&str>) -> Option<(KeyModifiers, KeyEventKind)> {
-    const BITS: [KeyModifiers; 6] = [
-        KeyModifiers::SHIFT,
-        KeyModifiers::ALT,
-        KeyModifiers::CONTROL,
-        KeyModifiers::SUPER,
-        KeyModifiers::HYPER,
-        KeyModifiers::META,
-    ];
-    let mut parts = parameter.copied().unwrap_or_default().split(':');
+/// Parses `modifiers:kind`, where modifiers are bits plus one; `None` for a released key.
+fn held(parameter: Option<&str>) -> Option<KeyModifiers> {
+    const BITS: [(u8, KeyModifiers); 3] =
+        [(1, KeyModifiers::SHIFT), (2, KeyModifiers::ALT), (4, KeyModifiers::CONTROL)];
+    let mut parts = parameter.unwrap_or_default().split(':');
     let mask = match parts.next() {
         None | Some("") => 0,
         Some(mask) => mask.parse::<u8>().ok()?.saturating_sub(1),
     };
-    let kind = match parts.next() {
-        Some("2") => KeyEventKind::Repeat,
-        Some("3") => KeyEventKind::Release,
-        _ => KeyEventKind::Press,
-    };
-    let bits = BITS.iter().enumerate();
-    let held = bits.filter(|(bit, _)| mask & (1 << bit) != 0);
-    Some((held.map(|(_, &modifier)| modifier).collect(), kind))
+    let held = BITS.iter().filter(|(bit, _)| mask & bit != 0);
+    (parts.next() != Some("3")).then(|| held.map(|&(_, modifier)| modifier).collect())
 }
 
-fn rxvt_mouse(parts: &[&str]) -> Option<Event> {
-    let (button, column, row) = report(parts)?;
-    at(button.checked_sub(32)?, column, row)
-}
-
-fn sgr_mouse(text: &str, last: u8) -> Option<Event> {
-    let (button, column, row) = report(&text.split(';').collect::<Vec<_>>())?;
-    let event = at(button, column, row)?;
-    match (last, event) {
-        (b'M', event) => Some(event),
-        (b'm', Event::Mouse(mouse)) => {
-            let kind = match mouse.kind {
-                MouseEventKind::Down(button) => MouseEventKind::Up(button),
-                kind => kind,
-            };
-            Some(Event::Mouse(MouseEvent { kind, ..mouse }))
-        }
-        _ => None,
-    }
-}
-
-/// Button, column and row; the first column is 1 in the report and 0 here.
-fn report(parts: &[&str]) -> Option<(u8, u16, u16)> {
-    let place = |part: &str| part.parse::<u16>().ok()?.checked_sub(1);
-    let [button, column, row, ..] = parts else {
-        return None;
-    };
-    Some((button.parse().ok()?, place(column)?, place(row)?))
-}
-
-/// Bits of `button` from the lowest: button (2), Shift, Alt, Ctrl, motion, button (2).
-fn at(button: u8, column: u16, row: u16) -> Option<Event> {
-    const BITS: [(u8, KeyModifiers); 3] =
-        [(4, KeyModifiers::SHIFT), (8, KeyModifiers::ALT), (16, KeyModifiers::CONTROL)];
-    let number = (button & 0b11) | ((button & 0b1100_0000) >> 4);
-    let moves = button & 0b10_0000 != 0;
-    let of = [MouseButton::Left, MouseButton::Middle, MouseButton::Right];
-    let kind = match (number, moves) {
-        (0..=2, false) => MouseEventKind::Down(of[usize::from(number)]),
-        (0..=2, true) => MouseEventKind::Drag(of[usize::from(number)]),
-        (3, false) => MouseEventKind::Up(MouseButton::Left),
-        (3..=5, true) => MouseEventKind::Moved,
-        (4, false) => MouseEventKind::ScrollUp,
-        (5, false) => MouseEventKind::ScrollDown,
-        (6, false) => MouseEventKind::ScrollLeft,
-        (7, false) => MouseEventKind::ScrollRight,
+/// A click or a step of the wheel, with Shift, Alt or Ctrl; the first column is 1 in a report.
+fn mouse(button: Option<u8>, [column, row]: [Option<u16>; 2]) -> Option<Input> {
+    let kind = match button? & !0b1_1100 {
+        0 => MouseEventKind::Down(MouseButton::Left),
+        64 => MouseEventKind::ScrollUp,
+        65 => MouseEventKind::ScrollDown,
         _ => return None,
     };
-    let held = BITS.iter().filter(|(bit, _)| button & bit != 0);
-    Some(Event::Mouse(MouseEvent {
-        kind,
-        column,
-        row,
-        modifiers: held.map(|&(_, modifier)| modifier).collect(),
-    }))
+    let (column, row) = (column?.checked_sub(1)?, row?.checked_sub(1)?);
+    Some(Input::Mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }))
 }
 
 #[cfg(test)]

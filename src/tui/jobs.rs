@@ -31,7 +31,6 @@ pub(crate) enum TradeView {
 
 impl TradeView {
     /// The other view.
-    #[must_use]
     pub(crate) fn other(self) -> TradeView {
         match self {
             TradeView::Chart => TradeView::Table,
@@ -42,7 +41,6 @@ impl TradeView {
 
 impl Traded {
     /// Whether the case has changed since the benchmark, apart from its setting.
-    #[must_use]
     pub(crate) fn is_stale(&self, inputs: &Inputs) -> bool {
         let with_setting = Inputs {
             method: inputs.method,
@@ -83,7 +81,6 @@ impl OwnChart {
     ];
 
     /// The key, as in `plot --chart`.
-    #[must_use]
     pub fn key(self) -> &'static str {
         match self {
             OwnChart::ToothCompliance(gear) => charts::TOOTH_KEYS[gear],
@@ -94,7 +91,6 @@ impl OwnChart {
     }
 
     /// The name and the description in lists, and the description in the status line.
-    #[must_use]
     pub fn words(self) -> [&'static str; 3] {
         const TOOTH: &str = "The deflection of the loaded tooth per unit load; surface includes the \
             contact. C is the pitch circle.";
@@ -158,13 +154,11 @@ pub struct ChartWork {
 
 impl ChartWork {
     /// The computed part of the chart.
-    #[must_use]
     pub fn drawn(&self, chart: OwnChart) -> Option<&Chart> {
         self.values(chart)?.as_ref().ok()
     }
 
     /// The reason why there is no chart.
-    #[must_use]
     pub fn missing(&self, chart: OwnChart) -> String {
         match self.values(chart) {
             Some(Err(reason)) => format!("No chart: {reason}."),

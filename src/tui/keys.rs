@@ -84,13 +84,11 @@ impl Place {
     pub(in crate::tui) const TYPED: Place = Place::LINE.or(Place::CHOICE).or(Place::ASK);
 
     /// Whether both sets have a place in common.
-    #[must_use]
     pub const fn meets(self, other: Place) -> bool {
         self.0 & other.0 != 0
     }
 
     /// Whether this set contains every place of the other set.
-    #[must_use]
     pub(crate) const fn holds(self, other: Place) -> bool {
         self.0 & other.0 == other.0
     }
@@ -106,7 +104,6 @@ impl Place {
 }
 
 /// The name of a key with its modifiers, such as `Ctrl-S`, `Shift-Tab` or `x`.
-#[must_use]
 pub(crate) fn name(event: KeyEvent) -> String {
     let (code, mut held) = (event.code, event.modifiers);
     // Shift is part of a letter and of Shift-Tab, and terminals differ in whether they report it.

@@ -45,21 +45,18 @@ impl Pane {
     pub(crate) const LOWER: [Pane; 4] = [Pane::Chart, Pane::Teeth, Pane::Trade, Pane::Study];
 
     /// The name of the pane.
-    #[must_use]
     pub(crate) const fn name(self) -> &'static str {
         ["Form", "Results", "Chart", "Teeth", "Trade", "Study"][self as usize]
     }
 
     /// The digit that selects the pane, from 1.
-    #[must_use]
     pub const fn number(self) -> usize {
         self as usize + 1
     }
 
     /// The pane of a digit.
     pub(crate) fn of_digit(digit: char) -> Option<Pane> {
-        let number = digit.to_digit(10)?;
-        Pane::ALL.into_iter().find(|pane| pane.number() == number as usize)
+        Pane::ALL.get((digit.to_digit(10)? as usize).checked_sub(1)?).copied()
     }
 
     /// Whether it shares the lower area.
@@ -68,7 +65,6 @@ impl Pane {
     }
 
     /// The stages of a solve that the pane shows, if the method has them.
-    #[must_use]
     pub(crate) const fn needs(self) -> Stages {
         match self {
             Pane::Form | Pane::Trade | Pane::Study => Stages::NONE,
@@ -88,14 +84,12 @@ impl Pane {
     }
 
     /// The place of keys while the pane has the focus and no field is edited.
-    #[must_use]
     pub(crate) const fn place(self) -> Place {
         [Place::FIELD, Place::RESULTS, Place::CHART, Place::TEETH, Place::TRADE, Place::STUDY]
             [self as usize]
     }
 
     /// The pane `by` places further, wrapping around.
-    #[must_use]
     pub(crate) fn beside(self, by: isize) -> Pane {
         let count = Pane::ALL.len();
         Pane::ALL[(self as usize + count).saturating_add_signed(by) % count]
@@ -122,29 +116,24 @@ impl Layout {
     }
 
     fn of(size: Size, focus: Pane, lower: Pane, is_zoomed: bool) -> Layout {
-        let mut layout = Layout { size, focus, lower, is_zoomed, plan: Plan::default() };
-        layout.arrange();
-        layout
+        Layout { size, focus, lower, is_zoomed, plan: Plan::default() }.arranged()
     }
 
-    fn arrange(&mut self) {
-        self.plan = self.plan_on(self.size);
+    fn arranged(self) -> Layout {
+        Layout { plan: self.plan_on(self.size), ..self }
     }
 
     /// The size of the terminal.
-    #[must_use]
     pub fn size(&self) -> Size {
         self.size
     }
 
     /// The areas of the screen.
-    #[must_use]
     pub fn plan(&self) -> Plan {
         self.plan
     }
 
     /// The pane with the focus.
-    #[must_use]
     pub fn focus(&self) -> Pane {
         self.focus
     }
@@ -161,26 +150,22 @@ impl Layout {
 
     /// Adapts to a new size of the terminal.
     pub fn resize(&mut self, size: Size) {
-        self.size = size;
-        self.arrange();
+        *self = Layout { size, ..*self }.arranged();
     }
 
     /// Moves the focus to a pane.
-    pub(crate) fn focus_on(&mut self, pane: Pane) {
-        self.focus = pane;
-        self.arrange();
+    pub(crate) fn focus_on(&mut self, focus: Pane) {
+        *self = Layout { focus, ..*self }.arranged();
     }
 
     /// Shows a pane in the lower area.
-    pub(crate) fn show_below(&mut self, pane: Pane) {
-        self.lower = pane;
-        self.arrange();
+    pub(crate) fn show_below(&mut self, lower: Pane) {
+        *self = Layout { lower, ..*self }.arranged();
     }
 
     /// Makes the focused pane fill the screen, or restores the layout.
     pub(crate) fn zoom(&mut self, is_zoomed: bool) {
-        self.is_zoomed = is_zoomed;
-        self.arrange();
+        *self = Layout { is_zoomed, ..*self }.arranged();
     }
 
     /// The areas on a terminal of a size, which may not have been reported yet.
@@ -198,7 +183,13 @@ impl Layout {
         } else if size.height < LOWER_FROM {
             plan.place([Pane::Form, Pane::Results], split(body));
         } else if holds(size, THREE_FROM) {
-            plan.three_columns(body, beside);
+            let results = (body.width * 2 / 5).min(WIDEST_RESULTS);
+            let columns = [Length(FORM_OF_THREE), Length(results), Fill(1)];
+            let [form, results, right] = body.layout(&Layouts::horizontal(columns));
+            let rows = [Length(right.height / 2), Fill(1)];
+            let [teeth, below] = right.layout(&Layouts::vertical(rows));
+            plan.place([Pane::Form, Pane::Results], [form, results]);
+            plan.place([Pane::Teeth, beside], [teeth, below]);
         } else if holds(size, BESIDE_FROM) {
             let [upper, lower] = two_rows(body);
             plan.place([Pane::Form, Pane::Results], split(upper));
@@ -237,13 +228,11 @@ pub(crate) fn is_too_small(size: Size) -> bool {
 
 impl Plan {
     /// The area of a pane; empty if the pane is hidden.
-    #[must_use]
     pub fn area(&self, pane: Pane) -> Rect {
         self.panes[pane as usize]
     }
 
     /// Whether a pane is visible.
-    #[must_use]
     pub(crate) fn shows(&self, pane: Pane) -> bool {
         !self.area(pane).is_empty()
     }
@@ -265,15 +254,6 @@ impl Plan {
         for (pane, area) in panes.into_iter().zip(areas) {
             self.panes[pane as usize] = area;
         }
-    }
-
-    fn three_columns(&mut self, body: Rect, pane: Pane) {
-        let results = (body.width * 2 / 5).min(WIDEST_RESULTS);
-        let columns = [Length(FORM_OF_THREE), Length(results), Fill(1)];
-        let [form, results, right] = body.layout(&Layouts::horizontal(columns));
-        let rows = [Length(right.height / 2), Fill(1)];
-        let [teeth, below] = right.layout(&Layouts::vertical(rows));
-        self.place([Pane::Form, Pane::Results, Pane::Teeth, pane], [form, results, teeth, below]);
     }
 }
 

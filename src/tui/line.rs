@@ -22,7 +22,6 @@ pub struct Line {
 
 impl Line {
     /// A text that typing replaces.
-    #[must_use]
     pub(crate) fn whole(text: impl Into<String>) -> Line {
         let mut line = Line::from(text.into());
         line.select_all();
@@ -32,7 +31,6 @@ impl Line {
     /// A path in which typing replaces the file stem and keeps folder and extension. A typed path
     /// from the root or from home also replaces the folder, and a typed extension replaces the old
     /// one.
-    #[must_use]
     pub(crate) fn named(path: impl Into<String>) -> Line {
         let path = path.into();
         let name = path.rfind('/').map_or(0, |slash| slash + 1);
@@ -52,7 +50,6 @@ impl Line {
     }
 
     /// Number of bytes that typing keeps.
-    #[must_use]
     pub(crate) fn kept(&self) -> usize {
         let is_selected = |at: &usize| self.selected.as_ref().is_some_and(|part| part.contains(at));
         let letters = self.input.value().chars().enumerate();

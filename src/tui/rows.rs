@@ -1,6 +1,6 @@
 //! The focusable rows of the form: the fields, then the limits of the case.
 
-use crate::case::fields::{Absent, Field, index_of};
+use crate::case::fields::{AUTO, Absent, Field, index_of};
 use crate::case::units::{self, System};
 use crate::case::{Case, FIELDS, Limit};
 use crate::model::{Inputs, Quantity};
@@ -16,20 +16,17 @@ pub(crate) enum Row<'c> {
 }
 
 /// The number of rows.
-#[must_use]
 pub fn count(case: &Case) -> usize {
     FIELDS.len() + case.limits.len()
 }
 
 /// The content of a row; for an index beyond the last row, the last field.
-#[must_use]
 pub(crate) fn row(case: &Case, at: usize) -> Row<'_> {
     let limit = at.checked_sub(FIELDS.len()).and_then(|at| case.limits.get(at));
     limit.map_or(Row::Field(at.min(FIELDS.len() - 1)), Row::Limit)
 }
 
 /// The row of a key, such as `pair.module` or `limits.impact_force`.
-#[must_use]
 pub(crate) fn of_key(case: &Case, key: &str) -> Option<usize> {
     index_of(key).or_else(|| of_limit(case, key.strip_prefix("limits.")?))
 }
@@ -40,7 +37,6 @@ pub(crate) fn of_limit(case: &Case, quantity: &str) -> Option<usize> {
 }
 
 /// The text of a row.
-#[must_use]
 pub fn text(case: &Case, at: usize) -> Option<&str> {
     match row(case, at) {
         Row::Field(field) => case.text(field),
@@ -49,7 +45,6 @@ pub fn text(case: &Case, at: usize) -> Option<&str> {
 }
 
 /// Whether a row differs from the same row of another case.
-#[must_use]
 pub(crate) fn differs(case: &Case, other: &Case, at: usize) -> bool {
     match row(case, at) {
         Row::Field(field) => case.text(field) != other.text(field),
@@ -68,8 +63,8 @@ pub(crate) fn write(case: &mut Case, at: usize, text: &str) {
 /// The dimension and unit of the number in a row.
 fn measure(case: &Case, at: usize, system: System) -> Option<Measure> {
     match row(case, at) {
-        Row::Field(field) => FIELDS[field].measure(system),
-        Row::Limit(limit) => limit.measure(system),
+        Row::Field(field) => Measure::of_field(&FIELDS[field], system),
+        Row::Limit(limit) => Measure::of_quantity(Quantity::find(limit.quantity)?, system),
     }
 }
 
@@ -81,7 +76,6 @@ pub(crate) fn written_unit(case: &Case, at: usize) -> Option<String> {
 
 /// The completion of a text typed into a row: the unit in which its value was written, otherwise
 /// the displayed unit.
-#[must_use]
 pub(crate) fn ending(
     case: &Case,
     at: usize,
@@ -93,18 +87,14 @@ pub(crate) fn ending(
     units::ending(typed, measure.dimension, written.unwrap_or(measure.unit))
 }
 
-/// Whether further typing may make an invalid text of a row valid.
+/// Whether an invalid text of a row is merely unfinished: further typing may complete it.
 pub(crate) fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
-    match row(case, at) {
-        Row::Field(field) => FIELDS[field].is_unfinished(typed),
-        Row::Limit(limit) => {
-            limit.measure(System::Metric).is_some_and(|measure| measure.is_unfinished(typed))
-        }
-    }
+    let takes_auto = field(case, at).is_some_and(Field::takes_auto);
+    takes_auto && AUTO.starts_with(typed.trim())
+        || measure(case, at, System::Metric).is_some_and(|measure| measure.is_unfinished(typed))
 }
 
 /// The text of a row after a step.
-#[must_use]
 pub(crate) fn stepped(case: &Case, at: usize, by: isize) -> Option<String> {
     match row(case, at) {
         Row::Field(field) => case.stepped(field, by),
@@ -113,13 +103,11 @@ pub(crate) fn stepped(case: &Case, at: usize, by: isize) -> Option<String> {
 }
 
 /// The choices of a row; empty if the row is not a choice.
-#[must_use]
 pub fn names(case: &Case, at: usize) -> &'static [&'static str] {
     field(case, at).map(Field::choices).unwrap_or_default()
 }
 
 /// The field of a row, if it is a field.
-#[must_use]
 pub fn field(case: &Case, at: usize) -> Option<&'static Field> {
     match row(case, at) {
         Row::Field(field) => Some(&FIELDS[field]),
@@ -127,32 +115,24 @@ pub fn field(case: &Case, at: usize) -> Option<&'static Field> {
     }
 }
 
-/// The label of a row.
-#[must_use]
-pub(crate) fn label(case: &Case, at: usize) -> &'static str {
+/// The symbol, empty without one, and the label of a row.
+pub(crate) fn names_of(case: &Case, at: usize) -> [&'static str; 2] {
     match row(case, at) {
-        Row::Field(field) => FIELDS[field].label,
+        Row::Field(field) => [FIELDS[field].symbol, FIELDS[field].label],
         Row::Limit(limit) => Quantity::find(limit.quantity)
-            .map_or(limit.quantity, |quantity| quantity.label.trim_start()),
+            .map_or(["", limit.quantity], |quantity| {
+                [quantity.symbol, quantity.label.trim_start()]
+            }),
     }
 }
 
 /// The label of a row, with the gear if both gears have the field.
 pub(crate) fn full_label(case: &Case, at: usize) -> String {
-    field(case, at).map_or_else(|| format!("limit of {}", label(case, at)), Field::full_label)
-}
-
-/// The symbol; empty without one.
-#[must_use]
-pub(crate) fn symbol(case: &Case, at: usize) -> &'static str {
-    match row(case, at) {
-        Row::Field(field) => FIELDS[field].symbol,
-        Row::Limit(limit) => Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol),
-    }
+    let [_, label] = names_of(case, at);
+    field(case, at).map_or_else(|| format!("limit of {label}"), Field::full_label)
 }
 
 /// The first rows of the groups.
-#[must_use]
 pub(crate) fn groups(case: &Case) -> Vec<usize> {
     let begins = |at: usize| match row(case, at) {
         Row::Field(field) => field == 0 || FIELDS[field].table() != FIELDS[field - 1].table(),
@@ -162,13 +142,9 @@ pub(crate) fn groups(case: &Case) -> Vec<usize> {
 }
 
 /// Whether a row is a required field whose value is missing.
-#[must_use]
 pub(crate) fn lacks(case: &Case, at: usize) -> bool {
     at < FIELDS.len() && case.lacks(at)
 }
-
-/// The text of a missing required value.
-const REQUIRED: &str = "(required)";
 
 /// The text of an empty field: the derived value, the default, or that a value is required.
 pub(crate) fn unwritten(case: &Case, inputs: &Inputs, field: usize) -> String {
@@ -182,6 +158,6 @@ pub(crate) fn unwritten(case: &Case, inputs: &Inputs, field: usize) -> String {
         (_, Some(other)) if case.text(other).is_some() => format!("(by {})", FIELDS[other].label),
         (Absent::Default(text) | Absent::Without(text), _) => format!("({text})"),
         (Absent::Either, Some(other)) if other < field => format!("(or {})", FIELDS[other].label),
-        (Absent::Refused | Absent::Either, _) => REQUIRED.to_owned(),
+        (Absent::Refused | Absent::Either, _) => "(required)".to_owned(),
     }
 }

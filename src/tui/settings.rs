@@ -50,7 +50,6 @@ impl Default for Settings {
 
 impl Settings {
     /// Parses the settings; missing keys and unknown values become the defaults.
-    #[must_use]
     pub(crate) fn parse(text: &str) -> Settings {
         let usual = Settings::default();
         let Ok(file) = text.parse::<DocumentMut>() else {
@@ -95,11 +94,9 @@ impl Settings {
     }
 
     /// Saved settings, or the defaults if there are none.
-    #[must_use]
     pub(crate) fn read() -> Settings {
-        file()
-            .and_then(|file| old_text(&file).ok())
-            .map_or_else(Settings::default, |text| Settings::parse(&text))
+        let text = file().and_then(|file| old_text(&file).ok());
+        Settings::parse(&text.unwrap_or_default())
     }
 
     /// Writes the settings as a save writes a case: follows links, keeps the mode, and leaves
@@ -118,9 +115,8 @@ impl Settings {
         if let Some(folder) = file.parent() {
             fs::create_dir_all(folder).map_err(in_words)?;
         }
-        let text = self
-            .render(&old_text(file).map_err(in_words)?)
-            .map_err(|reason| format!("{}: {reason}", name()))?;
+        let text = self.render(&old_text(file).map_err(in_words)?);
+        let text = text.map_err(|reason| format!("{}: {reason}", name()))?;
         file::write(file, text.as_bytes(), true).map_err(|error| match error {
             SaveError::ReadOnly(name) => {
                 format!("{name}: the file is read-only: make it writable (chmod u+w)")
@@ -134,7 +130,6 @@ impl Settings {
 
     /// The capabilities of a terminal, limited by the settings. No setting restores colours or
     /// characters that the environment lacks.
-    #[must_use]
     pub(crate) fn look(self, able: Look, variable: impl Fn(&str) -> bool) -> Look {
         let theme = self.theme.filter(|_| !variable("NO_COLOR")).unwrap_or(able.theme);
         Look { theme, ascii: self.ascii || able.ascii }

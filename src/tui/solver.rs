@@ -1,5 +1,6 @@
 //! A request to solve a case, and the answer with every method.
 
+use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -10,7 +11,7 @@ use crate::model::{self, Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, S
 use crate::study::stiffness::{PATH_POINTS, PathComparison, compare_path};
 
 /// After this time the workbench shows the closed form until the slower method is finished.
-pub(super) const PATIENCE: Duration = Duration::from_millis(30);
+const PATIENCE: Duration = Duration::from_millis(30);
 
 /// A request to solve a case.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,41 +72,31 @@ pub struct Cost {
 
 impl Answer {
     /// The solution of a method, if any.
-    #[must_use]
     pub fn of(&self, method: Method) -> Option<&Solution> {
-        self.methods
-            .iter()
-            .find(|(own, _)| *own == method)
-            .and_then(|(_, result)| result.as_ref().ok())
+        self.result(method)?.as_ref().ok()
+    }
+
+    fn result(&self, method: Method) -> Option<&Result<Solution, Refusal>> {
+        self.methods.iter().find(|(own, _)| *own == method).map(|(_, result)| result)
     }
 
     /// The method of this answer to compare with another active method: the same one if it was
     /// solved.
-    #[must_use]
     pub(crate) fn beside(&self, active: Method) -> Method {
         if self.of(active).is_some() { active } else { self.active }
     }
 
     /// Whether the incoming tooth strikes, by the active method.
-    #[must_use]
     pub(crate) fn strikes(&self) -> bool {
         self.of(self.active).is_some_and(|solution| solution.outcome == Outcome::CornerContact)
     }
 
-    /// Whether all requested stages are present.
-    #[must_use]
-    pub(crate) fn is_whole(&self) -> bool {
-        self.stages.covers(self.requested)
-    }
-
     /// Whether a requested stage is missing.
-    #[must_use]
     pub fn lacks(&self, stage: Stage) -> bool {
         self.requested.has(stage) && !self.stages.has(stage)
     }
 
     /// The value of every quantity by the active method.
-    #[must_use]
     pub(crate) fn values(&self) -> Values {
         let solution = self.of(self.active);
         QUANTITIES.iter().map(|quantity| quantity.finite_value(solution?)).collect()
@@ -118,25 +109,16 @@ impl Answer {
     }
 
     /// The refusal of the active method, if it refuses the case.
-    #[must_use]
     pub(crate) fn refusal(&self) -> Option<&Refusal> {
-        self.methods
-            .iter()
-            .find(|(own, _)| *own == self.active)
-            .and_then(|(_, result)| result.as_ref().err())
+        self.result(self.active)?.as_ref().err()
     }
 }
 
 /// Pinned results.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Baseline {
-    /// The tab of the results while it is open.
-    pub(crate) tab: usize,
     /// The name of the case.
     pub name: String,
-    /// Whether the name is the name of a file.
-    pub(crate) is_file: bool,
-    pub(crate) case: Case,
     /// Its results.
     pub answer: Answer,
 }
@@ -151,115 +133,99 @@ pub(crate) struct Variants {
 }
 
 /// Solves with the closed forms and with the method of the case, which may take long.
-#[must_use]
 pub fn answer(request: &Request) -> Answer {
-    answer_while(request, &|| true)
+    let evaluator = &mut Evaluator::default();
+    let found = solve(evaluator, request, &mut |_| (), &|_| true);
+    found.unwrap_or_else(|| at_once(evaluator, request, Instant::now()))
 }
 
 /// The answer for the first frame of the program, which does not wait for elastic fields: without
 /// the stiffness spread, and `None` if the compliance of the pair needs a field.
-#[must_use]
 pub(crate) fn answer_without_fields(request: &Request) -> Option<Answer> {
-    let methods = Method::CLOSED_FORM.into_iter().chain([request.inputs.method]);
-    let needs_field = methods.into_iter().any(|method| {
-        let inputs = Inputs { method, ..request.inputs.clone() };
-        without_field(&inputs).is_some()
-    });
-    if needs_field {
+    let mut methods = Method::CLOSED_FORM.into_iter().chain([request.inputs.method]);
+    if methods.any(|method| without_field(&Inputs { method, ..request.inputs.clone() }).is_some()) {
         return None;
     }
-    let quick = Request {
-        stages: request.stages.without(Stage::Band),
-        stiffness: false,
-        ..request.clone()
-    };
-    let start = Instant::now();
-    let answer = answer_while(&quick, &|| start.elapsed() < PATIENCE);
+    let stages = request.stages.without(Stage::Band);
+    let quick = Request { stages, stiffness: false, ..request.clone() };
+    let (start, mut shown) = (Instant::now(), None);
+    let mut show = |answer: &Answer| shown = Some(answer.clone());
+    let go_on = |_| start.elapsed() < PATIENCE;
+    let evaluator = &mut Evaluator::default();
+    let whole = solve(evaluator, &quick, &mut show, &go_on);
+    let answer = whole.or(shown).unwrap_or_else(|| at_once(evaluator, &quick, start));
     Some(Answer { requested: request.stages, ..answer })
 }
 
-/// The answer with the mesh stiffness by every model, if it is requested.
-pub(super) fn with_stiffness(request: &Request, answer: Answer) -> Answer {
-    if !request.stiffness {
-        return answer;
-    }
-    let found = compare_path(&request.inputs, PATH_POINTS).map(Arc::new);
-    Answer { stiffness: Some(found), ..answer }
-}
-
 /// The results of the closed forms, of the method of the case and, for `dynamic`, of the load at
-/// rest; a slow method is solved without its late stages. `go_on` may show the present answer;
-/// returns `None` if it returns false.
-pub(super) fn solved(
+/// rest. Shows the answer that is present after [`PATIENCE`] and before each part that others must
+/// not wait for; `None` if `go_on` returns false.
+pub(super) fn solve(
     evaluator: &mut Evaluator,
     request: &Request,
-    begun: Instant,
-    go_on: &dyn Fn(f64, &dyn Fn() -> Answer) -> bool,
-) -> Option<Answer> {
-    let first = at_once(evaluator, request, begun);
-    let Some(method) = first.pending else {
-        return Some(first);
-    };
-    let stages = request.stages.except(Stages::LATE);
-    let found =
-        evaluator.solve(&request.inputs, method, stages, &|part| go_on(part, &|| first.clone()));
-    if matches!(found, Err(Refusal::Stopped)) {
-        return None;
-    }
-    // If the program chose the method, the chosen method is active.
-    let active = found.as_ref().map_or(method, |solution| solution.method);
-    let mut answer = Answer { active, pending: None, stages, ..first.clone() };
-    answer.methods.retain(|(known, _)| *known != active);
-    if active == Method::Dynamic {
-        // The required relief of the load at rest is fast to compute and is compared with that of
-        // the motion.
-        let stages = request.stages.without(Stage::StaticSpectrum);
-        let shared = evaluator
-            .solve(&request.inputs, Method::Static, stages, &|_| go_on(1.0, &|| first.clone()));
-        if matches!(shared, Err(Refusal::Stopped)) {
-            return None;
-        }
-        answer.methods.push((Method::Static, shared));
-    }
-    answer.methods.push((active, found));
-    answer.cost = Cost { stages: stages_run(&answer.methods), micros: micros(begun) };
-    Some(answer.with_notes())
-}
-
-/// The answer with the late stages, if they are requested and missing; `None` if `go_on` returns
-/// false.
-pub(super) fn cleared(
-    evaluator: &mut Evaluator,
-    request: &Request,
-    mut answer: Answer,
-    begun: Instant,
+    show: &mut dyn FnMut(&Answer),
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Answer> {
-    if answer.is_whole() {
-        return Some(answer);
+    let begun = Instant::now();
+    let mut answer = at_once(evaluator, request, begun);
+    if let Some(method) = answer.pending {
+        let (first, waits) = (answer.clone(), Cell::new(true));
+        let show = RefCell::new(&mut *show);
+        let go_on = |part| {
+            if begun.elapsed() > PATIENCE && waits.replace(false) {
+                (*show.borrow_mut())(&first);
+            }
+            go_on(part)
+        };
+        // A slow method is solved without its late stages.
+        let stages = request.stages.except(Stages::LATE);
+        let found = unless_stopped(evaluator.solve(&request.inputs, method, stages, &go_on))?;
+        // If the program chose the method, the chosen method is active.
+        let active = found.as_ref().map_or(method, |solution| solution.method);
+        answer = Answer { active, pending: None, stages, ..answer };
+        answer.methods.retain(|(known, _)| *known != active);
+        if active == Method::Dynamic {
+            // The required relief of the load at rest is fast to compute and is compared with that
+            // of the motion.
+            let stages = request.stages.without(Stage::StaticSpectrum);
+            let rest = evaluator.solve(&request.inputs, Method::Static, stages, &|_| go_on(1.0));
+            answer.methods.push((Method::Static, unless_stopped(rest)?));
+        }
+        answer.methods.push((active, found));
+        answer.cost = Cost { stages: stages_run(&answer.methods), micros: micros(begun) };
+        answer = answer.with_notes();
     }
-    if answer.refusal().is_some() {
-        return Some(Answer { stages: request.stages, ..answer });
+    if request.stiffness {
+        // The elastic fields of new gears are slow.
+        show(&answer);
+        if !go_on(1.0) {
+            return None;
+        }
+        answer.stiffness = Some(compare_path(&request.inputs, PATH_POINTS).map(Arc::new));
     }
-    let found = evaluator.solve(&request.inputs, request.inputs.method, request.stages, go_on);
-    if matches!(found, Err(Refusal::Stopped)) {
-        return None;
+    // The motion over the speed is last.
+    let has_speeds = answer.active.stages().has(Stage::SpeedRun);
+    let first = has_speeds.then(|| request.stages.without(Stage::SpeedRun));
+    for stages in first.into_iter().chain([request.stages]) {
+        if answer.stages.covers(stages) || answer.refusal().is_some() {
+            continue;
+        }
+        show(&answer);
+        let (inputs, method) = (&request.inputs, request.inputs.method);
+        let found = unless_stopped(evaluator.solve(inputs, method, stages, go_on))?;
+        answer.cost.stages += found.as_ref().map_or(0, |solution| solution.ran.iter().count());
+        answer.cost.micros = micros(begun);
+        answer.methods.retain(|(known, _)| *known != answer.active);
+        answer.methods.push((answer.active, found));
+        answer = Answer { stages, ..answer }.with_notes();
     }
-    answer.stages = request.stages;
-    answer.cost.stages += found.as_ref().map_or(0, |solution| solution.ran.iter().count());
-    answer.cost.micros = micros(begun);
-    answer.methods.retain(|(known, _)| *known != answer.active);
-    answer.methods.push((answer.active, found));
-    Some(answer.with_notes())
+    Some(Answer { stages: request.stages, ..answer })
 }
 
-fn answer_while(request: &Request, go_on: &dyn Fn() -> bool) -> Answer {
-    let (begun, evaluator) = (Instant::now(), &mut Evaluator::default());
-    let Some(found) = solved(evaluator, request, begun, &|_, _| go_on()) else {
-        return at_once(evaluator, request, begun);
-    };
-    let found = cleared(evaluator, request, found.clone(), begun, &|_| go_on()).unwrap_or(found);
-    with_stiffness(request, found)
+type Solved = Result<Solution, Refusal>;
+
+fn unless_stopped(found: Solved) -> Option<Solved> {
+    if matches!(found, Err(Refusal::Stopped)) { None } else { Some(found) }
 }
 
 /// The answer of the closed forms.

@@ -1,52 +1,39 @@
-//! Files that the workbench reads: cases, folders, and the list of recent cases in the state
-//! folder, the latest first.
+//! Files outside the open cases: cases that are opened, and the state folder with the recent cases,
+//! the latest first, and the journals of unsaved edits.
+//!
+//! Only a state folder that no other user can change is used; otherwise a private folder replaces it.
 
 pub(crate) mod folder;
-pub(crate) mod state;
 
 use std::env;
 use std::ffi::OsStr;
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use directories::ProjectDirs;
 use tempfile::NamedTempFile;
 
 use crate::case::file::ReadError;
 use crate::case::sanitize::sanitize;
 use crate::case::stamp::Stamp;
 use crate::case::{Document, rexs};
-use crate::system::sharing;
+use crate::system::sharing::{self, Access};
 
 use folder::{Entry, Target};
-use state::State;
 
 /// Greatest number of recent cases.
 const MOST_RECENTS: usize = 20;
-/// Greatest size of the file.
+/// Greatest size of the file of recent cases.
 const MOST_BYTES: u64 = 256 * 1024;
 /// Separator of paths: the only byte that no path contains.
 const END: u8 = 0;
 
-/// The case that the workbench opens at the start.
-#[derive(Debug)]
-pub(crate) struct Opening {
-    pub(crate) document: Document,
-    /// The file of the case.
-    pub(crate) path: Option<PathBuf>,
-    /// Why the requested file was not opened.
-    pub(crate) trouble: Option<Trouble>,
-}
-
-/// A file that could not be opened, and its faults.
-#[derive(Debug)]
-pub(crate) struct Trouble {
-    pub(crate) path: PathBuf,
-    /// The faults, one per line.
-    pub(crate) faults: Vec<String>,
-    /// Whether the user named the file; otherwise it is the last case.
-    pub(crate) was_asked: bool,
-}
+/// The folder of journals inside the state folder.
+pub(super) const JOURNALS: &str = "journals";
+const STICKY: u32 = 0o1000;
+const OWN_FOLDER: &str = "set XDG_STATE_HOME to a folder of your own";
+const NO_FOLDER: &str = "HOME and XDG_STATE_HOME name no folder: set one of them";
 
 /// The file of an open case.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -59,38 +46,12 @@ pub(crate) struct WatchedFile {
     pub(crate) stamp: Stamp,
 }
 
-impl WatchedFile {
-    /// Whether the document is the content that was read.
-    pub(crate) fn is_of(&self, document: &Document) -> bool {
-        document.stamp() == self.stamp && document.path() == Some(&self.target)
-    }
-}
-
 /// The document of the built-in case.
-#[must_use]
 pub fn built_in() -> Document {
     Document::table_1()
 }
 
-/// The case that the user named, otherwise the last case, otherwise the built-in case.
-#[must_use]
-pub(crate) fn opening(asked: Option<PathBuf>) -> Opening {
-    let was_asked = asked.is_some();
-    let Some(path) = asked.or_else(last_recent) else {
-        return Opening { document: built_in(), path: None, trouble: None };
-    };
-    match load(&path) {
-        Ok(document) => {
-            add_recent(&path);
-            Opening { document: *document, path: Some(rexs::case_path(&path)), trouble: None }
-        }
-        Err(faults) => {
-            let trouble = Trouble { path, faults, was_asked };
-            Opening { document: built_in(), path: None, trouble: Some(trouble) }
-        }
-    }
-}
-
+/// Reads a case, or a model that is imported as a case. The error has one fault per line.
 pub(super) fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
     // The keyboard is the standard input: reading a case from it would block.
     if path == Path::new("-") {
@@ -105,26 +66,32 @@ pub(super) fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
         Err(ReadError::NewerFormat(_)) => Document::read_newer(path),
         document => document,
     };
-    let document = document.map_err(|error| error.to_string());
     document
         .map(Box::new)
-        .map_err(|faults| faults.lines().map(|fault| without_name(path, fault)).collect())
+        .map_err(|error| error.to_string().lines().map(|fault| without_name(path, fault)).collect())
 }
 
+/// The path with the home folder in place of `~`.
 pub(super) fn at_home(path: &Path) -> PathBuf {
-    let home = env::var_os("HOME").map(PathBuf::from).filter(|home| home.is_absolute());
-    match (path.strip_prefix("~"), home) {
+    match (path.strip_prefix("~"), absolute("HOME")) {
         (Ok(rest), Some(home)) => home.join(rest),
         _ => path.to_owned(),
     }
 }
 
+// The title above the faults already has the name.
+fn without_name(path: &Path, fault: &str) -> String {
+    fault.strip_prefix(&format!("{}:", shown(path))).unwrap_or(fault).trim_start().to_owned()
+}
+
+fn shown(path: &Path) -> String {
+    sanitize(&path.display().to_string())
+}
+
 /// Recent cases as lines of the browser, and whether their files still exist.
-#[must_use]
 pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Entry> {
     let look = |path: PathBuf| {
-        let is_missing =
-            fs::metadata(&path).is_err_and(|error| error.kind() == io::ErrorKind::NotFound);
+        let is_missing = fs::metadata(&path).is_err_and(|error| !is_there(&error));
         let text = |name: &OsStr| name.to_string_lossy().into_owned();
         let mut name = path.file_name().map(text).unwrap_or_default();
         if is_missing {
@@ -140,40 +107,27 @@ pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Entry> {
 }
 
 /// The recent cases.
-#[must_use]
 pub(crate) fn recents() -> Vec<PathBuf> {
-    let Some(file) = list_file() else {
-        return Vec::new();
-    };
     let is_ours =
-        fs::metadata(&file).is_ok_and(|about| about.is_file() && about.len() <= MOST_BYTES);
-    if is_ours { parse_list(&fs::read(file).unwrap_or_default()) } else { Vec::new() }
+        |about: fs::Metadata| (about.is_file() && about.len() <= MOST_BYTES).then_some(());
+    let read = |file: PathBuf| {
+        fs::metadata(&file).ok().and_then(is_ours).and_then(|()| fs::read(&file).ok())
+    };
+    parse_list(&list_file().and_then(read).unwrap_or_default())
 }
 
 /// Adds a case as the latest.
 pub(crate) fn add_recent(path: &Path) {
     let write = || -> io::Result<()> {
-        let file = list_file().ok_or(io::ErrorKind::NotFound)?;
-        let folder = file.parent().ok_or(io::ErrorKind::NotFound)?;
-        state::make(folder)?;
+        let file = list_file().ok_or(ErrorKind::NotFound)?;
+        let folder = file.parent().ok_or(ErrorKind::NotFound)?;
+        sharing::create_private(folder)?;
         let mut new = NamedTempFile::new_in(folder)?;
         new.write_all(&render_list(&with_latest(recents(), std::path::absolute(path)?)))?;
         new.persist(&file).map_err(|error| error.error).map(drop)
     };
     // An error is ignored, because the list is only a convenience.
     drop(write());
-}
-
-// The title above the faults already has the name.
-fn without_name(path: &Path, fault: &str) -> String {
-    let name = format!("{}:", sanitize(&path.display().to_string()));
-    fault.strip_prefix(&name).unwrap_or(fault).trim_start().to_owned()
-}
-
-/// The latest case.
-#[must_use]
-fn last_recent() -> Option<PathBuf> {
-    recents().into_iter().next()
 }
 
 fn with_latest(mut paths: Vec<PathBuf>, latest: PathBuf) -> Vec<PathBuf> {
@@ -197,9 +151,103 @@ fn list_file() -> Option<PathBuf> {
     State::find().folder.map(|folder| folder.join("last-case"))
 }
 
+/// The state folder, which survives a session and which only this user can change.
+#[derive(Debug, Clone, Default)]
+pub struct State {
+    /// The folder; `None` if no folder is private.
+    pub folder: Option<PathBuf>,
+    /// Why the usual folder is not used, and which folder replaces it.
+    pub notice: Option<String>,
+}
+
+impl State {
+    /// The folder that the environment names, otherwise a replacement.
+    pub(crate) fn find() -> State {
+        let within = |variable: &str| absolute(variable).map(|path| path.join("tipstrike"));
+        let usual = within("XDG_STATE_HOME").or_else(|| {
+            let folders = ProjectDirs::from("", "", "tipstrike")?;
+            Some(folders.state_dir().unwrap_or(folders.data_local_dir()).to_owned())
+        });
+        let temporary = env::temp_dir().join(format!("tipstrike-{}", sharing::user()));
+        State::choose(usual, within("XDG_RUNTIME_DIR").into_iter().chain([temporary]))
+    }
+
+    /// Selects the first private folder of the usual one and its replacements.
+    pub fn choose(
+        usual: Option<PathBuf>,
+        replacements: impl IntoIterator<Item = PathBuf>,
+    ) -> State {
+        // A missing folder is accepted, because it is created as private.
+        let check = |folder: PathBuf| -> Result<PathBuf, String> {
+            is_private(&folder).and_then(|()| is_private(&folder.join(JOURNALS)))?;
+            Ok(folder)
+        };
+        let problem = match usual.ok_or_else(|| NO_FOLDER.to_owned()).and_then(check) {
+            Ok(folder) => return State { folder: Some(folder), notice: None },
+            Err(problem) => problem,
+        };
+        let folder = replacements.into_iter().find_map(|folder| check(folder).ok());
+        let notice = match &folder {
+            Some(place) => format!(
+                "{problem}. Until then the journals are in {}, and a restart deletes them",
+                shown(place)
+            ),
+            None => format!("{problem}; until then, a crash loses unsaved edits"),
+        };
+        State { folder, notice: Some(notice) }
+    }
+}
+
+fn absolute(variable: &str) -> Option<PathBuf> {
+    env::var_os(variable).map(PathBuf::from).filter(|path| path.is_absolute())
+}
+
+fn is_there(error: &io::Error) -> bool {
+    error.kind() != ErrorKind::NotFound
+}
+
+/// Checks that the folders of the path and of its target belong to the user or the system, that
+/// nobody else may replace any of them, and that nobody else may write into the last folder.
+pub(super) fn is_private(folder: &Path) -> Result<(), String> {
+    let user = sharing::user();
+    // In a container the files of the system may belong to another user than 0.
+    let system = fs::metadata("/").map_or(0, |root| Access::of(&root).owner);
+    let unknown = |error: io::Error| format!("{}: {error}: {OWN_FOLDER}", shown(folder));
+    let target = match fs::canonicalize(folder) {
+        Err(error) if is_there(&error) => return Err(unknown(error)),
+        target => target.ok(),
+    };
+    for place in folder.ancestors().chain(target.iter().flat_map(|target| target.ancestors())) {
+        let about = match fs::symlink_metadata(place) {
+            Err(error) if is_there(&error) => return Err(unknown(error)),
+            Err(_) => continue,
+            Ok(about) => about,
+        };
+        let (access, is_last) = (Access::of(&about), target.as_deref() == Some(place));
+        if about.is_dir() && others_may_write(access, is_last) {
+            return Err(format!("others may write in {}: chmod go-w it", shown(place)));
+        }
+        if access.owner != user && (is_last || ![0, system].contains(&access.owner)) {
+            let (place, owner) = (shown(place), access.owner);
+            return Err(format!("{place} belongs to user {owner}: {OWN_FOLDER}"));
+        }
+    }
+    Ok(())
+}
+
+/// In a sticky folder everybody may write, but nobody may replace the files of others. A group with
+/// the number of the owner is private, because most systems create one group for each user.
+fn others_may_write(Access { owner, group, mode }: Access, is_last: bool) -> bool {
+    let is_own_group = !is_last && [owner, 0].contains(&group);
+    let by_others = mode & 0o002 != 0 || mode & 0o020 != 0 && !is_own_group;
+    by_others && (is_last || mode & STICKY == 0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs::Permissions;
+    use std::os::unix::fs::{PermissionsExt, lchown, symlink};
 
     #[test]
     fn the_latest_case_is_first_and_no_case_is_listed_twice() {
@@ -218,5 +266,76 @@ mod tests {
         assert_eq!(parse_list(&render_list(&paths)), paths);
         assert_eq!(parse_list(b"/kept/before.toml"), [PathBuf::from("/kept/before.toml")]);
         assert!(parse_list(b"").is_empty());
+    }
+
+    fn folder_with(names: &[&str]) -> (tempfile::TempDir, PathBuf) {
+        let folder = tempfile::tempdir().expect("a folder");
+        for name in names {
+            sharing::create_private(&folder.path().join(name)).expect("our own folder");
+        }
+        let path = folder.path().to_owned();
+        (folder, path)
+    }
+
+    fn open_to_all(folder: &Path) {
+        let mode = Permissions::from_mode(0o777);
+        fs::set_permissions(folder, mode).expect("our own folder");
+    }
+
+    #[test]
+    fn a_private_folder_is_used_whether_or_not_it_exists() {
+        let (_folder, path) = folder_with(&["there"]);
+        symlink("there", path.join("own-link")).expect("a link");
+        for name in ["there", "new/deeper", "own-link"] {
+            let state = State::choose(Some(path.join(name)), [path.join("other")]);
+            assert_eq!((state.folder, state.notice), (Some(path.join(name)), None));
+        }
+    }
+
+    #[test]
+    fn a_folder_that_others_may_write_is_replaced_by_a_private_one() {
+        for exposed in ["state", "state/journals", "above"] {
+            let (_folder, path) = folder_with(&["state/journals", "above/state"]);
+            open_to_all(&path.join(exposed));
+            let usual = path.join(if exposed == "above" { "above/state" } else { "state" });
+            let state = State::choose(Some(usual.clone()), [path.join("run")]);
+            assert_eq!(state.folder, Some(path.join("run")), "{exposed}");
+            let notice = state.notice.expect("a notice");
+            let place = path.join(exposed);
+            let fix = format!("others may write in {}: chmod go-w it", place.display());
+            assert!(notice.starts_with(&fix), "{notice}");
+            assert!(notice.contains(&format!("are in {}", path.join("run").display())));
+            let nowhere = State::choose(Some(usual), []);
+            assert_eq!(nowhere.folder, None);
+            assert!(
+                nowhere.notice.is_some_and(|notice| notice.contains("a crash loses unsaved edits"))
+            );
+        }
+    }
+
+    #[test]
+    fn a_link_or_folder_of_another_user_is_replaced_by_a_private_one() {
+        let (_folder, path) = folder_with(&["state", "theirs", "mine"]);
+        symlink(path.join("mine"), path.join("state/journals")).expect("a link");
+        // Only the superuser may change the owner of a file.
+        if lchown(path.join("state/journals"), Some(65534), None).is_err()
+            || lchown(path.join("theirs"), Some(65534), None).is_err()
+        {
+            return;
+        }
+        for usual in ["state", "theirs"] {
+            let state = State::choose(Some(path.join(usual)), [path.join("run")]);
+            assert_eq!(state.folder, Some(path.join("run")), "{usual}");
+            let notice = state.notice.expect("a notice");
+            assert!(notice.contains("belongs to user 65534"), "{notice}");
+        }
+    }
+
+    #[test]
+    fn a_circle_of_links_is_refused() {
+        let (_folder, path) = folder_with(&[]);
+        symlink("circle", path.join("circle")).expect("a link");
+        let state = State::choose(Some(path.join("circle/state")), []);
+        assert!(state.folder.is_none() && state.notice.is_some());
     }
 }

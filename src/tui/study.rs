@@ -117,7 +117,6 @@ impl Layer {
     }
 
     /// The quantity.
-    #[must_use]
     pub(crate) fn quantity(&self) -> Option<&'static Quantity> {
         Quantity::find(self.quantity)
     }
@@ -125,7 +124,6 @@ impl Layer {
 
 impl StudyParameters {
     /// The axes of a curve or a map.
-    #[must_use]
     pub fn axes(&self) -> &[Axis] {
         match self {
             StudyParameters::Grid(grid) => &grid.axes,
@@ -154,7 +152,6 @@ impl Study {
     }
 
     /// Whether the present request has ended.
-    #[must_use]
     pub(crate) fn is_over(&self) -> bool {
         self.is_shown() && self.shown.as_ref().is_some_and(|shown| shown.end.is_some())
     }
@@ -168,7 +165,6 @@ impl Study {
 
 impl StudyResults {
     /// The quantity of the study: that of its first curve.
-    #[must_use]
     pub fn quantity(&self) -> Option<&'static Quantity> {
         match &self.request.parameters {
             StudyParameters::Grid(grid) => grid.layers.first()?.quantity(),

@@ -90,7 +90,6 @@ pub enum Origin {
 
 impl Tab {
     /// A document that was just opened, unsolved.
-    #[must_use]
     pub(crate) fn new(document: Document, path: Option<PathBuf>) -> Tab {
         let case = document.case.clone();
         let focus = fields::index_of("pair.module").unwrap_or(0);
@@ -127,7 +126,6 @@ impl Tab {
     }
 
     /// The inputs, if the form is valid.
-    #[must_use]
     pub(crate) fn inputs(&self) -> Option<&Inputs> {
         self.problems.is_empty().then_some(&self.inputs_so_far)
     }
@@ -140,7 +138,6 @@ impl Tab {
     }
 
     /// Whether the form differs from the file.
-    #[must_use]
     pub fn is_unsaved(&self) -> bool {
         self.case != self.saved
     }
@@ -156,7 +153,6 @@ impl Tab {
     }
 
     /// Whether the results are older than the form.
-    #[must_use]
     pub fn is_stale(&self) -> bool {
         !self.problems.is_empty() || self.refusal.is_some() || self.has_failed
     }
@@ -178,7 +174,6 @@ impl Tab {
 
     /// The row that the fix of the model's refusal names first; of two fields that exclude each
     /// other, the one with a value.
-    #[must_use]
     pub(crate) fn refused_row(&self) -> Option<usize> {
         let field = fields::index_of(fields::key_of(self.refusal?.at()))?;
         let partner = fields::FIELDS[field].partner();
@@ -200,7 +195,6 @@ impl Tab {
     }
 
     /// The name of the case in the title and in questions.
-    #[must_use]
     pub(crate) fn name(&self) -> String {
         match (&self.path, self.origin) {
             (Some(path), _) => path.display().to_string(),
@@ -211,7 +205,6 @@ impl Tab {
     }
 
     /// The name without its folders.
-    #[must_use]
     pub fn short_name(&self) -> String {
         let file = self.path.as_ref().and_then(|path| path.file_name());
         file.map_or_else(|| self.name(), |name| name.to_string_lossy().into_owned())
@@ -305,17 +298,20 @@ impl History {
         self.visited = None;
     }
 
-    /// Exchanges the present state for the previous one.
-    pub(super) fn undo(&mut self, case: &Case, focus: usize) -> Option<(Case, usize)> {
-        let state = self.past.pop()?;
-        self.future.push(case, focus);
-        Some(state)
-    }
-
-    /// Exchanges the present state for the undone one.
-    pub(super) fn redo(&mut self, case: &Case, focus: usize) -> Option<(Case, usize)> {
-        let state = self.future.pop()?;
-        self.past.push(case, focus);
+    /// Exchanges the present state for the previous one, or for the undone one.
+    pub(super) fn travel(
+        &mut self,
+        case: &Case,
+        focus: usize,
+        forwards: bool,
+    ) -> Option<(Case, usize)> {
+        let (from, to) = if forwards {
+            (&mut self.future, &mut self.past)
+        } else {
+            (&mut self.past, &mut self.future)
+        };
+        let state = from.pop()?;
+        to.push(case, focus);
         Some(state)
     }
 }
@@ -356,13 +352,12 @@ impl States {
 impl Difference {
     /// The difference of `case` from `other`.
     fn of(case: &Case, other: &Case) -> Difference {
-        let texts = (0..FIELDS.len()).filter(|&field| case.text(field) != other.text(field));
-        let differ = others_of(case) != others_of(other);
+        let fields = (0..FIELDS.len()).filter(|&field| case.text(field) != other.text(field));
+        let texts = fields.map(|field| (field, case.text(field).unwrap_or_default().into()));
+        let others = Box::new(others_of(case));
         Difference {
-            texts: texts
-                .map(|field| (field, case.text(field).unwrap_or_default().into()))
-                .collect(),
-            others: differ.then(|| Box::new(others_of(case))),
+            texts: texts.collect(),
+            others: (*others != others_of(other)).then_some(others),
         }
     }
 
@@ -416,13 +411,15 @@ mod tests {
         }
         for _ in 0..2 {
             for at in (0..last).rev() {
-                assert_eq!(history.undo(&states[at + 1], at + 1), Some((states[at].clone(), at)));
+                let undone = history.travel(&states[at + 1], at + 1, false);
+                assert_eq!(undone, Some((states[at].clone(), at)));
             }
-            assert_eq!(history.undo(&states[0], 0), None);
+            assert_eq!(history.travel(&states[0], 0, false), None);
             for at in 1..=last {
-                assert_eq!(history.redo(&states[at - 1], at - 1), Some((states[at].clone(), at)));
+                let redone = history.travel(&states[at - 1], at - 1, true);
+                assert_eq!(redone, Some((states[at].clone(), at)));
             }
-            assert_eq!(history.redo(&states[last], last), None);
+            assert_eq!(history.travel(&states[last], last, true), None);
         }
     }
 

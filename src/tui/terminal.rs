@@ -25,7 +25,7 @@ use ratatui::layout::Size;
 use ratatui::{Terminal, TerminalOptions, Viewport};
 
 use super::app::App;
-use super::events::Event;
+use super::input::Event;
 use super::view;
 use crate::system::terminal::{
     BlockedSignals, die_of, is_in_foreground, stop, wait_for_hang_up, write_if_ready,
@@ -61,7 +61,6 @@ pub(super) struct Screen {
 }
 
 /// The reason if there is no terminal for a workbench.
-#[must_use]
 pub(super) fn missing(variable: impl Fn(&str) -> Option<OsString>) -> Option<&'static str> {
     let term = variable("TERM").unwrap_or_default();
     if term.is_empty() {
@@ -83,7 +82,6 @@ pub(super) fn hold_panics() {
 }
 
 /// The message of the last panic.
-#[must_use]
 pub(super) fn last_panic() -> Option<String> {
     LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner).take()
 }

@@ -28,7 +28,7 @@ pub mod effects {
 }
 
 pub mod events {
-    pub use crate::tui::events::{Event, take_action};
+    pub use crate::tui::input::{Event, take_action};
 }
 
 pub mod help {
@@ -60,7 +60,7 @@ pub mod rows {
 }
 
 pub mod session {
-    pub use crate::tui::session::autosave::Autosave;
+    pub use crate::tui::session::Autosave;
     pub use crate::tui::session::journal::Journal;
     pub use crate::tui::session::journal::JournalWriter;
     pub use crate::tui::session::save::{Access, Claim, Offer};
@@ -76,8 +76,8 @@ pub mod solver {
 }
 
 pub mod store {
+    pub use crate::tui::store::State;
     pub use crate::tui::store::built_in;
-    pub use crate::tui::store::state::State;
 
     pub mod case_search {
         pub use crate::tui::store::folder::{SearchResult, find};

@@ -12,7 +12,6 @@ use crate::tui::line::Line;
 use crate::tui::theme::Theme;
 
 /// The text cut to the width, with a mark at a cut end.
-#[must_use]
 pub(super) fn cut(text: &str, width: usize) -> String {
     let text = printable(text);
     if text.width() <= width {
@@ -26,7 +25,6 @@ pub(super) fn cut(text: &str, width: usize) -> String {
 }
 
 /// The text cut to the width at its start, with a mark: the end of a path identifies the path.
-#[must_use]
 pub(super) fn cut_front(text: &str, width: usize) -> String {
     let text = printable(text);
     let over = text.width().saturating_sub(width);
@@ -37,7 +35,6 @@ pub(super) fn cut_front(text: &str, width: usize) -> String {
 }
 
 /// The text cut or padded to the width.
-#[must_use]
 pub(super) fn padded(text: &str, width: usize) -> String {
     let text = cut(text, width);
     let gap = width - text.width().min(width);
@@ -46,7 +43,6 @@ pub(super) fn padded(text: &str, width: usize) -> String {
 
 /// The text in lines of at most the width, broken between words, and after a unit rather than
 /// before it.
-#[must_use]
 pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     let width = width.max(1);
     let text = printable(text);
@@ -58,7 +54,6 @@ pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
 }
 
 /// The text in at most `rows` lines; the last line of a longer text is cut.
-#[must_use]
 pub(super) fn fitted(text: &str, width: usize, rows: usize) -> Vec<String> {
     let mut lines = wrap(text, width);
     if lines.len() > rows {
@@ -105,15 +100,10 @@ pub(super) fn edited(
     };
     buffer.set_stringn(area.x, area.y, seen, width, style);
     if let Some(part) = input.selected() {
-        let cell = |at: usize| {
-            shown.chars().take(at).map(width_of).sum::<usize>().saturating_sub(hidden).min(width)
-                as u16
-        };
-        let (from, to) = (cell(part.start), cell(part.end));
-        buffer.set_style(
-            Rect { x: area.x + from, width: to - from, height: 1, ..area },
-            Modifier::REVERSED,
-        );
+        let width_to = |at| shown.chars().take(at).map(width_of).sum::<usize>();
+        let cell = |at| width_to(at).saturating_sub(hidden).min(width) as u16;
+        let (x, width) = (area.x + cell(part.start), cell(part.end) - cell(part.start));
+        buffer.set_style(Rect { x, width, height: 1, ..area }, Modifier::REVERSED);
     }
     Some(Position::new(area.x + u16::try_from(before - hidden).unwrap_or(0), area.y))
 }
@@ -150,12 +140,9 @@ fn put_piecewise(lines: &mut Vec<String>, word: &str, width: usize) {
     let mut rest = word;
     while !rest.is_empty() {
         let piece = take(rest, width);
-        // A character wider than the line is dropped, so that the loop ends.
-        let piece = if piece.is_empty() {
-            &rest[..rest.chars().next().map_or(0, char::len_utf8)]
-        } else {
-            piece
-        };
+        // A character wider than the line has a line of its own, so that the loop ends.
+        let first = rest.chars().next().map_or(0, char::len_utf8);
+        let piece = if piece.is_empty() { &rest[..first] } else { piece };
         lines.push(piece.to_owned());
         rest = &rest[piece.len()..];
     }

@@ -119,7 +119,6 @@ impl Look {
 
     /// The capabilities according to the environment: `NO_COLOR`, `TERM`, and the locale by
     /// `LC_ALL`, `LC_CTYPE`, `LANG`.
-    #[must_use]
     pub(crate) fn of(variable: impl Fn(&str) -> Option<OsString>) -> Look {
         let set = |name| variable(name).filter(|value| !value.is_empty());
         let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default();

@@ -37,7 +37,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     settle(app);
     panes::refresh_page(app);
     panes::follow_cursor(app, cursor);
-    navigation::preview(app);
+    app.preview();
     studies::request(app);
     panes::request_chart(app);
     studies::request_variants(app);
@@ -54,7 +54,6 @@ pub(crate) fn settle(app: &mut App) {
 }
 
 /// The workbench after it opens a document.
-#[must_use]
 pub fn opened(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
     let mut app = App::new(document, path, look, size);
     settle(&mut app);

@@ -8,6 +8,7 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::app::App;
+use super::app::dialogs::Surroundings;
 use super::ascii::{self, symbol};
 use super::form_aids::materials;
 use super::layout::{self, Pane, SMALLEST};
@@ -21,7 +22,6 @@ use super::rows::{self, Row};
 use super::update::commands::BINDINGS;
 use super::{header, text};
 use crate::case::fields::{Absent, Field, Kind};
-use crate::case::units::System;
 use crate::case::{Acting, FIELDS, Limit, partial_relevance, relevance};
 use crate::model::inputs::Method;
 use crate::report::verdict::verdicts;
@@ -30,7 +30,12 @@ use crate::study::trade::Trade;
 /// Draws the whole screen. Returns the position of the text cursor, if any.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     let cursor = if layout::is_too_small(area.as_size()) {
-        too_small(area, buffer);
+        let words = format!(
+            "{}x{} cells needed; this is {}x{}. Nothing is lost.",
+            SMALLEST.width, SMALLEST.height, area.width, area.height
+        );
+        let lines = text::wrap(&words, area.width.into()).into_iter().map(Line::raw);
+        text::draw_lines(&lines.collect::<Vec<_>>(), area, buffer);
         None
     } else {
         draw_panes(app, area, buffer)
@@ -41,7 +46,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
 
 /// Draws a message, the progress of long work, and the hint of the focused item, as far as there is
 /// room.
-pub(crate) fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
+fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let mut parts = Vec::new();
     if let Some(message) = &app.message {
@@ -65,7 +70,7 @@ pub(crate) fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 /// As many keys as fit, from the table of bindings.
-pub(crate) fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
+fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let place = app.place();
     let mut spans = Vec::new();
@@ -89,31 +94,6 @@ pub(crate) fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     Line::from(spans).render(area, buffer);
 }
 
-/// The description of a field.
-#[must_use]
-pub(crate) fn about(field: &Field, ascii: bool, units: System) -> String {
-    let name = [symbol(field.symbol, ascii).as_ref(), &field.full_label()].join(" ");
-    let bounds = match field.range_in(units) {
-        none if none.is_empty() => none,
-        range => format!(", {range}"),
-    };
-    let absent = match field.absent {
-        Absent::Default("") | Absent::Refused | Absent::Either => String::new(),
-        Absent::Default(_) => format!(" (default {})", field.default_in(units)),
-        Absent::Without(_) => " (may be empty)".to_owned(),
-    };
-    format!("{}{bounds}{absent}. {}", name.trim_start(), field.help)
-}
-
-fn too_small(area: Rect, buffer: &mut Buffer) {
-    let words = format!(
-        "{}x{} cells needed; this is {}x{}. Nothing is lost.",
-        SMALLEST.width, SMALLEST.height, area.width, area.height
-    );
-    let lines = text::wrap(&words, area.width.into()).into_iter().map(Line::raw);
-    text::draw_lines(&lines.collect::<Vec<_>>(), area, buffer);
-}
-
 fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     let plan = app.layout.plan_on(area.as_size());
     header::draw(app, plan.header, buffer);
@@ -135,7 +115,10 @@ fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     hint(app, plan.hint, buffer);
     keys(app, plan.keys, buffer);
     match app.prompts.last() {
-        Some(prompt) => prompt.dialog().draw(&app.surroundings(), area, buffer),
+        Some(prompt) => {
+            let around = Surroundings { screen: area, ..app.surroundings() };
+            prompt.dialog().draw(&around, buffer)
+        }
         None => cursor,
     }
 }
@@ -183,24 +166,24 @@ fn focused(app: &App) -> String {
 // The unit that a bare number gets, or why the typed text is not yet valid. The text does not
 // change while digits are typed, which saves output.
 fn typed(app: &App) -> Option<String> {
-    if rows::lacks(&app.tab.case, app.tab.form.focus) {
-        let example = rows::field(&app.tab.case, app.tab.form.focus).map_or("", Field::example);
+    let (case, row) = (&app.tab.case, app.tab.form.focus);
+    if rows::lacks(case, row) {
+        let example = rows::field(case, row).map_or("", Field::example);
         return Some(format!("Required, such as {example}."));
     }
-    if app.form().is_unfinished(app.tab.form.focus)
-        && let Some((_, problem)) =
-            app.tab.problems.iter().find(|(at, _)| *at == app.tab.form.focus)
-    {
+    let problem = app.tab.problems.iter().find(|(at, _)| *at == row);
+    if let Some((_, problem)) = problem.filter(|_| app.form().is_unfinished(row)) {
         return Some(format!("Not yet: {}: {}.", problem.cause, problem.fix));
     }
     app.ending()?;
-    rows::written_unit(&app.tab.case, app.tab.form.focus).map(|unit| format!("Unit added: {unit}."))
+    rows::written_unit(case, row).map(|unit| format!("Unit added: {unit}."))
 }
 
-// The typed value in another unit, why the field has no effect, and its description.
+// The typed value in another unit, why the field has no effect, its spread, the source of the value
+// if it is that of a material, and the description of the field.
 fn about_field(app: &App, index: usize) -> String {
-    let (field, units) = (&FIELDS[index], app.settings.units);
-    let converted = app.tab.case.text(index).and_then(|text| field.converted(text, units));
+    let (field, units, case) = (&FIELDS[index], app.settings.units, &app.tab.case);
+    let converted = case.text(index).and_then(|text| field.converted(text, units));
     let inputs = &app.tab.inputs_so_far;
     let idle = match relevance(index, inputs) {
         Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => {
@@ -208,27 +191,31 @@ fn about_field(app: &App, index: usize) -> String {
         }
         _ => partial_relevance(index, inputs).map(|why| format!("Limited effect: {why}.")),
     };
-    let spread = app.tab.case.spread.iter().find(|spread| spread.field == field.key);
+    let spread = case.spread.iter().find(|spread| spread.field == field.key);
     let spread = spread.map(|spread| format!("Spread: {}.", spread.in_words()));
-    let about = about(field, app.look.ascii, units);
-    let parts =
-        [converted.map(|value| value + "."), idle, spread, material(app, field), Some(about)];
+    let material = match materials::of_gear(case, field.table())[..] {
+        [material] if matches!(field.name(), "young" | "poisson" | "density") => {
+            Some(format!("{}: {}.", material.name, material.source))
+        }
+        _ => None,
+    };
+    let name = format!("{} {}", symbol(field.symbol, app.look.ascii), field.full_label());
+    let range = Some(field.range_in(units)).filter(|range| !range.is_empty());
+    let range = range.map_or_else(String::new, |range| format!(", {range}"));
+    let absent = match field.absent {
+        Absent::Default("") | Absent::Refused | Absent::Either => String::new(),
+        Absent::Default(_) => format!(" (default {})", field.default_in(units)),
+        Absent::Without(_) => " (may be empty)".to_owned(),
+    };
+    let about = format!("{}{range}{absent}. {}", name.trim_start(), field.help);
+    let parts = [converted.map(|value| value + "."), idle, spread, material, Some(about)];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
-// The source of a value, if it is that of a material.
-fn material(app: &App, field: &Field) -> Option<String> {
-    let is_of_material = matches!(field.name(), "young" | "poisson" | "density");
-    match materials::of_gear(&app.tab.case, field.table())[..] {
-        [material] if is_of_material => Some(format!("{}: {}.", material.name, material.source)),
-        _ => None,
-    }
-}
-
 fn about_limit(app: &App, limit: &Limit) -> String {
-    let (tab, name) = (&app.tab, rows::label(&app.tab.case, app.tab.form.focus));
-    let solution = tab.present().filter(|_| !limit.text.is_empty());
-    let verdicts = solution.map_or_else(Vec::new, |solution| verdicts(&tab.case, solution));
+    let [_, name] = rows::names_of(&app.tab.case, app.tab.form.focus);
+    let solution = app.tab.present().filter(|_| !limit.text.is_empty());
+    let verdicts = solution.map_or_else(Vec::new, |solution| verdicts(&app.tab.case, solution));
     let verdict = verdicts.iter().find(|verdict| verdict.limit.quantity == limit.quantity);
     let sentence = verdict.map(|verdict| {
         format!("{} {}. ", verdict.standing.word(), verdict.sentence(app.settings.units))

@@ -8,18 +8,18 @@ use std::time::{Duration, Instant};
 
 use super::app::App;
 use super::app::actions::{Action, Effect};
-use super::events::{self, Event, Events};
-use super::session::autosave::Autosave;
+use super::input::{self, Event, Events};
+use super::session::Autosave;
 use super::session::journal::JournalWriter;
 use super::session::save::Claim;
 use super::settings::Settings;
-use super::store::state::State;
-use super::store::{self, Opening, Trouble};
+use super::store::{self, State};
 use super::tab::Origin;
 use super::terminal::Screen;
 use super::theme::Look;
 use super::update::{self, update};
 use super::worker::{self, Workers};
+use crate::case::rexs;
 use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
 
 /// Time between two frames of the animation.
@@ -35,77 +35,87 @@ pub(super) enum End {
 }
 
 pub(super) fn session(
-    case: Option<PathBuf>,
+    named: Option<PathBuf>,
     events: Events,
     mut screen: Screen,
     journal_writer: &Arc<JournalWriter>,
 ) -> io::Result<End> {
-    let is_last_case = case.is_none();
-    let Opening { document, path, trouble } = store::opening(case);
+    let is_named = named.is_some();
+    let path = named.or_else(|| store::recents().into_iter().next());
+    let loaded = path.as_deref().map(store::load).transpose();
     screen.enter()?;
     events.listen()?;
     let settings = Settings::read();
     let look = Look::of(|name| std::env::var_os(name));
     let look =
         settings.look(look, |name| std::env::var_os(name).is_some_and(|value| !value.is_empty()));
-    let mut app = App::at_start(document, path, look, screen.size()?);
-    app.settings = settings;
-    if is_last_case && app.tab.path.is_some() {
-        app.tab.origin = Origin::LastCase;
-    }
-    update::settle(&mut app);
+    let start = |document, path| -> io::Result<App> {
+        let mut app = App::at_start(document, path, look, screen.size()?);
+        app.settings = settings;
+        update::settle(&mut app);
+        Ok(app)
+    };
+    let app = match (path, loaded) {
+        (Some(path), Ok(Some(document))) => {
+            store::add_recent(&path);
+            let mut app = start(*document, Some(rexs::case_path(&path)))?;
+            app.tab.origin = if is_named { Origin::Given } else { Origin::LastCase };
+            app
+        }
+        (Some(path), Err(faults)) => {
+            let mut app = start(store::built_in(), None)?;
+            app.tab.in_place_of = Some(path.clone());
+            if is_named {
+                update(&mut app, Action::Loaded(path, Err(faults)));
+            } else {
+                let reason = faults.into_iter().next().unwrap_or_default();
+                app.complain(format!("the last case cannot be opened: {reason}"));
+            }
+            app
+        }
+        _ => start(store::built_in(), None)?,
+    };
     screen.take_mouse(settings.mouse)?;
-    if let Some(trouble) = trouble {
-        report(&mut app, trouble);
-    }
     screen.draw(&app)?;
     let workers = Workers::start(Arc::new(events.action_sender()))?;
-    if let Some(request) = app.unanswered() {
-        workers.solve(request);
-    }
     let autosave = Autosave::new(State::find(), Arc::clone(journal_writer));
-    Workbench { app, screen, events, workers, autosave, alarm: None, chosen: None }.stay()
+    let mut workbench =
+        Workbench { app, screen, events, workers, autosave, alarm: None, chosen: None };
+    if let Some(request) = workbench.app.unanswered() {
+        workbench.workers.solve(request);
+    }
+    workbench.stay()
 }
 
 /// Carries out an effect on files and returns its result as an action. Ignores other effects.
-#[must_use]
 pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
     match effect {
         Effect::Load(path) => {
             let path = store::at_home(&path);
             let result = store::load(&path);
-            Some(Action::Loaded(path, result))
+            return Some(Action::Loaded(path, result));
         }
         Effect::Save(saving, next) => {
-            let (path, result) = autosave.save(*saving);
-            Some(Action::Saved(path, next, result))
+            let result = autosave.save(&saving);
+            return Some(Action::Saved(saving.path, next, result));
         }
-        Effect::Adopt(journal) => {
-            autosave.adopt(journal);
-            None
-        }
-        Effect::Remember(path) => {
-            store::add_recent(&path);
-            None
-        }
+        Effect::Adopt(journal) => autosave.adopt(journal),
+        Effect::Remember(path) => store::add_recent(&path),
         Effect::Keep(settings) => {
-            let kept = settings.keep();
-            kept.err().map(|reason| Action::Failed(format!("the settings are not saved: {reason}")))
+            let reason = settings.keep().err()?;
+            return Some(Action::Failed(format!("the settings are not saved: {reason}")));
         }
+        // A journal that cannot be deleted is offered again at the next start.
         Effect::Forget(journals) => {
-            // A journal that cannot be deleted is offered again at the next start.
-            for journal in journals {
-                drop(fs::remove_file(journal));
-            }
-            None
+            journals.iter().for_each(|journal| drop(fs::remove_file(journal)));
         }
-        Effect::Journals => Some(Action::Journals(autosave.ended_sessions())),
-        _ => None,
+        Effect::Journals => return Some(Action::Journals(autosave.ended_sessions())),
+        _ => {}
     }
+    None
 }
 
 /// The result of opening a case under autosave, as an action.
-#[must_use]
 pub fn claimed(claim: Result<Claim, String>) -> Action {
     claim.map_or_else(Action::Failed, |claim| Action::Claimed(Box::new(claim)))
 }
@@ -119,18 +129,8 @@ struct Workbench {
     autosave: Autosave,
     /// Time of the next frame of the animation.
     alarm: Option<Instant>,
-    /// Settings to save after all waiting events.
+    /// Settings to save after all waiting events: several changes cause one write.
     chosen: Option<Settings>,
-}
-
-fn report(app: &mut App, trouble: Trouble) {
-    app.tab.in_place_of = Some(trouble.path.clone());
-    if trouble.was_asked {
-        update(app, Action::Loaded(trouble.path, Err(trouble.faults)));
-    } else {
-        let reason = trouble.faults.into_iter().next().unwrap_or_default();
-        app.complain(format!("the last case cannot be opened: {reason}"));
-    }
 }
 
 impl Workbench {
@@ -156,18 +156,24 @@ impl Workbench {
         let mut events = batch.into_iter().peekable();
         let mut has_changed = false;
         while let Some(event) = events.peek() {
-            if let Event::Signal(signal) = *event {
-                if let Some(end) = self.obey(signal)? {
-                    return Ok(Some(end));
+            match *event {
+                Event::Lost => return Ok(Some(End::Lost)),
+                Event::Tick => self.alarm = Some(Instant::now() + TICK),
+                Event::Signal(signal) => {
+                    has_changed = true;
+                    match signal {
+                        SIGTSTP => self.suspend()?,
+                        SIGCONT => self.screen.resume()?,
+                        SIGWINCH => {
+                            let size = self.screen.size()?;
+                            self.act(Action::Resize(size))?;
+                        }
+                        _ => return Ok(Some(End::Signal(signal))),
+                    }
                 }
-                has_changed = true;
-            } else if matches!(event, Event::Lost) {
-                return Ok(Some(End::Lost));
+                _ => {}
             }
-            if matches!(event, Event::Tick) {
-                self.alarm = Some(Instant::now() + TICK);
-            }
-            let Some(action) = events::take_action(&mut events, self.app.place()) else {
+            let Some(action) = input::take_action(&mut events, self.app.place()) else {
                 continue;
             };
             has_changed = true;
@@ -182,19 +188,6 @@ impl Workbench {
         }
         self.autosave.keep_if_due(Instant::now());
         self.workers.watch(self.app.files());
-        Ok(None)
-    }
-
-    fn obey(&mut self, signal: i32) -> io::Result<Option<End>> {
-        match signal {
-            SIGTSTP => self.suspend()?,
-            SIGCONT => self.screen.resume()?,
-            SIGWINCH => {
-                let size = self.screen.size()?;
-                self.act(Action::Resize(size))?;
-            }
-            _ => return Ok(Some(End::Signal(signal))),
-        }
         Ok(None)
     }
 
@@ -225,13 +218,9 @@ impl Workbench {
         Ok(false)
     }
 
-    // Several changes of settings cause one write.
     fn keep_settings(&mut self) {
-        let kept = self
-            .chosen
-            .take()
-            .and_then(|settings| perform(Effect::Keep(settings), &mut self.autosave));
-        if let Some(action) = kept {
+        let effect = self.chosen.take().map(Effect::Keep);
+        if let Some(action) = effect.and_then(|keep| perform(keep, &mut self.autosave)) {
             update(&mut self.app, action);
         }
     }

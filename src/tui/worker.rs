@@ -7,16 +7,16 @@ use std::fs;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{self, Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering::SeqCst};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
 use super::app::actions::{Action, Slot, Work};
-use super::solver::{Answer, PATIENCE, Request, cleared, solved, with_stiffness};
+use super::solver::{Answer, Request, solve};
 use super::store::{self, WatchedFile};
 use crate::case::Evaluator;
-use crate::model::Stage;
 use crate::system::changes::{Changes, Places};
 use crate::system::files;
 
@@ -87,58 +87,70 @@ impl Workers {
 /// Sends an action to the workbench. Returns false once the receiver is closed.
 pub(crate) type Send = Arc<dyn Fn(Action) -> bool + std::marker::Send + Sync>;
 
-/// The thread; dropping this ends the thread.
-#[derive(Debug)]
-pub(crate) struct Worker<R> {
-    requests: Arc<LatestRequest<R>>,
+/// A thread in which the latest request wins; dropping this ends the thread.
+struct Worker<R> {
+    requests: Sender<(u64, R)>,
+    /// The number of the last request.
+    last: AtomicU64,
+    numbers: Arc<Numbers>,
+}
+
+#[derive(Default)]
+struct Numbers {
+    /// The request whose results are wanted; 0 if there is none.
+    wanted: AtomicU64,
+    /// The running request.
+    begun: AtomicU64,
 }
 
 impl<R: std::marker::Send + 'static> Worker<R> {
     /// Starts the thread. `work` serves a request while it is wanted, and sends its results.
-    ///
-    /// # Errors
-    /// Returns an error if the system cannot start a thread.
-    pub(crate) fn start(
+    fn start(
         name: &str,
         send: Send,
         mut work: impl FnMut(R, &dyn Fn() -> bool, &dyn Fn(Action)) + std::marker::Send + 'static,
     ) -> io::Result<Worker<R>> {
-        let requests = Arc::new(LatestRequest::default());
-        let theirs: Arc<LatestRequest<R>> = Arc::clone(&requests);
+        let (requests, received) = channel::<(u64, R)>();
+        let numbers = Arc::<Numbers>::default();
+        let theirs = Arc::clone(&numbers);
         let serve = move || {
-            let send = |action| {
-                if !send(action) {
-                    theirs.close();
+            for (number, request) in received {
+                let is_wanted = || theirs.wanted.load(SeqCst) == number;
+                theirs.begun.store(number, SeqCst);
+                if is_wanted() {
+                    // Without a receiver the workbench has ended, and its process ends soon.
+                    work(request, &is_wanted, &|action| drop(send(action)));
                 }
-            };
-            while let Some(request) = theirs.take() {
-                work(request, &|| theirs.is_wanted(), &send);
             }
         };
         thread::Builder::new().name(name.to_owned()).spawn(serve)?;
-        Ok(Worker { requests })
+        Ok(Worker { requests, last: AtomicU64::new(0), numbers })
     }
+}
 
+impl<R> Worker<R> {
     /// Requests work; replaces a waiting request.
-    pub(crate) fn request(&self, request: R) {
-        self.requests.put(request);
+    fn request(&self, request: R) {
+        let number = self.last.fetch_add(1, SeqCst) + 1;
+        self.numbers.wanted.store(number, SeqCst);
+        let _ = self.requests.send((number, request));
     }
 
     /// Stops the running request. A waiting request still runs.
-    pub(crate) fn stop_running(&self) {
-        self.requests.state().is_stopped = true;
+    fn stop_running(&self) {
+        let running = self.numbers.begun.load(SeqCst);
+        let _ = self.numbers.wanted.compare_exchange(running, 0, SeqCst, SeqCst);
     }
 
     /// Stops the running request and drops a waiting one.
-    pub(crate) fn stop(&self) {
-        let mut state = self.requests.state();
-        (state.is_stopped, state.next) = (true, None);
+    fn stop(&self) {
+        self.numbers.wanted.store(0, SeqCst);
     }
 }
 
 impl<R> Drop for Worker<R> {
     fn drop(&mut self) {
-        self.requests.close();
+        self.stop();
     }
 }
 
@@ -159,130 +171,34 @@ pub(super) fn on_demand(place: &str) {
 #[cfg(not(debug_assertions))]
 pub(super) fn on_demand(_place: &str) {}
 
-#[derive(Debug)]
-struct LatestRequest<R> {
-    state: Mutex<RequestState<R>>,
-    bell: Condvar,
-}
-
-#[derive(Debug)]
-struct RequestState<R> {
-    next: Option<R>,
-    /// Whether the running request is no longer wanted.
-    is_stopped: bool,
-    is_closed: bool,
-}
-
-impl<R> Default for LatestRequest<R> {
-    fn default() -> LatestRequest<R> {
-        LatestRequest {
-            state: Mutex::new(RequestState { next: None, is_stopped: false, is_closed: false }),
-            bell: Condvar::new(),
-        }
-    }
-}
-
-impl<R> LatestRequest<R> {
-    fn put(&self, request: R) {
-        self.state().next = Some(request);
-        self.bell.notify_one();
-    }
-
-    fn close(&self) {
-        self.state().is_closed = true;
-        self.bell.notify_one();
-    }
-
-    // Sleeps until there is a request; `None` at the end.
-    fn take(&self) -> Option<R> {
-        let mut state = self.state();
-        loop {
-            if state.is_closed {
-                return None;
-            }
-            if let Some(request) = state.next.take() {
-                state.is_stopped = false;
-                return Some(request);
-            }
-            state = self.bell.wait(state).unwrap_or_else(PoisonError::into_inner);
-        }
-    }
-
-    fn is_wanted(&self) -> bool {
-        let state = self.state();
-        state.next.is_none() && !state.is_stopped && !state.is_closed
-    }
-
-    fn state(&self) -> MutexGuard<'_, RequestState<R>> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
 /// A solve that takes longer shows its progress.
 const LONG: Duration = Duration::from_millis(400);
 /// Time between two reports of the progress.
 const PROGRESS_STEP: Duration = Duration::from_millis(200);
 
-/// Starts the worker.
-///
-/// # Errors
-/// Returns an error if the system cannot start a thread.
 fn start_solver(send: Send) -> io::Result<Worker<Request>> {
     let mut evaluator = Evaluator::default();
     Worker::start("solver", send, move |request: Request, is_wanted, send| {
+        let show = |answer: &Answer| send(Action::Solved(Box::new(answer.clone())));
+        let next = Cell::new(Instant::now() + LONG);
+        let go_on = |part| {
+            let now = Instant::now();
+            if now > next.get() {
+                next.set(now + PROGRESS_STEP);
+                send(Action::Solving(request.serial, part));
+            }
+            is_wanted()
+        };
         let found = catch_unwind(AssertUnwindSafe(|| {
             on_demand("solver");
-            solve(&mut evaluator, &request, is_wanted, send)
+            solve(&mut evaluator, &request, &mut |answer: &Answer| show(answer), &go_on)
         }));
         match found {
-            Ok(Some(answer)) => send(Action::Solved(Box::new(answer))),
+            Ok(Some(answer)) => show(&answer),
             Ok(None) => (),
             Err(_) => send(Action::SolverFailed(request.serial)),
         }
     })
-}
-
-// Sends intermediate answers of a slow solve and returns the last one.
-fn solve(
-    evaluator: &mut Evaluator,
-    request: &Request,
-    is_wanted: &dyn Fn() -> bool,
-    send: &dyn Fn(Action),
-) -> Option<Answer> {
-    let begun = Instant::now();
-    let (waiting, next_progress) = (Cell::new(Some(begun + PATIENCE)), Cell::new(begun + LONG));
-    let go_on = |part: f64, at_once: &dyn Fn() -> Answer| {
-        let now = Instant::now();
-        if waiting.get().is_some_and(|until| now > until) {
-            waiting.set(None);
-            send(Action::Solved(Box::new(at_once())));
-        } else if now > next_progress.get() {
-            next_progress.set(now + PROGRESS_STEP);
-            send(Action::Solving(request.serial, part));
-        }
-        is_wanted()
-    };
-    let answer = solved(evaluator, request, begun, &go_on)?;
-    if request.stiffness {
-        // The elastic fields of new gears are slow, and the results must not wait for them.
-        send(Action::Solved(Box::new(answer.clone())));
-        if !is_wanted() {
-            return None;
-        }
-    }
-    let mut answer = with_stiffness(request, answer);
-    // The other results do not wait for the motion over the speed.
-    let has_speeds = answer.active.stages().has(Stage::SpeedRun);
-    let first = has_speeds.then(|| request.stages.without(Stage::SpeedRun));
-    for stages in first.into_iter().chain([request.stages]) {
-        if answer.stages.covers(stages) || answer.refusal().is_some() {
-            continue;
-        }
-        send(Action::Solved(Box::new(answer.clone())));
-        let request = Request { stages, ..request.clone() };
-        answer = cleared(evaluator, &request, answer, begun, &|_| is_wanted())?;
-    }
-    Some(Answer { stages: request.stages, ..answer })
 }
 
 /// A file is read once its mark has not changed for this time, or after [`LOOKS`] checks.
@@ -291,8 +207,7 @@ const LOOKS: usize = 20;
 /// Greatest number of symbolic links to follow.
 const MOST_LINKS: usize = 40;
 
-/// The thread that watches the files; dropping this ends the thread.
-#[derive(Debug)]
+/// The thread that watches the files, and sleeps until one changes; dropping this ends the thread.
 struct Watcher {
     /// Sends the files to watch, or a change of any.
     sender: Arc<Sender<Option<Vec<WatchedFile>>>>,
@@ -300,19 +215,14 @@ struct Watcher {
 }
 
 impl Watcher {
-    /// Starts the thread, which sleeps until a file changes.
-    ///
-    /// # Errors
-    /// Returns an error if the system cannot start a thread or has no means to wait.
     fn start(send: Send) -> io::Result<Watcher> {
         let (sender, messages) = channel();
         let sender = Arc::new(sender);
         let bell = Arc::downgrade(&sender);
         let changes =
             Changes::start(move || bell.upgrade().is_some_and(|bell| bell.send(None).is_ok()))?;
-        thread::Builder::new()
-            .name("watch".to_owned())
-            .spawn(move || look(&messages, changes, &send))?;
+        let look = move || look(&messages, changes, &send);
+        thread::Builder::new().name("watch".to_owned()).spawn(look)?;
         Ok(Watcher { sender, files: RefCell::default() })
     }
 
@@ -328,25 +238,27 @@ impl Watcher {
 
 fn look(messages: &Receiver<Option<Vec<WatchedFile>>>, mut changes: Changes, send: &Send) {
     let (mut files, mut seen) = (Vec::new(), HashMap::<PathBuf, Option<Mark>>::new());
-    while let Ok(message) = messages.recv() {
+    for message in messages {
         files = message.unwrap_or(files);
         seen.retain(|path, _| files.iter().any(|file| file.path == *path));
         changes.follow(&places(&files));
-        for file in &files {
-            let mark = Mark::of(&file.path);
-            let before = seen.insert(file.path.clone(), mark);
+        for WatchedFile { path, target, stamp } in &files {
+            let mark = mark_of(path);
+            let before = seen.insert(path.clone(), mark);
             // A deleted file has no content; a new file may replace it.
             let Some(mark) = mark.filter(|_| before != Some(mark)) else {
                 continue;
             };
-            let settled = settled(&file.path, mark);
-            seen.insert(file.path.clone(), settled);
-            let found = store::load(&file.path);
+            let settled = settled(path, mark);
+            seen.insert(path.clone(), settled);
+            let found = store::load(path);
             // A later change may restore the known content.
-            let is_first = before.is_none();
-            let is_known = matches!(&found, Ok(document) if file.is_of(document));
-            let is_news = settled.is_some() && !(is_first && is_known);
-            if is_news && !send(Action::FileChanged(file.path.clone(), found)) {
+            let is_known = before.is_none()
+                && found.as_ref().is_ok_and(|document| {
+                    document.stamp() == *stamp && document.path() == Some(target.as_path())
+                });
+            let is_news = settled.is_some() && !is_known;
+            if is_news && !send(Action::FileChanged(path.clone(), found)) {
                 return;
             }
         }
@@ -371,23 +283,12 @@ fn places(files: &[WatchedFile]) -> Places {
     places
 }
 
-/// Properties that change when a file is written: its time, its length, the file itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Mark {
-    modified: SystemTime,
-    length: u64,
-    file: u64,
-}
+/// The time, the length and the number of a file, which change when it is written or replaced.
+type Mark = (SystemTime, u64, u64);
 
-impl Mark {
-    fn of(path: &Path) -> Option<Mark> {
-        let metadata = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
-        Some(Mark {
-            modified: metadata.modified().ok()?,
-            length: metadata.len(),
-            file: files::number(&metadata),
-        })
-    }
+fn mark_of(path: &Path) -> Option<Mark> {
+    let metadata = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
+    Some((metadata.modified().ok()?, metadata.len(), files::number(&metadata)))
 }
 
 /// The mark of a file once no program writes it any more.
@@ -395,7 +296,7 @@ fn settled(path: &Path, mark: Mark) -> Option<Mark> {
     let mut last = Some(mark);
     for _ in 0..LOOKS {
         thread::sleep(QUIET);
-        let now = Mark::of(path);
+        let now = mark_of(path);
         if now == last {
             break;
         }
@@ -408,8 +309,8 @@ fn settled(path: &Path, mark: Mark) -> Option<Mark> {
 mod tests {
     use super::*;
     use crate::case::Case;
-    use crate::model::Stages;
     use crate::model::inputs::Method;
+    use crate::model::{Stage, Stages};
 
     /// A worker that starts each request when the test permits, and sends its number back if it is
     /// wanted.

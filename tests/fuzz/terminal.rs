@@ -126,7 +126,7 @@ fn assert_nothing_left(tty: &Tty, status: &ExitStatus) {
     let kept = journals(tty.folder.path());
     assert!(kept.is_empty() || !status.success(), "edits that were thrown away are kept");
     for text in kept.iter().map(|path| fs::read_to_string(path).expect("it is there")) {
-        assert!(Journal::from_text(&text).is_ok(), "{text}");
+        assert!(Journal::from_text(&text).is_some(), "{text}");
     }
     let case = fs::read_to_string(tty.case()).expect("the case is there");
     assert!(Document::parse("case.toml", &case).is_ok(), "a saved case opens again: {case}");

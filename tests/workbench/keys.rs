@@ -468,32 +468,6 @@ fn undo_reports_the_reverted_edit() {
 }
 
 #[test]
-fn the_baseline_gets_the_name_of_its_saved_file() {
-    let mut desk = Desk::new(LARGE);
-    desk.keys(&["Esc", "Alt-B"]);
-    desk.assert(desk.shows("for this session") && desk.shows("against built-in"));
-    let path = desk.path("whine.toml");
-    desk.keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
-    desk.assert_shows("against whine.toml");
-    let path = desk.path("quiet.toml");
-    desk.fill("driven.tip_relief", "48").keys(&["F2", "Ctrl-U", name(&path), "Enter", "Esc"]);
-    desk.assert(desk.app.tab.short_name() == "quiet.toml" && desk.shows("against whine.toml"));
-}
-
-#[test]
-fn a_baseline_of_other_values_than_were_saved_keeps_its_name() {
-    let mut desk = Desk::new(LARGE);
-    let path = desk.path("quiet.toml");
-    desk.keys(&["Alt-B"]).fill("driven.tip_relief", "48").keys(&[
-        "F2",
-        "Ctrl-U",
-        name(&path),
-        "Enter",
-    ]);
-    desk.assert(desk.app.tab.short_name() == "quiet.toml" && desk.shows("against built-in"));
-}
-
-#[test]
 fn results_are_found_as_fields_are() {
     for (keys, expected) in [
         (&["Esc", "/", "fs", "Enter"][..], "F_S impact force, Eq. 57"),

@@ -53,7 +53,6 @@ impl Binding {
     }
 
     /// The direction or number of a key; `None` if it is not a key of this row.
-    #[must_use]
     pub fn way(&self, key: &str) -> Option<isize> {
         self.keys.split(' ').find_map(|item| match both(item) {
             (forth, _) if key == forth => Some(1),
@@ -68,7 +67,6 @@ impl Binding {
     }
 
     /// The keys as text, without Ctrl-H.
-    #[must_use]
     pub fn keys(&self) -> String {
         self.keys.replace(" Ctrl-H", "").replace(' ', ", ")
     }

@@ -1,7 +1,7 @@
-//! The dialogs over the panes. Each file contains the state, keys, update and drawing of one
-//! dialog; what a dialog changes in the workbench, the caller gives to it.
+//! The dialogs over the panes: their interface, and the boxes in which they are drawn. Each file
+//! contains the state, keys, update and drawing of one dialog; what a dialog changes in the
+//! workbench, the caller gives to it.
 
-pub(crate) mod boxes;
 pub(crate) mod browser;
 pub(crate) mod cursor_to;
 pub(crate) mod page;
@@ -10,15 +10,21 @@ pub(crate) mod question;
 mod relief;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Constraint, Layout, Position, Rect, Size};
+use ratatui::style::Style;
+use ratatui::text::{Line as Words, Span};
+use ratatui::widgets::{Block, Borders, Clear, Padding, Widget};
+use unicode_width::UnicodeWidthStr;
 
 use super::App;
-use super::actions::{Change, Choice, Work};
+use super::actions::{Change, Choice, Running, Slot, Work};
 use crate::case::units::System;
+use crate::tui::ascii::printable;
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
-use crate::tui::store::folder::{Preview, Target};
-use crate::tui::theme::Look;
+use crate::tui::store::folder::{self, Preview, Target};
+use crate::tui::text;
+use crate::tui::theme::{Look, Theme};
 
 use browser::Browser;
 use cursor_to::{CursorScope, CursorTo};
@@ -27,18 +33,18 @@ use picker::Picker;
 use question::{PathDialog, Question};
 pub(crate) use relief::ReliefDialog;
 
+/// Greatest width of a box.
+const WIDEST: u16 = 100;
+/// Least width, with room for four buttons.
+const NARROWEST: u16 = 52;
+
 /// The interface of a dialog. By default it ignores a key.
 pub(crate) trait Dialog {
     /// The place that decides the meaning of keys.
     fn place(&self) -> Place;
 
     /// Draws the dialog over the screen and returns the position of the text cursor.
-    fn draw(
-        &self,
-        around: &Surroundings<'_>,
-        screen: Rect,
-        buffer: &mut Buffer,
-    ) -> Option<Position>;
+    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position>;
 
     /// The change of the state by Enter.
     fn accept(&mut self, _around: &Surroundings<'_>) -> Option<Change> {
@@ -60,7 +66,7 @@ pub(crate) trait Dialog {
 
     /// Moves by `by` pages.
     fn turn(&mut self, by: isize, around: &Surroundings<'_>) {
-        self.step(by * boxes::page_height(around.screen), around);
+        self.step(by * around.page_height(), around);
     }
 
     /// Handles the mouse wheel.
@@ -69,20 +75,17 @@ pub(crate) trait Dialog {
     }
 
     /// Handles a mouse click. Returns whether it accepts.
-    fn click(&mut self, _at: Position, _screen: Rect) -> bool {
+    fn click(&mut self, _at: Position, _around: &Surroundings<'_>) -> bool {
         false
     }
 
     /// Selects another field behind an explained result.
     fn select_field(&mut self, _by: isize, _around: &Surroundings<'_>) {}
 
-    /// The work that previews the selection, once for each selection.
-    fn preview(&mut self, _units: System) -> Option<Work> {
+    /// The preview of the selection.
+    fn preview(&mut self) -> Option<(&mut PreviewPane, Option<Target>)> {
         None
     }
-
-    /// Shows a preview.
-    fn show(&mut self, _target: &Target, _preview: Preview) {}
 }
 
 /// The context of a dialog.
@@ -100,7 +103,7 @@ pub(crate) struct Surroundings<'a> {
 pub enum Prompt {
     /// The file browser.
     Browse(Box<Browser>),
-    /// The file to save or to export to.
+    /// A line of text: a path to save or to export to, or a range.
     Path(PathDialog),
     /// The angle for the cursor.
     CursorTo(CursorTo),
@@ -117,7 +120,6 @@ pub enum Prompt {
 }
 
 impl Prompt {
-    #[must_use]
     pub(crate) fn dialog(&self) -> &dyn Dialog {
         match self {
             Prompt::Browse(dialog) => &**dialog,
@@ -144,15 +146,6 @@ impl Prompt {
             Prompt::Pick(dialog) => dialog,
         }
     }
-}
-
-// Closes the dialog, then carries out the choice.
-fn closing(choice: &Choice) -> Change {
-    let change = choice.change();
-    Change::of(|app| {
-        app.prompts.pop();
-        change.apply(app);
-    })
 }
 
 impl App {
@@ -203,8 +196,17 @@ impl App {
         self.start_all(works);
     }
 
+    /// Starts the preview of a new selection.
+    pub(crate) fn preview(&mut self) {
+        let units = self.settings.units;
+        let prompt = self.prompts.last_mut();
+        let preview = prompt.and_then(|prompt| prompt.dialog_mut().preview());
+        let work = preview.and_then(|(pane, target)| pane.request(target, units));
+        self.start_all(work);
+    }
+
     /// Closes the topmost dialog if it is a path or a question with this title.
-    pub(crate) fn close_titled(&mut self, title: &str) -> bool {
+    pub(crate) fn close_titled(&mut self, title: &str) {
         let is_it = match self.prompts.last() {
             Some(Prompt::Path(dialog)) => dialog.title == title,
             Some(Prompt::Ask(question)) => question.title == title,
@@ -213,6 +215,204 @@ impl App {
         if is_it {
             self.prompts.pop();
         }
-        is_it
+    }
+}
+
+// Closes the dialog, then carries out the choice.
+fn closing(choice: &Choice) -> Change {
+    let change = choice.change();
+    Change::of(|app| {
+        app.prompts.pop();
+        change.apply(app);
+    })
+}
+
+impl Surroundings<'_> {
+    fn theme(&self) -> &'static Theme {
+        self.look.theme
+    }
+
+    /// The size inside the largest box.
+    fn room(&self) -> Size {
+        let Rect { width, height, .. } = self.screen;
+        Size::new(width.min(WIDEST).saturating_sub(4), height.saturating_sub(4))
+    }
+
+    /// Number of lines of a page in the largest box.
+    fn page_height(&self) -> isize {
+        isize::from(self.room().height.cast_signed()).max(1)
+    }
+
+    /// The first visible line after a scroll by `by` of the lines in the largest box.
+    fn scrolled(&self, top: usize, by: isize, count: usize) -> usize {
+        top.saturating_add_signed(by).min(count.saturating_sub(self.room().height.into()))
+    }
+
+    fn outside(&self, wanted: Size) -> Rect {
+        let room = self.room();
+        let height = wanted.height.clamp(1, room.height.max(1)) + 2;
+        let width = wanted.width.max(NARROWEST).min(room.width) + 4;
+        let (width, height) = (Constraint::Length(width), Constraint::Length(height));
+        self.screen.centered(width, height).intersection(self.screen)
+    }
+
+    /// The area inside a box, which is as large as wanted if there is room.
+    fn inside(&self, wanted: Size) -> Rect {
+        Block::bordered().padding(Padding::horizontal(1)).inner(self.outside(wanted))
+    }
+
+    /// Clears a box with a border and returns its inside.
+    fn frame(&self, title: &str, wanted: Size, buffer: &mut Buffer) -> Rect {
+        let area = self.outside(wanted);
+        Clear.render(area, buffer);
+        let title = text::cut(title, usize::from(area.width).saturating_sub(6));
+        let title = Words::styled(format!(" {title} "), self.theme().title);
+        Block::bordered().title(title).render(area, buffer);
+        self.inside(wanted)
+    }
+
+    /// A box with an input line above other lines. Returns the input line and the position of the
+    /// text cursor.
+    fn input_box(
+        &self,
+        title: &str,
+        width: u16,
+        input: &Line,
+        lines: &[Words<'_>],
+        buffer: &mut Buffer,
+    ) -> (Rect, Option<Position>) {
+        let inner = self.frame(title, Size::new(width, lines.len() as u16 + 1), buffer);
+        let [line, below] = input_above(inner);
+        text::draw_lines(lines, below, buffer);
+        (line, text::edited(input, line, self.theme().focus, buffer))
+    }
+
+    /// A box that shows the lines from `top`, with a scroll bar if they do not fit.
+    fn page_box(&self, title: &str, lines: &[Words<'_>], top: usize, buffer: &mut Buffer) {
+        let inner = self.frame(title, Size::new(WIDEST, extent(lines).height), buffer);
+        text::draw_lines(lines.get(top..).unwrap_or_default(), inner, buffer);
+        text::scroll_bar_beside(top, lines.len(), inner, buffer);
+    }
+}
+
+/// The first line of an area, and the area below it.
+fn input_above(area: Rect) -> [Rect; 2] {
+    Layout::vertical([Constraint::Length(1), Constraint::Fill(1)]).areas(area)
+}
+
+/// A list on the left and its details on the right.
+fn halves(area: Rect) -> [Rect; 2] {
+    Layout::horizontal([Constraint::Percentage(40), Constraint::Fill(1)]).spacing(1).areas(area)
+}
+
+/// Draws the details on the right of a list.
+fn draw_details(lines: impl FnOnce(u16) -> Vec<Words<'static>>, area: Rect, buffer: &mut Buffer) {
+    let beside = Block::new().borders(Borders::LEFT).padding(Padding::left(1));
+    let inner = beside.inner(area);
+    beside.render(area, buffer);
+    text::draw_lines(&lines(inner.width), inner, buffer);
+}
+
+/// The lines of a list in its area, around the selected one; only visible lines are built.
+struct Window {
+    count: usize,
+    selected: Option<usize>,
+    area: Rect,
+}
+
+impl Window {
+    fn top(&self) -> usize {
+        let end = self.selected.map_or(0, |selected| selected + 1);
+        end.saturating_sub(self.area.height.into())
+    }
+
+    fn draw(&self, line: impl Fn(usize) -> String, theme: &Theme, buffer: &mut Buffer) {
+        for (at, row) in (self.top()..self.count).zip(self.area.rows()) {
+            let (sign, style) =
+                if self.selected == Some(at) { ("▸", theme.focus) } else { (" ", Style::new()) };
+            let line = text::cut(&format!("{sign} {}", line(at)), self.area.width.into());
+            Span::styled(line, style).render(row, buffer);
+        }
+    }
+
+    /// The index of the line at a cell, if any.
+    fn line_at(&self, at: Position) -> Option<usize> {
+        let line = self.area.contains(at).then(|| self.top() + usize::from(at.y - self.area.y));
+        line.filter(|&line| line < self.count)
+    }
+}
+
+/// The size of lines of text.
+fn extent(lines: &[Words<'_>]) -> Size {
+    let width = lines.iter().map(Words::width).max().unwrap_or(0);
+    let size = |length: usize| u16::try_from(length).unwrap_or(u16::MAX);
+    Size::new(size(width), size(lines.len()))
+}
+
+/// The lines of a text in a width.
+fn said(text: &str, style: Style, width: u16) -> Vec<Words<'static>> {
+    let lines = text::wrap(text, width.into()).into_iter();
+    lines.map(|line| Span::styled(line, style).into()).collect()
+}
+
+/// A line in lines of a width; continuation lines begin below the second column of the line, if it
+/// has one.
+fn wrapped(line: &str, width: u16) -> Vec<String> {
+    let width = usize::from(width);
+    if line.width() <= width {
+        return vec![printable(line).into_owned()];
+    }
+    let lead = line.len() - line.trim_start().len();
+    let gap = line[lead..].find("  ").map(|at| lead + at);
+    let column = gap.map(|gap| line.len() - line[gap..].trim_start().len());
+    let (head, text) = line.split_at(column.filter(|_| line.is_ascii()).unwrap_or(lead));
+    let mut lines = text::wrap(text, width.saturating_sub(head.len()));
+    for (at, line) in lines.iter_mut().enumerate() {
+        let lead = if at == 0 { head } else { &" ".repeat(head.len()) };
+        line.insert_str(0, lead);
+    }
+    lines
+}
+
+/// The preview of the selected line of a list.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct PreviewPane {
+    /// The target of the last request.
+    target: Option<Target>,
+    /// The preview, once it is computed.
+    preview: Option<Preview>,
+}
+
+impl PreviewPane {
+    /// The work of the preview, once for each selection.
+    fn request(&mut self, target: Option<Target>, units: System) -> Option<Work> {
+        if target == self.target {
+            return None;
+        }
+        (self.target, self.preview) = (target.clone(), None);
+        let own = target?;
+        let (path, wanted) = (own.path(), own.clone());
+        let find =
+            move |running: &Running<'_>| folder::preview(&own, units, &|_| running.is_wanted());
+        let show = move |app: &mut App, preview| {
+            let prompt = app.prompts.last_mut();
+            if let Some((pane, _)) = prompt.and_then(|prompt| prompt.dialog_mut().preview())
+                && pane.target.as_ref() == Some(&wanted)
+            {
+                pane.preview = Some(preview);
+            }
+        };
+        Some(Work::new(Slot::Preview, find, show).at(path))
+    }
+
+    /// The lines of the preview in a width.
+    fn lines(&self, width: u16, theme: &Theme) -> Vec<Words<'static>> {
+        match (&self.target, &self.preview) {
+            (None, _) => Vec::new(),
+            (_, None) => vec![Words::styled("reading ...", theme.faint)],
+            (_, Some(preview)) => {
+                preview.iter().flat_map(|(text, tone)| said(text, tone(theme), width)).collect()
+            }
+        }
     }
 }

@@ -11,7 +11,7 @@ use crate::model::Inputs;
 use crate::model::inputs::Gear;
 
 /// A material with the values of its fields as text, and their source.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(crate) struct Material {
     /// Its name, such as `42CrMo4`.
     pub(crate) name: String,
@@ -27,6 +27,9 @@ pub(crate) struct Material {
     pub(crate) source: String,
     /// A note on the values.
     pub(crate) note: String,
+    /// The three values in SI.
+    #[serde(skip)]
+    constants: Option<[f64; 3]>,
 }
 
 #[derive(Deserialize)]
@@ -37,30 +40,26 @@ struct Catalogue {
 const TEXT: &str = include_str!("../../../assets/materials.toml");
 
 static ALL: LazyLock<Vec<Material>> = LazyLock::new(|| {
-    toml::from_str::<Catalogue>(TEXT).map(|catalogue| catalogue.material).unwrap_or_default()
-});
-
-/// The three values of each material in SI.
-static CONSTANTS: LazyLock<Vec<Option<[f64; 3]>>> = LazyLock::new(|| {
-    let of = |material| {
+    let mut all =
+        toml::from_str::<Catalogue>(TEXT).map_or_else(|_| Vec::new(), |file| file.material);
+    for material in &mut all {
         let mut made = Case::empty();
-        apply(&mut made, "driver", material).ok().and_then(|()| constants(&made, "driver"))
-    };
-    all().iter().map(of).collect()
+        let applied = apply(&mut made, "driver", material);
+        material.constants = applied.ok().and_then(|()| constants(&made, "driver"));
+    }
+    all
 });
 
 /// Relative difference below which values are equal: a value may be written in another unit.
 const SAME: f64 = 1e-9;
 
 /// Every material, ordered by group.
-#[must_use]
 pub(crate) fn all() -> &'static [Material] {
     &ALL
 }
 
 impl Material {
     /// The fields of a gear that the material fills, with their values.
-    #[must_use]
     pub(crate) fn texts(&self) -> [(&'static str, &str); 3] {
         [("young", &self.young), ("poisson", &self.poisson), ("density", &self.density)]
     }
@@ -81,35 +80,23 @@ pub(crate) fn apply(case: &mut Case, gear: &str, material: &Material) -> Result<
 
 /// The materials with the three values of the gear: several if they have equal values, none if no
 /// material matches.
-#[must_use]
 pub(crate) fn of_gear(case: &Case, gear: &str) -> Vec<&'static Material> {
     let Some(own) = constants(case, gear) else {
         return Vec::new();
     };
     let same = |a: f64, b: f64| (a - b).abs() <= SAME * b.abs();
-    let fits = |known: &Option<[f64; 3]>| {
-        known.is_some_and(|known| known.into_iter().zip(own).all(|(a, b)| same(a, b)))
-    };
-    all()
-        .iter()
-        .zip(CONSTANTS.iter())
-        .filter(|(_, known)| fits(known))
-        .map(|(material, _)| material)
-        .collect()
+    let fits = |known: [f64; 3]| known.into_iter().zip(own).all(|(a, b)| same(a, b));
+    all().iter().filter(|material| material.constants.is_some_and(fits)).collect()
 }
 
 /// The material name beside the fields of a gear: `42CrMo4`, or `Steel, 18CrNiMo7-6 or 20CrMnTi` if
 /// several materials have these values.
-#[must_use]
 pub(crate) fn name_of_gear(case: &Case, gear: &str) -> Option<String> {
     let found = of_gear(case, gear);
     let (last, others) = found.split_last()?;
     let others: Vec<&str> = others.iter().map(|material| material.name.as_str()).collect();
-    Some(if others.is_empty() {
-        last.name.clone()
-    } else {
-        format!("{} or {}", others.join(", "), last.name)
-    })
+    let or = if others.is_empty() { "" } else { " or " };
+    Some(format!("{}{or}{}", others.join(", "), last.name))
 }
 
 /// Young's modulus, Poisson's ratio and density of a gear in SI, if all three are valid.

@@ -40,7 +40,6 @@ pub struct FormState {
 
 impl FormState {
     /// Focus on a row, with the cursor at the end of its text.
-    #[must_use]
     pub(crate) fn at(case: &Case, focus: usize) -> FormState {
         FormState {
             focus,
@@ -164,7 +163,6 @@ pub(crate) fn field_at(pane: &Form<'_>, at: Position) -> Option<usize> {
 }
 
 /// The first visible line after scrolling by lines downwards.
-#[must_use]
 pub(crate) fn scrolled(pane: &Form<'_>, by: isize) -> usize {
     let last = pane.rows().len().saturating_sub(pane.height());
     pane.state.top.saturating_add_signed(by).min(last)
@@ -175,10 +173,12 @@ fn group_title(pane: &Form<'_>, index: usize) -> String {
     let Some(field) = rows::field(pane.case, index) else {
         return "Limits".to_owned();
     };
-    let title =
-        GROUPS.iter().find(|(table, _)| *table == field.table()).map_or("", |(_, title)| title);
-    let material = materials::name_of_gear(pane.case, field.table());
-    material.map_or_else(|| title.to_owned(), |material| format!("{title}, {material}"))
+    let title = GROUPS.iter().find(|(table, _)| *table == field.table());
+    let title = title.map_or("", |(_, title)| title);
+    match materials::name_of_gear(pane.case, field.table()) {
+        Some(material) => format!("{title}, {material}"),
+        None => title.to_owned(),
+    }
 }
 
 // The reasons of an invalid row. An unfinished value is explained in the hint until the user leaves
@@ -206,8 +206,8 @@ fn put(text: &str, area: Rect, style: Style, buffer: &mut Buffer) {
 // Draws marks, symbol, label and value of a row, and the verdict on a limit. A label gives way to a
 // long value that is not edited.
 fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> Option<Position> {
-    let theme = pane.look.theme;
-    let field = rows::field(pane.case, index);
+    let (case, theme) = (pane.case, pane.look.theme);
+    let field = rows::field(case, index);
     let kind = field.map(|field| field.kind);
     let is_idle = field.is_some() && matches!(relevance(index, pane.inputs), Acting::No(_));
     let (mark, of_mark, style) = match (pane.state.focus == index, is_idle) {
@@ -217,29 +217,26 @@ fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> 
         (false, true) => ("-", theme.faint, theme.faint),
         (false, false) => (" ", Style::new(), Style::new()),
     };
-    let written = rows::text(pane.case, index);
-    let (default, verdict) = match rows::row(pane.case, index) {
-        rows::Row::Field(field) => (rows::unwritten(pane.case, pane.inputs, field), None),
+    let written = rows::text(case, index);
+    let (default, verdict) = match rows::row(case, index) {
+        rows::Row::Field(field) => (rows::unwritten(case, pane.inputs, field), None),
         rows::Row::Limit(limit) => ("(no limit)".to_owned(), verdict_on(pane, limit)),
     };
     let value = written.map_or(default, |text| ascii::printable(text).into_owned());
     let (verdict, of_verdict) = verdict.unwrap_or_default();
-    let label = rows::label(pane.case, index);
+    let [symbol, label] = rows::names_of(case, index);
     let [symbol, label] = match kind {
         // A text has no symbol; its value needs the room.
         Some(Kind::Text) => [label, ""],
-        _ => [&ascii::symbol(rows::symbol(pane.case, index), pane.look.ascii), label],
+        _ => [&ascii::symbol(symbol, pane.look.ascii), label],
     };
     let (is_edited, is_choice) = (pane.is_edited(index), matches!(kind, Some(Kind::Choice(..))));
     let is_typed = is_edited && written.is_some() && !is_choice;
     let width = |text: &str| text.width() as u16 + 1;
     let of_label = if label.is_empty() { 0 } else { width(label).max(LABEL + 1) };
     let (of_symbol, end) = (SYMBOL.max(width(symbol)), verdict.width() as u16);
-    let of_value = match field {
-        _ if is_typed => VALUE,
-        Some(_) => VALUE.max(width(&value)),
-        None => width(&value),
-    };
+    let least = if field.is_some() { VALUE } else { 0 };
+    let of_value = if is_typed { VALUE } else { least.max(width(&value)) };
     let of_value = of_value.min(line.width.saturating_sub(MARKS + of_symbol + end));
     let [marks, of_symbol, of_label, area, end] = Layout::horizontal([
         Constraint::Length(MARKS),
@@ -249,7 +246,7 @@ fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> 
         Constraint::Length(end),
     ])
     .areas(line);
-    let unsaved = if rows::differs(pane.case, pane.saved, index) { "*" } else { "" };
+    let unsaved = if rows::differs(case, pane.saved, index) { "*" } else { "" };
     let spans = vec![Span::styled(mark, of_mark), Span::styled(unsaved, theme.note)];
     Line::from(spans).render(marks, buffer);
     Line::styled(verdict, of_verdict).render(end, buffer);
@@ -261,7 +258,7 @@ fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> 
         text::ending(pane.ending.as_deref(), input.value().width(), area, theme, buffer);
         return cursor;
     }
-    let is_default = written.is_none() && !rows::lacks(pane.case, index);
+    let is_default = written.is_none() && !rows::lacks(case, index);
     let (value, style) = match (is_edited && is_choice, is_default) {
         (true, _) => (format!("‹ {value} ›"), style),
         (false, true) => (value, theme.faint),

@@ -308,7 +308,7 @@ fn faults(pane: &Results<'_>) -> Vec<String> {
     if rows.len() > 1 && rows.iter().all(|&row| rows::lacks(pane.case, row)) {
         return vec![format!("! {} required values are missing ({key})", rows.len())];
     }
-    let name = format!("{} {}", rows::symbol(pane.case, *row), rows::label(pane.case, *row));
+    let name = rows::names_of(pane.case, *row).join(" ");
     let more = if rows.len() > 1 { format!("; {} more", rows.len() - 1) } else { String::new() };
     vec![format!("! {}: {}{more} ({key})", name.trim_start(), problem.cause)]
 }

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Read, Write};
+use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -18,28 +18,18 @@ use crate::case::sanitize::sanitize;
 use crate::case::stamp::{Stamp, hash};
 use crate::system::sharing;
 use crate::tui::session;
-use crate::tui::store::{self, state};
-
-/// The format of journals that this version reads and writes.
-const FORMAT: i64 = 1;
+use crate::tui::store;
 
 /// Greatest size of a journal to read, in bytes: more than the changes of any case.
-pub(crate) const MOST_BYTES: usize = 4 << 20;
+const MOST_BYTES: u64 = 4 << 20;
 
 const OPENING: &str =
     "# Edits that were not saved. tipstrike offers them when the case is opened again.\n";
-const FORMAT_KEY: &str = "format = ";
-const CHECKSUM_KEY: &str = "checksum = ";
-
-const NOT_ONE: &str = "the file is not a journal";
-const DAMAGED: &str = "the journal is damaged";
-const NEWER: &str = "the format of the journal is newer than this version";
 
 /// The extension of a journal.
 const ENDING: &str = "toml";
 /// Number of letters of the case's name in the name of its journal.
 const MOST_LETTERS: usize = 40;
-
 /// Age in seconds of a journal that is not reported any more.
 const RECENT: u64 = 30 * 86400;
 
@@ -70,16 +60,17 @@ struct Body {
     change: Vec<Change>,
 }
 
+/// The lines above the content: the format of journals that this version reads, and the checksum.
+fn head(body: &str) -> String {
+    format!("{OPENING}format = 1\nchecksum = \"{:016x}\"\n", hash(body.as_bytes()))
+}
+
 impl Journal {
     /// Whether the journal belongs to the case in a file; without a file, to the text with a stamp.
     fn is_of(&self, case: Option<&Path>, stamp: Stamp) -> bool {
         self.case.as_deref() == case && (case.is_some() || self.base_stamp == stamp)
     }
 
-    /// The text of a journal file.
-    ///
-    /// # Errors
-    /// Returns an error if TOML cannot represent the journal.
     fn to_text(&self) -> io::Result<String> {
         let case = self.case.as_deref();
         let text = case.and_then(Path::to_str);
@@ -93,30 +84,19 @@ impl Journal {
             change: self.changes.clone(),
         })
         .map_err(io::Error::other)?;
-        let checksum = hash(body.as_bytes());
-        Ok(format!("{OPENING}{FORMAT_KEY}{FORMAT}\n{CHECKSUM_KEY}\"{checksum:016x}\"\n{body}"))
+        Ok(head(&body) + &body)
     }
 
-    /// Parses the text of a journal file.
-    ///
-    /// # Errors
-    /// Returns an error if the text is not, byte for byte, an output of [`Journal::to_text`].
-    pub fn from_text(text: &str) -> Result<Journal, &'static str> {
-        let rest = text.strip_prefix(OPENING).ok_or(NOT_ONE)?;
-        let (format, rest) = line_of(rest, FORMAT_KEY).ok_or(NOT_ONE)?;
-        match format.parse() {
-            Ok(FORMAT) => {}
-            Ok(newer) if newer > FORMAT => return Err(NEWER),
-            _ => return Err(NOT_ONE),
+    /// The journal of a text; `None` unless the text is, byte for byte, that of a journal.
+    pub fn from_text(text: &str) -> Option<Journal> {
+        let body = text.splitn(4, '\n').nth(3)?;
+        if text.strip_suffix(body)? != head(body) {
+            return None;
         }
-        let (checksum, body) = line_of(rest, CHECKSUM_KEY).ok_or(DAMAGED)?;
-        if checksum != format!("\"{:016x}\"", hash(body.as_bytes())) {
-            return Err(DAMAGED);
-        }
-        let body: Body = toml::from_str(body).map_err(|_| DAMAGED)?;
-        let hash = u64::from_str_radix(&body.hash, 16).map_err(|_| DAMAGED)?;
+        let body: Body = toml::from_str(body).ok()?;
+        let hash = u64::from_str_radix(&body.hash, 16).ok()?;
         let bytes = body.case_bytes.map(sharing::path_from_bytes);
-        Ok(Journal {
+        Some(Journal {
             case: body.case.map(PathBuf::from).or(bytes),
             base_stamp: Stamp { length: body.length, hash },
             written: body.written,
@@ -148,22 +128,17 @@ pub(super) struct Journals(PathBuf);
 
 impl Journals {
     /// The folder inside a state folder.
-    #[must_use]
     pub(super) fn within(folder: &Path) -> Journals {
-        Journals(folder.join(state::JOURNALS))
+        Journals(folder.join(store::JOURNALS))
     }
 
-    /// Creates the folder.
-    ///
-    /// # Errors
-    /// Returns an error if the disk is full, or if another user could change the folder.
+    /// Creates the folder, unless another user could change it.
     pub(super) fn create(&self) -> io::Result<()> {
-        state::make(&self.0)?;
-        state::require_private(&self.0)
+        sharing::create_private(&self.0)?;
+        store::is_private(&self.0).map_err(io::Error::other)
     }
 
     /// The path of the journal of a case in a session; `number` distinguishes cases without a file.
-    #[must_use]
     pub(super) fn place(&self, case: Option<&Path>, session: &str, number: usize) -> PathBuf {
         self.0.join(format!("{}{session}-{number}.{ENDING}", stem(case)))
     }
@@ -179,15 +154,15 @@ impl Journals {
         let (mut journals, mut notices) = (Vec::new(), Vec::new());
         for path in self.named(&stem(case)) {
             match read_file(&path) {
-                Ok(Some(Ok(journal))) if journal.is_of(case, stamp) => {
-                    journals.push((path, journal));
+                Ok(journal) if journal.is_of(case, stamp) => journals.push((path, journal)),
+                Err(error) if error.kind() == ErrorKind::InvalidData => {
+                    notices.push(set_aside(&path));
                 }
-                Ok(Some(Err(fault))) => notices.push(set_aside(&path, fault)),
-                Ok(_) => {}
-                Err(error) => {
+                Err(error) if error.kind() != ErrorKind::WouldBlock => {
                     let path = shown(&path);
                     notices.push(format!("unsaved edits in {path} cannot be read: {error}"));
                 }
+                _ => {}
             }
         }
         journals.sort_by_key(|(_, journal)| std::cmp::Reverse(journal.written));
@@ -221,19 +196,16 @@ impl Journals {
     }
 
     fn all_left_behind(&self) -> impl Iterator<Item = (PathBuf, Journal)> {
-        self.named("").into_iter().filter_map(|path| {
-            let journal = read_file(&path).ok()??.ok()?;
-            Some((path, journal))
-        })
+        let paths = self.named("").into_iter();
+        paths.filter_map(|path| read_file(&path).ok().map(|journal| (path, journal)))
     }
 
     fn named(&self, start: &str) -> Vec<PathBuf> {
         let entries = fs::read_dir(&self.0).into_iter().flatten().flatten();
         let fits = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            !name.starts_with('.')
-                && name.starts_with(start)
-                && path.extension().is_some_and(|ending| ending == ENDING)
+            let is_journal = path.extension().is_some_and(|ending| ending == ENDING);
+            is_journal && name.starts_with(start) && !name.starts_with('.')
         };
         let mut paths: Vec<_> = entries.map(|entry| entry.path()).filter(fits).collect();
         paths.sort();
@@ -279,15 +251,13 @@ impl JournalWriter {
         Ok(writer)
     }
 
-    /// Sets the content of a journal.
-    pub(crate) fn put(&self, path: &Path, journal: Journal) {
-        locked(&self.entries).entry(path.to_owned()).or_default().wanted = Some(journal);
-    }
-
-    /// Deletes a journal.
-    pub(crate) fn delete(&self, path: &Path) {
-        locked(&self.entries).entry(path.to_owned()).or_default().wanted = None;
-        self.ring();
+    /// Sets the content of a journal; without content it is deleted.
+    pub(crate) fn put(&self, path: &Path, journal: Option<Journal>) {
+        let is_deleted = journal.is_none();
+        locked(&self.entries).entry(path.to_owned()).or_default().wanted = journal;
+        if is_deleted {
+            self.ring();
+        }
     }
 
     /// Wakes the thread, which writes every changed journal.
@@ -298,23 +268,20 @@ impl JournalWriter {
     }
 
     /// Writes every changed journal now. A journal survives the end of the process; a `lasting`
-    /// write is flushed to the disk and also survives a power failure.
+    /// write is flushed to the disk and also survives a power failure. After an error the other
+    /// journals are written nevertheless.
     ///
     /// # Errors
-    /// The first error; the other journals are written nevertheless.
+    /// The first error.
     pub fn write(&self, lasting: bool) -> io::Result<()> {
         let _one_at_a_time = locked(&self.write_lock);
-        let entries = locked(&self.entries);
-        let changed: Vec<_> = entries
-            .iter()
-            .filter(|(_, entry)| {
-                let written = entry.written.as_ref().map(|(journal, _)| journal);
-                // An earlier session may have written the file.
-                entry.wanted.is_none() || entry.wanted.as_ref() != written
-            })
-            .map(|(path, entry)| (path.clone(), entry.wanted.clone()))
-            .collect();
-        drop(entries);
+        let changed = |(path, entry): (&PathBuf, &Entry)| {
+            let written = entry.written.as_ref().map(|(journal, _)| journal);
+            // An earlier session may have written the file of a journal that is not wanted.
+            let is_known = entry.wanted.is_some() && entry.wanted.as_ref() == written;
+            (!is_known).then(|| (path.clone(), entry.wanted.clone()))
+        };
+        let changed: Vec<_> = locked(&self.entries).iter().filter_map(changed).collect();
         let mut result = Ok(());
         for (path, wanted) in changed {
             let written = match wanted {
@@ -322,7 +289,7 @@ impl JournalWriter {
                     write_file(&path, &journal, lasting).map(|file| Some((journal, file)))
                 }
                 None => match fs::remove_file(&path) {
-                    Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+                    Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
                     _ => Ok(None),
                 },
             };
@@ -339,7 +306,6 @@ impl JournalWriter {
     }
 
     /// Whether any journal contains edits that no file has.
-    #[must_use]
     pub fn is_needed(&self) -> bool {
         locked(&self.entries).values().any(|entry| entry.wanted.is_some())
     }
@@ -363,36 +329,32 @@ fn write_file(path: &Path, journal: &Journal, lasting: bool) -> io::Result<File>
     file.persist(path).map_err(|error| error.error)
 }
 
-fn line_of<'t>(text: &'t str, key: &str) -> Option<(&'t str, &'t str)> {
-    text.strip_prefix(key)?.split_once('\n')
-}
-
-/// Reads a journal; `None` if a running session writes it, the inner error if the file is none.
-fn read_file(path: &Path) -> io::Result<Option<Result<Journal, &'static str>>> {
-    if !fs::symlink_metadata(path)?.is_file() {
-        return Ok(Some(Err(NOT_ONE)));
+/// Reads a journal. The error is `WouldBlock` if a running session writes it, and `InvalidData` if
+/// the file is damaged or no journal of this version.
+fn read_file(path: &Path) -> io::Result<Journal> {
+    let is_file = fs::symlink_metadata(path)?.is_file();
+    let mut text = String::new();
+    if is_file {
+        let file = File::open(path)?;
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(ErrorKind::WouldBlock.into());
+        }
+        file.take(MOST_BYTES).read_to_string(&mut text)?;
     }
-    let file = File::open(path)?;
-    if let Err(TryLockError::WouldBlock) = file.try_lock() {
-        return Ok(None);
-    }
-    let mut bytes = Vec::new();
-    file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes)?;
-    if bytes.len() > MOST_BYTES {
-        return Ok(Some(Err(NOT_ONE)));
-    }
-    let text = String::from_utf8(bytes).map_err(|_| DAMAGED);
-    Ok(Some(text.and_then(|text| Journal::from_text(&text))))
+    Journal::from_text(&text).ok_or_else(|| ErrorKind::InvalidData.into())
 }
 
 // Returns the message. A journal that cannot be moved remains and is reported again.
-fn set_aside(path: &Path, fault: &str) -> String {
+fn set_aside(path: &Path) -> String {
     let free = (1..100)
         .map(|number| path.with_extension(format!("damaged-{number}")))
         .find(|name| fs::symlink_metadata(name).is_err());
     let moved = free.filter(|name| fs::rename(path, name).is_ok());
     let place = shown(moved.as_deref().unwrap_or(path));
-    format!("unsaved edits of this case cannot be restored: {fault}; the file is now {place}")
+    format!(
+        "unsaved edits of this case cannot be restored: the journal is damaged or of a newer \
+         version; the file is now {place}"
+    )
 }
 
 fn shown(path: &Path) -> String {
@@ -440,7 +402,7 @@ mod tests {
             Journal { case: Some(sharing::path_from_bytes(vec![b'/', 0xff, b'a'])), ..journal() };
         let fresh = Journal { case: None, changes: Vec::new(), ..journal() };
         for journal in [journal(), other, fresh] {
-            assert_eq!(Journal::from_text(&journal.to_text().expect("TOML")), Ok(journal));
+            assert_eq!(Journal::from_text(&journal.to_text().expect("TOML")), Some(journal));
         }
     }
 
@@ -448,15 +410,15 @@ mod tests {
     fn no_journal_that_is_cut_or_changed_is_trusted() {
         let text = journal().to_text().expect("TOML");
         for (at, _) in text.char_indices() {
-            assert!(Journal::from_text(&text[..at]).is_err(), "cut at {at}");
+            assert!(Journal::from_text(&text[..at]).is_none(), "cut at {at}");
             let changed: String = text
                 .char_indices()
                 .map(|(own, letter)| if own == at { '~' } else { letter })
                 .collect();
-            assert!(Journal::from_text(&changed).is_err() || changed == text, "changed at {at}");
+            assert!(Journal::from_text(&changed).is_none() || changed == text, "changed at {at}");
         }
-        assert!(Journal::from_text(&(text.clone() + "\n")).is_err());
-        assert!(Journal::from_text(&text.replace('\n', "\r\n")).is_err());
+        assert!(Journal::from_text(&(text.clone() + "\n")).is_none());
+        assert!(Journal::from_text(&text.replace('\n', "\r\n")).is_none());
     }
 
     #[test]
@@ -471,10 +433,9 @@ mod tests {
     }
 
     #[test]
-    fn a_newer_journal_is_refused_by_its_version() {
+    fn a_newer_journal_is_not_read() {
         let newer = journal().to_text().expect("TOML").replace("format = 1", "format = 2");
-        assert_eq!(Journal::from_text(&newer), Err(NEWER));
-        assert_eq!(Journal::from_text("format = 1\n"), Err(NOT_ONE));
+        assert_eq!(Journal::from_text(&newer), None);
     }
 
     #[test]
@@ -519,7 +480,7 @@ mod tests {
         for round in 0..20 {
             let writer = JournalWriter::default();
             for path in &paths {
-                writer.put(path, journal());
+                writer.put(path, Some(journal()));
             }
             std::thread::scope(|scope| {
                 let first = scope.spawn(|| writer.write(false));
@@ -527,7 +488,7 @@ mod tests {
                     std::thread::yield_now();
                 }
                 for path in &paths {
-                    writer.delete(path);
+                    writer.put(path, None);
                 }
                 first.join().expect("no panic").expect("a write");
             });
@@ -543,11 +504,11 @@ mod tests {
         let path = folder.path().join("one.toml");
         let writer = JournalWriter::default();
         for edits in [journal(), Journal { changes: Vec::new(), ..journal() }] {
-            writer.put(&path, edits);
+            writer.put(&path, Some(edits));
             writer.write(false).expect("room on the disk");
-            assert!(matches!(read_file(&path), Ok(None)), "it is in use");
+            assert!(read_file(&path).is_err_and(|error| error.kind() == ErrorKind::WouldBlock));
         }
         drop(writer);
-        assert!(matches!(read_file(&path), Ok(Some(Ok(_)))));
+        assert!(read_file(&path).is_ok());
     }
 }

@@ -7,7 +7,6 @@ use crate::case::changes::{self, Change};
 use crate::case::file::{MOST_BYTES, ReadError, SaveError, Saved, followed, read_bytes};
 use crate::case::stamp::Stamp;
 use crate::case::{Case, Document};
-use crate::tui::store::at_home;
 
 const ONLY_SPACING: &str = "Every field is the same: only comments or spacing differ.";
 const ALL_THE_SAME: &str = "The file and the form have the same values.";
@@ -85,13 +84,6 @@ pub(crate) enum Over {
 }
 
 impl Saving {
-    /// Replaces `~` by the home folder, except in the path of the open file.
-    pub(super) fn expand(&mut self) {
-        if self.over != Over::Own {
-            self.path = at_home(&self.path);
-        }
-    }
-
     /// Writes the case. The caller must have the lock.
     pub(super) fn write(&self) -> Result<Box<Written>, SaveFault> {
         let path = &self.path;
@@ -99,72 +91,56 @@ impl Saving {
         let mut document = self.document.clone();
         let result = match self.over {
             // The write refuses a pipe or a device without a question.
-            Over::Nothing if is_there => return Err(SaveFault::Exists(self.occupied())),
+            Over::Nothing if is_there => return Err(self.conflict(false)),
             Over::Seen(seen) if is_there && stamp_of(path) != seen => {
-                let is_own = document.path() == followed(path).ok().as_deref();
-                return Err(if is_own {
-                    SaveFault::Changed(self.changed())
-                } else {
-                    SaveFault::Exists(self.occupied())
-                });
+                return Err(self.conflict(document.path() == followed(path).ok().as_deref()));
             }
             Over::Seen(_) => document.save_over(path),
             Over::Nothing | Over::Own => document.save(path),
         };
         match result {
             Ok(saved) => Ok(Box::new(Written { document, saved })),
-            Err(SaveError::ChangedOnDisk(_)) => Err(SaveFault::Changed(self.changed())),
-            Err(SaveError::AlreadyThere(_)) => Err(SaveFault::Exists(self.occupied())),
+            Err(SaveError::ChangedOnDisk(_)) => Err(self.conflict(true)),
+            Err(SaveError::AlreadyThere(_)) => Err(self.conflict(false)),
             Err(other) => Err(SaveFault::Failed(other.to_string())),
         }
     }
 
-    /// The differences of the file from the form: one line per field with a remark, or `same`.
-    fn differences(&self, same: &str, remark: impl Fn(&Change) -> String) -> Found {
+    /// Why the file is not overwritten: its own file was changed, or another file exists; with one
+    /// line per field that differs from the form.
+    fn conflict(&self, is_own: bool) -> SaveFault {
         // The stamp first: a change before the next line then asks again.
         let stamp = stamp_of(&self.path);
-        let theirs = match Document::read_draft(&self.path) {
-            Ok(theirs) => theirs.case,
+        let mut lines = match Document::read_draft(&self.path) {
+            Ok(theirs) => {
+                let line = |change: Change| {
+                    let (there, here) =
+                        (shown(change.from.as_deref()), shown(change.to.as_deref()));
+                    let before = changes::text_of(self.document.loaded(), &change.key);
+                    let by = match (before == change.from, before == change.to) {
+                        _ if !is_own => "",
+                        (true, _) => " (changed in the form)",
+                        (_, true) => " (changed in the file)",
+                        (false, false) => " (changed in both)",
+                    };
+                    let label = changes::label(&change.key);
+                    format!("{label}: {there} in the file, {here} in the form{by}")
+                };
+                changes::between(&theirs.case, &self.document.case).into_iter().map(line).collect()
+            }
             Err(error) => {
                 let is_case = !matches!(error, ReadError::Bad(_) | ReadError::NewerFormat(_));
                 let error = error.to_string();
                 let first = error.lines().next().unwrap_or_default();
                 let cause = if is_case { "" } else { "It is not a valid case: " };
-                return Found { stamp, lines: vec![format!("{cause}{first}")] };
+                vec![format!("{cause}{first}")]
             }
         };
-        let lines = changes::between(&theirs, &self.document.case).into_iter().map(|change| {
-            let (there, here) = (shown(change.from.as_deref()), shown(change.to.as_deref()));
-            format!(
-                "{}: {there} in the file, {here} in the form{}",
-                changes::label(&change.key),
-                remark(&change)
-            )
-        });
-        let mut lines: Vec<_> = lines.collect();
         if lines.is_empty() {
-            lines.push(same.to_owned());
+            lines.push(if is_own { ONLY_SPACING } else { ALL_THE_SAME }.to_owned());
         }
-        Found { stamp, lines }
-    }
-
-    fn occupied(&self) -> Found {
-        self.differences(ALL_THE_SAME, |_| String::new())
-    }
-
-    fn changed(&self) -> Found {
-        self.differences(ONLY_SPACING, |change| self.by_whom(change))
-    }
-
-    /// Where the field was changed since the document was read.
-    fn by_whom(&self, change: &Change) -> String {
-        let before = changes::text_of(self.document.loaded(), &change.key);
-        let by = match (before == change.from, before == change.to) {
-            (true, _) => "changed in the form",
-            (_, true) => "changed in the file",
-            (false, false) => "changed in both",
-        };
-        format!(" ({by})")
+        let found = Found { stamp, lines };
+        if is_own { SaveFault::Changed(found) } else { SaveFault::Exists(found) }
     }
 }
 
@@ -223,13 +199,11 @@ pub struct Offer {
 
 impl Claim {
     /// A claim without offers and notices.
-    #[must_use]
     pub fn of(id: usize, access: Access) -> Claim {
         Claim { id, access, offers: Vec::new(), notices: Vec::new() }
     }
 
     /// Whether the claim has no message for the user.
-    #[must_use]
     pub(crate) fn is_silent(&self) -> bool {
         self.access == Access::Own && self.offers.is_empty() && self.notices.is_empty()
     }
@@ -237,13 +211,11 @@ impl Claim {
 
 impl Access {
     /// The initial access to a document.
-    #[must_use]
     pub(crate) fn of(document: &Document) -> Access {
         if document.is_newer() { Access::Newer } else { Access::Own }
     }
 
     /// The mark beside the name of the case.
-    #[must_use]
     pub(crate) fn mark(&self) -> &'static str {
         match self {
             Access::Own => "",
@@ -253,7 +225,6 @@ impl Access {
 }
 
 /// A change on one line: the present value and the new one.
-#[must_use]
 pub(crate) fn line(change: &Change) -> String {
     format!(
         "{}: {} -> {}",
@@ -264,7 +235,6 @@ pub(crate) fn line(change: &Change) -> String {
 }
 
 /// The first changes on one line, and the number of the others.
-#[must_use]
 pub(crate) fn summary(changes: &[Change]) -> String {
     const MOST: usize = 3;
     let first: Vec<_> = changes.iter().take(MOST).map(line).collect();
@@ -274,7 +244,6 @@ pub(crate) fn summary(changes: &[Change]) -> String {
 }
 
 /// A text cut to one short line; `(empty)` without a text.
-#[must_use]
 pub(crate) fn shown(text: Option<&str>) -> String {
     const MOST: usize = 40;
     match text {

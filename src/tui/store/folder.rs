@@ -136,7 +136,6 @@ fn is_case(file: &Path) -> bool {
 }
 
 /// Lists a folder with this path.
-#[must_use]
 pub fn list(asked: (PathBuf, String), place: PathBuf) -> Listing {
     let folder = fs::canonicalize(&place).or_else(|_| path::absolute(&place)).unwrap_or(place);
     let entries = entries(&folder, &beneath(&asked.0, &asked.1));
@@ -157,7 +156,6 @@ pub(crate) fn place_of(base: &Path, typed: &str) -> PathBuf {
 }
 
 /// The path of a text typed into a browser of `base`; `~` and `/` make it absolute.
-#[must_use]
 pub fn beneath(base: &Path, typed: &str) -> PathBuf {
     if typed.starts_with('~') { PathBuf::from(typed) } else { base.join(typed) }
 }
@@ -174,7 +172,6 @@ fn entries(folder: &Path, shown: &Path) -> Result<Vec<Entry>, String> {
 
 /// Searches for cases below a folder with this path; returns `None` if `go_on` returns false. Skips hidden folders and does not
 /// follow links.
-#[must_use]
 pub fn find(
     asked: (PathBuf, String),
     top: &Path,
@@ -218,7 +215,6 @@ pub fn find(
 }
 
 /// Computes a preview; returns `None` if `go_on` returns false.
-#[must_use]
 pub(crate) fn preview(
     target: &Target,
     system: System,
@@ -232,11 +228,11 @@ pub(crate) fn preview(
         Target::Folder(path) => Some(match entries(&at_home(path), path) {
             Ok(entries) => {
                 let folders = entries.iter().filter(|entry| entry.is_folder()).count();
-                let counted = |count: usize, one: &str| {
-                    if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
-                };
-                let cases = counted(entries.len() - folders, "case");
-                vec![(format!("A folder with {cases}, {}.", counted(folders, "folder")), PLAIN)]
+                let [cases, folders] = [(entries.len() - folders, "case"), (folders, "folder")]
+                    .map(|(count, one)| {
+                        format!("{count} {one}{}", if count == 1 { "" } else { "s" })
+                    });
+                vec![(format!("A folder with {cases}, {folders}."), PLAIN)]
             }
             Err(reason) => of_faults(vec![reason]),
         }),
@@ -244,30 +240,6 @@ pub(crate) fn preview(
             of_document(&example.document(), Path::new(example.name), system, go_on)
         }
     }
-}
-
-fn of_digest(digest: &Digest) -> Preview {
-    let title = if digest.title.is_empty() { "without a title" } else { &digest.title };
-    let mut lines: Preview = vec![
-        (title.to_owned(), |theme| theme.title),
-        (digest.pair.clone(), PLAIN),
-        (digest.load.clone(), PLAIN),
-        (format!("method {}", digest.method), PLAIN),
-        (String::new(), PLAIN),
-        (digest.outcome.clone(), |theme| theme.focus),
-    ];
-    for (standing, text) in &digest.limits {
-        let tone = if standing.holds() { PLAIN } else { PROBLEM };
-        lines.push((format!("{} {text}", standing.word()), tone));
-    }
-    if digest.limits.is_empty() {
-        lines.push(("No limits.".to_owned(), PLAIN));
-    }
-    for note in &digest.notes {
-        lines.push((String::new(), PLAIN));
-        lines.push((format!("Note: {note}"), |theme| theme.note));
-    }
-    lines
 }
 
 fn of_document(
@@ -280,8 +252,28 @@ fn of_document(
     Some(match document.case.inputs() {
         Ok(inputs) => {
             let digest = solve::digest(&document.case, &inputs, system, go_on)?;
-            let newer = is_newer.then(|| ("Newer format: opens read-only.".to_owned(), PROBLEM));
-            newer.into_iter().chain(of_digest(&digest)).collect()
+            let Digest { title, pair, load, method, outcome, limits, notes, .. } = digest;
+            let mut lines = Preview::new();
+            if is_newer {
+                lines.push(("Newer format: opens read-only.".to_owned(), PROBLEM));
+            }
+            let title = if title.is_empty() { "without a title".to_owned() } else { title };
+            lines.push((title, |theme| theme.title));
+            let plain = [pair, load, format!("method {method}"), String::new()];
+            lines.extend(plain.map(|line| (line, PLAIN)));
+            lines.push((outcome, |theme| theme.focus));
+            if limits.is_empty() {
+                lines.push(("No limits.".to_owned(), PLAIN));
+            }
+            for (standing, text) in limits {
+                let tone = if standing.holds() { PLAIN } else { PROBLEM };
+                lines.push((format!("{} {text}", standing.word()), tone));
+            }
+            for note in notes {
+                lines.push((String::new(), PLAIN));
+                lines.push((format!("Note: {note}"), |theme| theme.note));
+            }
+            lines
         }
         Err(problems) if !is_newer => {
             let head: (String, Tone) =

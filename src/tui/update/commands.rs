@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use crossterm::event::{KeyEvent, KeyEventKind};
+use crossterm::event::KeyEvent;
 use ratatui::symbols::Marker;
 use tui_input::InputRequest as Line;
 
@@ -84,19 +84,14 @@ const PLACES: [(&str, Place); 16] = [
 ];
 
 /// The action of a key in a place.
-#[must_use]
 pub fn of_key(event: KeyEvent, place: Place) -> Option<Action> {
-    if event.kind == KeyEventKind::Release {
-        return None;
-    }
     if let Some((command, way)) = called(&keys::name(event), place) {
         return Some(Action::Do(command, way));
     }
-    let letter = keys::letter(event)?;
-    if place.meets(Place::TYPED) {
-        return Some(Action::Insert(letter));
+    match keys::letter(event)? {
+        letter if place.meets(Place::TYPED) => Some(Action::Insert(letter)),
+        letter => place.meets(Place::OUTSIDE).then_some(Action::Stray(letter)),
     }
-    place.meets(Place::OUTSIDE).then_some(Action::Stray(letter))
 }
 
 fn called(key: &str, place: Place) -> Option<(&'static Binding, isize)> {
@@ -187,11 +182,10 @@ impl Context {
             let choice = Choice::of(move |app| panes::show_result(app, key));
             Item::result(choice, quantity, about).ranked(0, of_results)
         });
-        if self.are_results_first {
-            known.chain(fields).collect::<Vec<_>>().into_iter()
-        } else {
-            fields.chain(known).collect::<Vec<_>>().into_iter()
-        }
+        let mut all: Vec<Item> = fields.collect();
+        let at = if self.are_results_first { 0 } else { all.len() };
+        all.splice(at..at, known);
+        all.into_iter()
     }
 
     /// Every field of the form, and every result.
@@ -255,10 +249,6 @@ fn search(app: &mut App) {
     app.pick(picker);
 }
 
-fn palette(app: &mut App) {
-    type_command(app, "");
-}
-
 /// Opens the palette with a typed text.
 fn type_command(app: &mut App, typed: &str) {
     let mut picker = Context::of(app).palette(items(app));
@@ -280,8 +270,10 @@ fn scope(app: &App, name: &str) -> Scope {
         }
         _ => None,
     };
-    if let Some(is_of_row) = is_of_row {
-        return if is_of_row { Scope::Own } else { Scope::Everywhere };
+    match is_of_row {
+        Some(true) => return Scope::Own,
+        Some(false) => return Scope::Everywhere,
+        None => {}
     }
     let is_of_some = |places: Place| !places.holds(Place::OUTSIDE);
     let scope = |binding: &Binding| {
@@ -397,11 +389,12 @@ pub static BINDINGS: &[Binding] = &[
         "Show the free impact and the other methods beside the method of the case, or fold them.").shown_in(Place::RESULTS),
     row(Place::WORK, "Alt-L", "limit", edit::ask_limit,
         "Set a limit on the selected result, or on a result from a list.").shown_in(Place::RESULTS),
-    row(Place::COMMANDED, ":", "commands", palette,
+    row(Place::COMMANDED, ":", "commands", |app| type_command(app, ""),
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
             there.").shown_in(Place::OUTSIDE),
     row(Place::OUTSIDE, "q", "quit", files::quit, "Quit; asks if there are unsaved edits.").shown(),
-    row(Place::OUTSIDE, "?", "help", help_page, "Show this page.").shown(),
+    row(Place::OUTSIDE.or(Place::CHOICE), "?", "help", help_page, "Show this page.")
+        .shown_in(Place::OUTSIDE),
     row(Place::OUTSIDE, "Tab", "next pane", |app| panes::step(app, 1),
         "Go to the next pane.").shown(),
     row(Place::OUTSIDE, "Shift-Tab", "previous pane", |app| panes::step(app, -1),
@@ -434,26 +427,26 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::WORK, "F1 Alt-H", "help", help_page, "Show this page.").shown(),
     row(Place::WORK, "Ctrl-S", "save", files::save_here,
         "Save the case; the file keeps its comments and order.").shown(),
-    row(Place::WORK, "Ctrl-P", "commands", palette,
+    row(Place::WORK, "Ctrl-P", "commands", |app| type_command(app, ""),
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
             there.").shown(),
-    row(Place::WORK, "Ctrl-O", "open", navigation::open_browser,
+    row(Place::WORK, "Ctrl-O", "open", |app| navigation::browse(app, false),
         "Open another case in a tab.").shown(),
     row(Place::WORK, "Ctrl-Q", "quit", files::quit,
         "Quit; asks if there are unsaved edits.").shown(),
     row(Place::FORM, "Esc", LEAVE_FIELD, navigation::leave,
         "Leave the field and keep its value; letters and digits are then commands.").shown(),
-    row(Place::WORK, "Ctrl-T F6", "method", edit::next_method,
+    row(Place::WORK, "Ctrl-T F6", "method", |app| edit::set_method(app, None),
         "Switch the method: paper, exact, static, dynamic, auto.").shown(),
-    row(Place::WORK, "", "method paper", |app| edit::set_method(app, Method::Paper),
+    row(Place::WORK, "", "method paper", |app| edit::set_method(app, Some(Method::Paper)),
         "Use the closed form as printed."),
-    row(Place::WORK, "", "method exact", |app| edit::set_method(app, Method::Exact),
+    row(Place::WORK, "", "method exact", |app| edit::set_method(app, Some(Method::Exact)),
         "Use the closed form with the exact first contact."),
-    row(Place::WORK, "", "method static", |app| edit::set_method(app, Method::Static),
+    row(Place::WORK, "", "method static", |app| edit::set_method(app, Some(Method::Static)),
         "Use the static load sharing of all pairs in contact."),
-    row(Place::WORK, "", "method dynamic", |app| edit::set_method(app, Method::Dynamic),
+    row(Place::WORK, "", "method dynamic", |app| edit::set_method(app, Some(Method::Dynamic)),
         "Use the motion with inertia and damping."),
-    row(Place::WORK, "", "method auto", |app| edit::set_method(app, Method::Auto),
+    row(Place::WORK, "", "method auto", |app| edit::set_method(app, Some(Method::Auto)),
         "Use the fastest of exact, static and dynamic within the tolerance."),
     row(Place::WORK, "Ctrl-Z", "undo", edit::undo, "Undo the last edit.").shown(),
     row(Place::WORK, "F5 Alt-P", "switch", panes::cycle_lower,
@@ -475,7 +468,7 @@ pub static BINDINGS: &[Binding] = &[
         "Start a case from one of the examples."),
     row(Place::WORK, "Alt-T", "Table 1", files::built_in,
         "Show the built-in example, Table 1 of the paper."),
-    row(Place::WORK.or(Place::BROWSE), "Alt-R", "recent cases", navigation::open_recent,
+    row(Place::WORK.or(Place::BROWSE), "Alt-R", "recent cases", |app| navigation::browse(app, true),
         "Open a recent case."),
     row(Place::WORK, "Ctrl-PageDown", "next case", |app| files::step_tab(app, 1),
         "Switch to the next tab."),
@@ -529,7 +522,6 @@ pub static BINDINGS: &[Binding] = &[
     pair(Place::CHOICE, "Right/Left Space", "", edit::cycle, "Select the next or previous choice."),
     row(Place::CHOICE, "Backspace Delete Ctrl-H", "", |app| edit::handle(app, Line::DeleteLine),
         "Remove the choice: the default applies."),
-    row(Place::CHOICE, "?", "", help_page, "Show this page."),
     row(Place::OUTSIDE, "Esc", "", navigation::leave,
         "Stop the running work, hide the cursor or go back to the form; no edit is lost."),
     // In prompts.
@@ -559,9 +551,12 @@ pub static BINDINGS: &[Binding] = &[
         "Close a dialog or stop the running work. Otherwise press twice to quit; asks before \
             unsaved edits are discarded."),
     // In an input line.
-    pair(Place::LINE, "Right/Left", "", edit::move_by_letter, "Move one character right or left."),
-    pair(Place::LINE, "Ctrl-Right/Ctrl-Left Alt-Right/Alt-Left", "", edit::move_by_word,
-        "Move one word right or left."),
+    row(Place::LINE, "Right", "", |app| edit::handle(app, Line::GoToNextChar), "Move one character right."),
+    row(Place::LINE, "Left", "", |app| edit::handle(app, Line::GoToPrevChar), "Move one character left."),
+    row(Place::LINE, "Ctrl-Right Alt-Right", "", |app| edit::handle(app, Line::GoToNextWord),
+        "Move one word right."),
+    row(Place::LINE, "Ctrl-Left Alt-Left", "", |app| edit::handle(app, Line::GoToPrevWord),
+        "Move one word left."),
     row(Place::LINE, "Home Ctrl-A", "", |app| edit::handle(app, Line::GoToStart),
         "Move to the start of the value."),
     row(Place::LINE, "End Ctrl-E", "", |app| edit::handle(app, Line::GoToEnd),
@@ -579,28 +574,26 @@ pub static BINDINGS: &[Binding] = &[
 ];
 
 /// The lines of the help.
-#[must_use]
 pub fn help() -> Vec<String> {
     let mut lines: Vec<String> = ABOUT_KEYS.iter().map(|&line| line.to_owned()).collect();
     lines.extend(["", "Signs"].into_iter().chain(SIGNS).map(str::to_owned));
-    let mut is_listed = vec![false; BINDINGS.len()];
-    for (title, place) in PLACES {
+    // A row is listed in the first of its places.
+    let home = |binding: &Binding| {
+        PLACES.iter().position(|&(_, place)| match place {
+            Place::WORK => binding.places.holds(place),
+            _ => binding.places.meets(place),
+        })
+    };
+    for (at, (title, place)) in PLACES.into_iter().enumerate() {
         lines.extend([String::new(), title.to_owned()]);
-        let is_here = |binding: &Binding| {
-            if place == Place::WORK {
-                binding.places.holds(place)
-            } else {
-                binding.places.meets(place)
-            }
-        };
-        let mut here: Vec<_> =
-            (0..BINDINGS.len()).filter(|&at| !is_listed[at] && is_here(&BINDINGS[at])).collect();
-        for &at in &here {
-            is_listed[at] = true;
-        }
+        let mut here: Vec<_> = BINDINGS.iter().filter(|one| home(one) == Some(at)).collect();
         // Commands of every status line are listed first.
-        here.sort_by_key(|&at| place == Place::WORK && !BINDINGS[at].status.holds(place));
-        lines.extend(here.into_iter().map(|at| help_line(&BINDINGS[at])));
+        here.sort_by_key(|binding| place == Place::WORK && !binding.status.holds(place));
+        lines.extend(here.into_iter().map(|binding| {
+            let name = || format!(":{}", binding.name);
+            let keys = Some(binding.keys()).filter(|keys| !keys.is_empty()).unwrap_or_else(name);
+            format!("  {keys:<24} {}", binding.sentence)
+        }));
     }
     lines
 }
@@ -638,23 +631,19 @@ fn toggle_ascii(app: &mut App) {
 fn cycle_units(app: &mut App) {
     app.settings.units = app.settings.units.other();
     let units = app.settings.units.name();
-    keep_settings(
-        app,
-        &format!("results, hints, charts and teeth in {units} units; the file keeps its own units"),
-    );
+    let what = "results, hints, charts and teeth";
+    keep_settings(app, &format!("{what} in {units} units; the file keeps its own units"));
 }
 
 fn toggle_mouse(app: &mut App) {
     app.settings.mouse = !app.settings.mouse;
     app.want(Effect::Mouse(app.settings.mouse));
-    keep_settings(
-        app,
-        if app.settings.mouse {
-            "the workbench uses the mouse; most terminals still select text with Shift held"
-        } else {
-            "the terminal uses the mouse"
-        },
-    );
+    let words = if app.settings.mouse {
+        "the workbench uses the mouse; most terminals still select text with Shift held"
+    } else {
+        "the terminal uses the mouse"
+    };
+    keep_settings(app, words);
 }
 
 fn keep_settings(app: &mut App, message: &str) {
@@ -686,11 +675,6 @@ const fn pair(
     sentence: &'static str,
 ) -> Binding {
     Binding { keys, places, name, sentence, status: Place::NONE, run: Run::Way(run) }
-}
-
-fn help_line(binding: &Binding) -> String {
-    let keys = if binding.keys.is_empty() { format!(":{}", binding.name) } else { binding.keys() };
-    format!("  {keys:<24} {}", binding.sentence)
 }
 
 #[cfg(test)]

@@ -1,8 +1,6 @@
 //! Edits: typing, which changes the case immediately, selections from lists (a material for a gear,
 //! a limit for a result), and the tip relief to specify.
 
-use std::borrow::Cow;
-
 use tui_input::InputRequest;
 
 use crate::case::fields::{Absent, Kind, index_of};
@@ -14,7 +12,7 @@ use crate::tui::app::App;
 use crate::tui::app::actions::Choice;
 use crate::tui::app::dialogs::picker::{Item, Picker};
 use crate::tui::app::dialogs::{Prompt, ReliefDialog};
-use crate::tui::ascii::{self, symbol};
+use crate::tui::ascii;
 use crate::tui::form_aids::materials::{self, Material};
 use crate::tui::form_aids::step_limit;
 use crate::tui::layout::Pane;
@@ -30,10 +28,10 @@ pub(super) fn insert(app: &mut App, letter: char) {
     if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
         return choose_by_letter(app, letter);
     }
-    let before = (letter.is_ascii_digit() && app.starts_new_edit())
-        .then(|| rows::text(&app.tab.case, app.tab.form.focus).map(str::to_owned));
+    let before = rows::text(&app.tab.case, app.tab.form.focus).map(str::to_owned);
+    let is_announced = letter.is_ascii_digit() && app.starts_new_edit();
     paste(app, letter.encode_utf8(&mut [0; 4]));
-    if let Some(before) = before {
+    if is_announced {
         announce(app, letter, before.as_deref());
     }
 }
@@ -48,12 +46,15 @@ pub(super) fn paste(app: &mut App, text: &str) {
     };
     let Some(line) = line else { return };
     let room = LONGEST.saturating_sub(line.kept());
-    let text = in_a_line(text);
-    let mut letters = text.chars().filter(|&letter| ascii::is_safe(letter)).take(room).peekable();
-    if letters.peek().is_none() {
+    let parts = text.split(['\n', '\r', '\t']);
+    let text = match parts.clone().count() {
+        1 => text.to_owned(),
+        _ => parts.map(str::trim).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" "),
+    };
+    let typed: String = text.chars().filter(|&letter| ascii::is_safe(letter)).take(room).collect();
+    if typed.is_empty() {
         return;
     }
-    let typed: String = letters.collect();
     line.insert(&typed);
     if editing_case {
         write(app);
@@ -77,16 +78,6 @@ pub(super) fn handle(app: &mut App, request: InputRequest) {
     } else if app.tab.form.input.handle(request).is_some_and(|changed| changed.value) {
         write(app);
     }
-}
-
-/// Moves the cursor of a line by a character.
-pub(super) fn move_by_letter(app: &mut App, by: isize) {
-    handle(app, if by > 0 { InputRequest::GoToNextChar } else { InputRequest::GoToPrevChar });
-}
-
-/// Moves the cursor of a line by a word.
-pub(super) fn move_by_word(app: &mut App, by: isize) {
-    handle(app, if by > 0 { InputRequest::GoToNextWord } else { InputRequest::GoToPrevWord });
 }
 
 /// Starts an edit of the focused field: typing replaces its value until the cursor moves.
@@ -161,16 +152,15 @@ pub(super) fn replace(app: &mut App, case: Case) {
 }
 
 pub(super) fn undo(app: &mut App) {
-    let state = app.tab.history.undo(&app.tab.case, app.tab.form.focus);
-    travel(app, state, "undo");
+    travel(app, false, "undo");
 }
 
 pub(super) fn redo(app: &mut App) {
-    let state = app.tab.history.redo(&app.tab.case, app.tab.form.focus);
-    travel(app, state, "redo");
+    travel(app, true, "redo");
 }
 
-fn travel(app: &mut App, state: Option<(Case, usize)>, verb: &str) {
+fn travel(app: &mut App, forwards: bool, verb: &str) {
+    let state = app.tab.history.travel(&app.tab.case, app.tab.form.focus, forwards);
     let Some((case, focus)) = state else {
         return app.say(format!("nothing to {verb}"));
     };
@@ -180,33 +170,23 @@ fn travel(app: &mut App, state: Option<(Case, usize)>, verb: &str) {
     app.say(format!("{verb}: {summary}"));
 }
 
-/// Selects the next method.
-pub(super) fn next_method(app: &mut App) {
+/// Selects a method, otherwise the next one.
+pub(super) fn set_method(app: &mut App, method: Option<Method>) {
     let field = index_of("model.method").unwrap_or_default();
-    choose(app, field, &Method::ALL.map(Method::name), 1);
-    say_method(app, field);
-}
-
-pub(super) fn set_method(app: &mut App, method: Method) {
-    let field = index_of("model.method").unwrap_or_default();
-    set(app, field, method.name());
-    say_method(app, field);
-}
-
-fn say_method(app: &mut App, field: usize) {
+    match method {
+        Some(method) => set(app, field, method.name()),
+        None => choose(app, field, &Method::ALL.map(Method::name), 1),
+    }
     let waits = if app.tab.is_stale() { ", solved once every field is valid" } else { "" };
     app.say(format!("method {}{waits}", chosen(app, field)));
 }
 
 /// Opens the list of materials for the gear of the focused field, otherwise for both gears.
 pub(super) fn ask_material(app: &mut App) {
-    let (gears, title): (&[&str], _) = match rows::row(&app.tab.case, app.tab.form.focus) {
-        Row::Field(field) if FIELDS[field].table() == "driver" => {
-            (&["driver"], "Material of the driver")
-        }
-        Row::Field(field) if FIELDS[field].table() == "driven" => {
-            (&["driven"], "Material of the driven gear")
-        }
+    let table = rows::field(&app.tab.case, app.tab.form.focus).map(Field::table);
+    let (gears, title): (&[&str], _) = match table {
+        Some("driver") => (&["driver"], "Material of the driver"),
+        Some("driven") => (&["driven"], "Material of the driven gear"),
         _ => (&["driver", "driven"], "Material of both gears"),
     };
     let item = |material: &'static Material| {
@@ -225,27 +205,40 @@ fn make_of_material(app: &mut App, gears: &[&str], material: &Material) {
     if let Err(problem) = made {
         return app.complain(problem.for_form().to_string());
     }
-    let is_other = case != app.tab.case;
+    let verb = if case == app.tab.case { "unchanged, from" } else { "from" };
     replace(app, case);
     let whose = if let [gear] = gears { gear } else { "both gears" };
-    let verb = if is_other { "from" } else { "unchanged, from" };
-    app.say(format!("{whose}: {} {verb} {}", assignments(app, material), material.name));
+    let values = material.texts().map(|(name, text)| {
+        let symbol =
+            FIELDS.iter().find(|field| field.name() == name).map_or("", |field| field.symbol);
+        let name = symbol.trim_end_matches(|c: char| c.is_ascii_digit());
+        format!("{} {text}", ascii::symbol(name, app.look.ascii))
+    });
+    app.say(format!("{whose}: {} {verb} {}", values.join(", "), material.name));
 }
 
 /// Sets a limit on the selected result if the results have the focus, otherwise opens the list of
 /// results.
 pub(super) fn ask_limit(app: &mut App) {
-    if let Some(quantity) = app.results().marked().filter(|_| app.layout.focus() == Pane::Results) {
-        return hold_limit(app, quantity);
+    match app.results().marked().filter(|_| app.layout.focus() == Pane::Results) {
+        Some(quantity) => hold_limit(app, quantity),
+        None => app.pick(Picker::results("Set a limit on a result", hold_limit)),
     }
-    app.pick(Picker::results("Set a limit on a result", hold_limit));
 }
 
 /// Goes to the limit of a quantity; a new limit starts with the present value of the quantity.
 fn hold_limit(app: &mut App, quantity: &'static Quantity) {
     if rows::of_limit(&app.tab.case, quantity.key).is_none() {
+        // The printed value of the quantity, rounded up so that the limit is met.
+        let value = app.tab.solution().and_then(|solution| report::value(quantity, solution));
+        let begin = |value: f64| {
+            let text = report::shown_in(quantity, value, app.settings.units).to_string();
+            let is_below = Limit::new(quantity.key, &text).is_ok_and(|limit| limit.value < value);
+            let raised = step_limit(&text, quantity.key, 1).filter(|_| is_below);
+            raised.unwrap_or(text)
+        };
         let mut case = app.tab.case.clone();
-        case.write_limit(quantity.key, &beginning_of_limit(app, quantity));
+        case.write_limit(quantity.key, &value.map(begin).unwrap_or_default());
         replace(app, case);
     }
     app.layout.focus_on(Pane::Form);
@@ -302,29 +295,12 @@ fn announce(app: &mut App, digit: char, before: Option<&str>) {
     let earlier = app.message.take();
     let earlier = earlier.map_or_else(String::new, |message| message.text + ". ");
     let label = rows::full_label(&app.tab.case, app.tab.form.focus);
-    let edit = match before {
-        Some(_) => {
-            let text = save::shown(before);
-            format!("{label}: {digit} replaces {text}. Ctrl-Z restores {text}")
-        }
-        None => format!("{label}: {digit} starts a value. Ctrl-Z removes {digit}"),
+    let edit = match save::shown(before) {
+        text if before.is_some() => format!("{digit} replaces {text}. Ctrl-Z restores {text}"),
+        _ => format!("{digit} starts a value. Ctrl-Z removes {digit}"),
     };
-    let pane = Pane::of_digit(digit)
-        .map_or_else(String::new, |pane| format!("; Esc {digit} shows {}", pane.name()));
-    app.say(format!("{earlier}{edit}{pane}"));
-}
-
-fn in_a_line(text: &str) -> Cow<'_, str> {
-    const BREAKS: [char; 3] = ['\n', '\r', '\t'];
-    if !text.contains(BREAKS) {
-        return text.into();
-    }
-    text.split(BREAKS)
-        .map(str::trim)
-        .filter(|part| !part.is_empty())
-        .collect::<Vec<_>>()
-        .join(" ")
-        .into()
+    let pane = Pane::of_digit(digit).map(|pane| format!("; Esc {digit} shows {}", pane.name()));
+    app.say(format!("{earlier}{label}: {edit}{}", pane.unwrap_or_default()));
 }
 
 /// The choices of the focused row.
@@ -371,11 +347,8 @@ fn completed(app: &App) -> String {
 // Of two fields that exclude each other, the edited one applies. Once it is empty again, the value
 // of the other is restored. The status line reports this during typing.
 fn take_turns(app: &mut App, field: usize, other: usize) {
-    let Some(before) =
-        app.tab.history.before_visit().and_then(|before| before.text(other)).map(str::to_owned)
-    else {
-        return;
-    };
+    let before = app.tab.history.before_visit().and_then(|before| before.text(other));
+    let Some(before) = before.map(str::to_owned) else { return };
     let (this, that) = (FIELDS[field].label, FIELDS[other].label);
     if app.tab.case.text(field).is_some() {
         app.tab.case.write(other, "");
@@ -389,27 +362,4 @@ fn take_turns(app: &mut App, field: usize, other: usize) {
 fn checked(app: &mut App) {
     app.solve();
     app.follow();
-}
-
-// The values that a material sets, with their symbols.
-fn assignments(app: &App, material: &Material) -> String {
-    let values = material.texts().map(|(name, text)| {
-        let field = FIELDS.iter().find(|field| field.name() == name);
-        let name =
-            field.map_or("", |field| field.symbol.trim_end_matches(|c: char| c.is_ascii_digit()));
-        format!("{} {text}", symbol(name, app.look.ascii))
-    });
-    values.join(", ")
-}
-
-// The printed value of the quantity, rounded up so that the limit is met.
-fn beginning_of_limit(app: &App, quantity: &'static Quantity) -> String {
-    let value = app.tab.solution().and_then(|solution| report::value(quantity, solution));
-    let Some(value) = value else {
-        return String::new();
-    };
-    let text = report::shown_in(quantity, value, app.settings.units).to_string();
-    let is_below = Limit::new(quantity.key, &text).is_ok_and(|limit| limit.value < value);
-    let raised = step_limit(&text, quantity.key, 1).filter(|_| is_below);
-    raised.unwrap_or(text)
 }

@@ -16,8 +16,6 @@ use crate::tui::app::App;
 use crate::tui::app::actions::{Choice, Content, Effect, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::question::{PathDialog, Question};
-use crate::tui::ascii;
-use crate::tui::keys::Place;
 use crate::tui::layout::Pane;
 use crate::tui::line::Line;
 use crate::tui::panes::chart;
@@ -50,13 +48,8 @@ pub(super) fn ask(app: &mut App) {
     let beside = app.tab.path.as_deref().unwrap_or(Path::new("case.toml"));
     let input = Line::named(beside.with_extension(ending).display().to_string());
     let done = |app: &mut App, name: &str, _| begin(app, name.trim().into(), false);
-    app.prompts.push(Prompt::Path(PathDialog {
-        title: EXPORT,
-        how: HOW,
-        input,
-        next: Next::Stay,
-        done,
-    }));
+    let next = Next::Stay;
+    app.prompts.push(Prompt::Path(PathDialog { title: EXPORT, how: HOW, input, next, done }));
 }
 
 /// Starts the export.
@@ -68,7 +61,7 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) {
         return;
     }
     if let Some(running) = &app.exporting {
-        let running = ascii::printable(&running.display().to_string()).into_owned();
+        let running = running.display();
         return app.complain(format!("the export to {running} still runs: wait for its end"));
     }
     let (subject, content) = match content(app, &path) {
@@ -80,14 +73,15 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) {
     app.exporting = Some(path);
     app.say("exporting");
     let write = move |running: &Running<'_>| {
-        Some((running.path.to_owned(), write(content, replaces, running)))
+        let path = running.path.to_owned();
+        let found = write(&path, content, replaces, running);
+        Some((path, found))
     };
     let (own, failed) = (target.clone(), subject.clone());
-    let internal = || Err(ExportFault::Failed("internal error".to_owned()));
     let work =
         Work::new(Slot::Export, write, move |app, (path, found)| done(app, &path, &subject, found));
-    let work = work.or(move |app| done(app, &own, &failed, internal()));
-    app.start(work.at(target));
+    let internal = || Err(Some("internal error".to_owned()));
+    app.start(work.or(move |app| done(app, &own, &failed, internal())).at(target));
 }
 
 /// The subject of an export, and its content.
@@ -125,25 +119,6 @@ fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
     Ok((subject, Box::new(content)))
 }
 
-/// Why an export failed.
-enum ExportFault {
-    /// The file exists.
-    Exists,
-    /// Another fault, as a sentence.
-    Failed(String),
-}
-
-fn write(content: Content, replaces: bool, running: &Running<'_>) -> Result<(), ExportFault> {
-    if !replaces && running.path.symlink_metadata().is_ok() {
-        return Err(ExportFault::Exists);
-    }
-    let text = content(running).map_err(ExportFault::Failed)?;
-    file::write(running.path, text.as_bytes(), replaces).map_err(|error| match error {
-        SaveError::AlreadyThere(_) => ExportFault::Exists,
-        error => ExportFault::Failed(error.to_string()),
-    })
-}
-
 fn refused(refusal: &Refusal) -> String {
     format!("{refusal}: {}", refusal.fix())
 }
@@ -163,59 +138,81 @@ fn report_text(
     exports::render(format, &[subject], &Settings::default()).map_err(|error| error.to_string())
 }
 
+/// Writes the content. The error is the reason, or `None` if the file exists.
+fn write(
+    path: &Path,
+    content: Content,
+    replaces: bool,
+    running: &Running<'_>,
+) -> Result<(), Option<String>> {
+    if !replaces && path.symlink_metadata().is_ok() {
+        return Err(None);
+    }
+    let text = content(running).map_err(Some)?;
+    file::write(path, text.as_bytes(), replaces).map_err(|error| match error {
+        SaveError::AlreadyThere(_) => None,
+        error => Some(error.to_string()),
+    })
+}
+
 /// Reports the result of an export.
-fn done(app: &mut App, path: &Path, subject: &str, result: Result<(), ExportFault>) {
+fn done(app: &mut App, path: &Path, subject: &str, result: Result<(), Option<String>>) {
     app.exporting = None;
     app.close_titled(EXPORT_RUNS);
+    let path = path.to_owned();
     match result {
         Ok(()) => {
             app.close_titled(EXPORT);
             app.say(format!("exported{subject} to {}", path.display()));
         }
-        Err(ExportFault::Exists) => {
+        Err(None) => {
             app.message = None;
-            let own = path.to_owned();
-            let over = Choice::of(move |app| begin(app, own.clone(), true));
             let text = format!("{} exists. Overwrite replaces it with the export.", path.display());
+            let over = Choice::of(move |app| begin(app, path.clone(), true));
             let buttons = [("Overwrite", over), ("Cancel", Choice::none())];
             app.ask(Question::new("The file exists", text, buttons));
         }
-        Err(ExportFault::Failed(reason)) => app.complain(format!("not exported: {reason}")),
+        Err(Some(reason)) => app.complain(format!("not exported: {reason}")),
     }
 }
 
 /// Copies the focused value: in the form its text, in chart and teeth the reading at the cursor, in
 /// the study the command that repeats it, otherwise the selected result.
 pub(super) fn copy_value(app: &mut App) {
-    if app.layout.focus() == Pane::Form {
-        let text = match rows::row(&app.tab.case, app.tab.form.focus) {
-            Row::Field(field) => app.tab.case.effective(field).unwrap_or_default().to_owned(),
-            Row::Limit(limit) => limit.text.clone(),
-        };
-        let label = rows::full_label(&app.tab.case, app.tab.form.focus);
-        return copy(app, text, &label);
-    }
-    if Place::CURSOR.meets(app.layout.focus().place()) {
-        let Some(cursor) = app.cursor else {
-            return app.complain("no cursor and no value to copy: h and l show the cursor");
-        };
-        let reading = chart::readout(&app.charts(), cursor);
-        return copy(app, reading, "the reading at the cursor");
-    }
-    if app.layout.focus() == Pane::Study {
-        return match studies::command(app) {
-            Ok(command) => copy(app, command, "the command of the study"),
-            Err(reason) => app.complain(reason),
-        };
-    }
-    let Some(quantity) = app.results().marked() else {
-        return app.complain("there are no results to copy");
+    let (case, row) = (&app.tab.case, app.tab.form.focus);
+    let found = match app.layout.focus() {
+        Pane::Form => {
+            let text = match rows::row(case, row) {
+                Row::Field(field) => case.effective(field).unwrap_or_default(),
+                Row::Limit(limit) => &limit.text,
+            };
+            Ok((text.to_owned(), rows::full_label(case, row)))
+        }
+        Pane::Chart | Pane::Teeth => match app.cursor {
+            Some(cursor) => {
+                Ok((chart::readout(&app.charts(), cursor), "the reading at the cursor".to_owned()))
+            }
+            None => Err("no cursor and no value to copy: h and l show the cursor".to_owned()),
+        },
+        Pane::Study => {
+            studies::command(app).map(|command| (command, "the command of the study".to_owned()))
+        }
+        Pane::Results | Pane::Trade => {
+            let quantity = app.results().marked();
+            let found = quantity.map(|quantity| {
+                let value = app.tab.solution();
+                let value = value.and_then(|solution| report::value(quantity, solution));
+                let shown = |value| report::shown_in(quantity, value, app.settings.units);
+                let text = value.map(|value| shown(value).to_string());
+                (text.unwrap_or_default(), quantity.label.trim().to_owned())
+            });
+            found.ok_or_else(|| "there are no results to copy".to_owned())
+        }
     };
-    let value = app.tab.solution().and_then(|solution| report::value(quantity, solution));
-    let text = value
-        .map(|value| report::shown_in(quantity, value, app.settings.units).to_string())
-        .unwrap_or_default();
-    copy(app, text, quantity.label.trim());
+    match found {
+        Ok((text, what)) => copy(app, text, &what),
+        Err(reason) => app.complain(reason),
+    }
 }
 
 /// Requests the report of the active method as Markdown: title, verdict, inputs, and results with
@@ -224,13 +221,8 @@ pub(super) fn copy_results(app: &mut App) {
     let Some((answer, solution)) = app.tab.answer.as_ref().zip(app.tab.present()) else {
         return app.complain("there are no valid results to copy");
     };
-    let report = Report::of(
-        app.tab.name(),
-        app.tab.case.clone(),
-        answer.inputs.clone(),
-        solution.clone(),
-        Selection::default(),
-    );
+    let (name, case, inputs) = (app.tab.name(), app.tab.case.clone(), answer.inputs.clone());
+    let report = Report::of(name, case, inputs, solution.clone(), Selection::default());
     let file = app.tab.as_edited().render();
     app.say("preparing the report of the results");
     let markdown = |_: &Running<'_>| {
@@ -245,23 +237,20 @@ pub(super) fn copy_results(app: &mut App) {
 
 /// The picture of the focused pane, otherwise of the visible chart, otherwise of the visible teeth.
 fn picture(app: &App) -> Option<Picture> {
-    let plan = app.layout.plan();
-    let is_visible = |pane: &Pane| plan.shows(*pane);
-    let focused = Some(app.layout.focus()).filter(|pane| matches!(pane, Pane::Chart | Pane::Teeth));
-    let visible = || [Pane::Chart, Pane::Teeth].into_iter().find(is_visible);
-    find(match focused.or_else(visible)? {
-        Pane::Teeth => "teeth",
-        _ => app.chart.key(),
-    })
+    let (plan, focus) = (app.layout.plan(), app.layout.focus());
+    let panes = [focus, Pane::Chart, Pane::Teeth].into_iter();
+    let mut pictures = panes.filter(|pane| matches!(pane, Pane::Chart | Pane::Teeth));
+    let pane = pictures.find(|pane| *pane == focus || plan.shows(*pane))?;
+    find(if pane == Pane::Teeth { "teeth" } else { app.chart.key() })
 }
 
 fn refuse_faulty(app: &mut App) -> bool {
-    let Some(&(field, _)) = app.tab.problems.first() else {
-        return false;
-    };
-    app.focus_on(field);
-    app.complain("not exported: complete the fields marked with ! or as required first");
-    true
+    let faulty = app.tab.problems.first().map(|(row, _)| *row);
+    if let Some(row) = faulty {
+        app.focus_on(row);
+        app.complain("not exported: complete the fields marked with ! or as required first");
+    }
+    faulty.is_some()
 }
 
 fn copy(app: &mut App, text: String, what: &str) {
@@ -274,11 +263,6 @@ fn copy(app: &mut App, text: String, what: &str) {
             "{what}: {bytes} bytes are too long for the clipboard of a terminal"
         ));
     }
-    let copied = if text.lines().count() > 1 {
-        what.to_owned()
-    } else {
-        ascii::printable(&text).into_owned()
-    };
-    app.say(format!("copied {copied}"));
+    app.say(format!("copied {}", if text.lines().count() > 1 { what } else { &text }));
     app.want(Effect::Copy(text));
 }

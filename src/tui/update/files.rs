@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{edit, export, key_of, studies};
+use super::{edit, export, key_of};
 use crate::case::file::Saved;
 use crate::case::{Case, Document, EXAMPLES, Example, rexs};
 use crate::model::Stages;
@@ -20,7 +20,7 @@ use crate::tui::session::save::{
 };
 use crate::tui::store::folder::Target;
 use crate::tui::tab::{Origin, Tab};
-use crate::tui::{ascii, rows, store};
+use crate::tui::{rows, store};
 
 const UNSAVED: &str = "Unsaved edits";
 const SAVE_AS: &str = "Save as";
@@ -30,21 +30,16 @@ const HOW: &str =
 /// Quits, or asks if there are unsaved edits.
 pub(super) fn quit(app: &mut App) {
     let unsaved: Vec<_> = app.tabs().filter(|tab| tab.is_unsaved()).map(Tab::name).collect();
-    let first = app.tabs().position(Tab::is_unsaved);
-    match (&unsaved[..], first) {
-        ([_], Some(only)) => {
-            go_to_tab(app, only);
-            ask_unsaved(app, Next::Quit);
-        }
-        (_, None) => leave(app),
-        _ => {
-            let (count, names) = (unsaved.len(), unsaved.join(", "));
-            let text = format!("{count} cases have unsaved edits: {names}.");
-            let buttons =
-                [("Save all", going(Next::SaveRest)), ("Discard all", going(Next::Quit)), cancel()];
-            app.ask(Question::new(UNSAVED, text, buttons));
-        }
+    let count = unsaved.len();
+    if count < 2 {
+        let only = app.tabs().position(Tab::is_unsaved);
+        go_to_tab(app, only.unwrap_or(app.place_of_tab));
+        return ask_or_go(app, Next::Quit);
     }
+    let text = format!("{count} cases have unsaved edits: {}.", unsaved.join(", "));
+    let buttons =
+        [("Save all", going(Next::SaveRest)), ("Discard all", going(Next::Quit)), cancel()];
+    app.ask(Question::new(UNSAVED, text, buttons));
 }
 
 /// Closes the current case, or asks if it has unsaved edits.
@@ -54,10 +49,9 @@ pub(super) fn close(app: &mut App) {
 
 // Goes on, or asks before the edits of the current case are discarded.
 fn ask_or_go(app: &mut App, next: Next) {
-    if app.tab.is_unsaved() { ask_unsaved(app, next) } else { go(app, next) }
-}
-
-fn ask_unsaved(app: &mut App, next: Next) {
+    if !app.tab.is_unsaved() {
+        return go(app, next);
+    }
     let reload = match next {
         Next::Load(_) => " Discard reads the file again without the edits.",
         _ => "",
@@ -78,8 +72,7 @@ fn cancel() -> (&'static str, Choice) {
 
 /// Asks after a save that would overwrite a file or that has no lock.
 fn ask_refused(app: &mut App, path: &Path, fault: SaveFault, next: &Next) {
-    let name = path.display().to_string();
-    let after = next.clone();
+    let (name, after) = (path.display(), next.clone());
     let save_as = Choice::of(move |app| {
         if !matches!(app.prompts.last(), Some(Prompt::Path(dialog)) if dialog.title == SAVE_AS) {
             ask_where_then(app, after.clone());
@@ -88,15 +81,16 @@ fn ask_refused(app: &mut App, path: &Path, fault: SaveFault, next: &Next) {
     let save_as = ("Save as", save_as);
     let overwrite = |stamp| {
         let (path, next) = (path.to_owned(), next.clone());
-        let over = Over::Seen(stamp);
-        let choice = Choice::of(move |app| write(app, path.clone(), over, next.clone()));
-        ("Overwrite", choice)
+        let write = move |app: &mut App| {
+            write(app, path.clone(), Over::Seen(stamp), next.clone());
+        };
+        ("Overwrite", Choice::of(write))
     };
-    let question = match fault {
+    app.ask(match fault {
         SaveFault::Exists(Found { stamp, lines }) => {
             let text = format!("{name} exists. Overwrite replaces it with the form.");
             let buttons = [overwrite(stamp), save_as, cancel()];
-            Question { details: lines, ..Question::new("The file exists", text, buttons) }
+            Question::new("The file exists", text, buttons).with(lines)
         }
         SaveFault::Changed(Found { stamp, lines }) => {
             let text = format!(
@@ -105,19 +99,14 @@ fn ask_refused(app: &mut App, path: &Path, fault: SaveFault, next: &Next) {
             );
             let reload = ("Reload", going(Next::Load(path.to_owned())));
             let buttons = [reload, save_as, overwrite(stamp), cancel()];
-            Question {
-                details: lines,
-                ..Question::new("The file has changed on disk", text, buttons)
-            }
+            Question::new("The file has changed on disk", text, buttons).with(lines)
         }
         SaveFault::Held(holder) => {
             let text = format!("{name} is not saved: another session has it open: {holder}.");
-            let buttons = [save_as, cancel()];
-            Question { selected: 0, ..Question::new("Open elsewhere", text, buttons) }
+            Question::new("Open elsewhere", text, [save_as, cancel()]).on(0)
         }
         SaveFault::Failed(reason) => return app.complain(format!("not saved: {reason}")),
-    };
-    app.ask(question);
+    });
 }
 
 // Offers edits that an earlier session could not save.
@@ -133,8 +122,7 @@ fn ask_recovery(app: &mut App, name: &str, offer: Offer) {
         ("Recover", Choice::of(move |app| recover(app, &offer))),
         ("Later", Choice::none()),
     ];
-    let question = Question::new("Unsaved edits found", text, buttons);
-    app.ask(Question { details, selected: 1, ..question });
+    app.ask(Question::new("Unsaved edits found", text, buttons).with(details).on(1));
 }
 
 fn forgetting(journals: Vec<PathBuf>) -> Choice {
@@ -166,16 +154,10 @@ fn ask_where_then(app: &mut App, next: Next) {
     if refuse_faulty(app) {
         return;
     }
-    let path = app.tab.path.as_ref();
-    let path = path.map_or_else(|| "case.toml".to_owned(), |path| path.display().to_string());
-    let input = Line::named(path);
-    app.prompts.push(Prompt::Path(PathDialog {
-        title: SAVE_AS,
-        how: HOW,
-        input,
-        next,
-        done: save_under,
-    }));
+    let path = app.tab.path.as_deref().unwrap_or(Path::new("case.toml"));
+    let input = Line::named(path.display().to_string());
+    let done = save_under;
+    app.prompts.push(Prompt::Path(PathDialog { title: SAVE_AS, how: HOW, input, next, done }));
 }
 
 /// Opens a file that was read; reports its faults, if any.
@@ -190,7 +172,7 @@ pub(super) fn loaded(app: &mut App, path: PathBuf, result: Result<Box<Document>,
             if app.tab.access == Access::Newer {
                 app.complain(NEWER);
             } else {
-                app.say(format!("opened {}", ascii::printable(&app.tab.name())));
+                app.say(format!("opened {}", app.tab.name()));
             }
         }
         Err(faults) => {
@@ -223,9 +205,10 @@ pub(super) fn saved(
             app.tab.read_line_anew();
             (app.tab.document, app.tab.is_outdated) = (document, false);
             (app.tab.in_place_of, app.tab.origin) = (None, Origin::Given);
-            let how = match saved {
-                Saved::Written => "",
-                Saved::Recreated => ": the file was deleted, and this save created it again",
+            let how = if saved == Saved::Recreated {
+                ": the file was deleted, and this save created it again"
+            } else {
+                ""
             };
             let missing = match app.tab.problems.len() {
                 0 => String::new(),
@@ -234,7 +217,6 @@ pub(super) fn saved(
             };
             app.say(format!("saved {}{how}{missing}", path.display()));
             app.tab.path = Some(path.clone());
-            studies::rename_baseline(app);
             app.want(Effect::Remember(path));
             go(app, next);
         }
@@ -247,10 +229,10 @@ pub(super) fn open(app: &mut App, path: PathBuf) {
     if let Some(at) = place_of(app, &path) {
         app.prompts.clear();
         go_to_tab(app, at);
-        app.say(format!("{} is open already", ascii::printable(&app.tab.name())));
+        app.say(format!("{} is open already", app.tab.name()));
     } else if rexs::is_model(&path) {
         app.prompts.clear();
-        app.say(format!("reading {}", ascii::printable(&path.display().to_string())));
+        app.say(format!("reading {}", path.display()));
         let path = store::at_home(&path);
         let own = path.clone();
         // The heaviest model takes longer than a frame.
@@ -270,8 +252,11 @@ fn save_under(app: &mut App, name: &str, next: Next) {
         return app.complain("type a name for the file");
     }
     let is_own = app.tab.path.as_deref() == Some(Path::new(name));
-    let (path, over) =
-        if is_own { (PathBuf::from(name), Over::Own) } else { (named(name.trim()), Over::Nothing) };
+    let (path, over) = if is_own {
+        (PathBuf::from(name), Over::Own)
+    } else {
+        (store::at_home(&named(name.trim())), Over::Nothing)
+    };
     write(app, path, over, next);
 }
 
@@ -305,8 +290,7 @@ pub(super) fn step_tab(app: &mut App, by: isize) {
 
 /// Shows the built-in case, in a new tab if another case is in use.
 pub(super) fn built_in(app: &mut App) {
-    let at = app.tabs().position(Tab::is_built_in);
-    match at {
+    match app.tabs().position(Tab::is_built_in) {
         Some(at) => go_to_tab(app, at),
         None => add_tab(app, Origin::Given, store::built_in()),
     }
@@ -374,17 +358,15 @@ pub(super) fn list_journals(app: &mut App, journals: Vec<(PathBuf, String)>) {
     let text =
         "Sessions ended with these unsaved edits. A case offers its edits when it is opened.";
     let buttons = [("Delete all", forgetting(places)), ("Close", Choice::none())];
-    app.ask(Question { details, ..Question::new(UNSAVED, text.to_owned(), buttons) });
+    app.ask(Question::new(UNSAVED, text.to_owned(), buttons).with(details));
 }
 
 /// Restores the kept edits into the form as one edit, which undo reverts.
 fn recover(app: &mut App, offer: &Offer) {
     let mut case = app.tab.case.clone();
-    let refused: Vec<_> = offer
-        .changes
-        .iter()
-        .filter_map(|change| case.apply(&change.key, change.to.as_deref()).err())
-        .collect();
+    let changes = offer.changes.iter();
+    let refused = changes.filter_map(|change| case.apply(&change.key, change.to.as_deref()).err());
+    let refused: Vec<_> = refused.collect();
     app.tab.history.end_visit();
     app.tab.before_edit(app.tab.form.focus);
     app.replace_case(case, app.tab.form.focus);
@@ -406,11 +388,10 @@ pub(super) fn ask_reload(app: &mut App) {
 
 /// Handles a possible change of the file of an open case: a case without edits is replaced.
 pub(super) fn file_changed(app: &mut App, path: &Path, found: Result<Box<Document>, Vec<String>>) {
-    let found_tab = app.tabs_mut().find(|tab| tab.path.as_deref() == Some(path));
-    let Some(tab) = found_tab else {
+    let Some(tab) = app.tabs_mut().find(|tab| tab.path.as_deref() == Some(path)) else {
         return;
     };
-    let (id, name) = (tab.id, ascii::printable(&tab.short_name()).into_owned());
+    let (id, name) = (tab.id, tab.short_name());
     tab.is_outdated = true;
     let document = match found {
         Ok(document) if document.stamp() == tab.document.stamp() => {
@@ -421,7 +402,6 @@ pub(super) fn file_changed(app: &mut App, path: &Path, found: Result<Box<Documen
         Ok(document) => document,
         Err(faults) => {
             let fault = faults.into_iter().next().unwrap_or_default();
-            let fault = ascii::printable(&fault).into_owned();
             app.complain(format!("{name} changed on disk and cannot be read: {fault}"));
             return;
         }
@@ -436,8 +416,11 @@ pub(super) fn file_changed(app: &mut App, path: &Path, found: Result<Box<Documen
     app.say(format!("read {name} again: it changed on disk"));
     let (shown, changed) = (app.place_of_tab, app.tabs().position(|tab| tab.id == id));
     go_to_tab(app, changed.unwrap_or(shown));
-    let case = document.case.clone();
-    take_over(&mut app.tab, *document);
+    let (case, tab) = (document.case.clone(), &mut app.tab);
+    if !matches!(tab.access, Access::Held(_)) {
+        tab.access = Access::of(&document);
+    }
+    (tab.saved, tab.document, tab.is_outdated) = (case.clone(), *document, false);
     edit::replace(app, case);
     go_to_tab(app, shown);
 }
@@ -449,8 +432,7 @@ fn leave(app: &mut App) {
     };
     let text = format!("The export to {} still runs.", path.display());
     let quit = ("Quit without the export", Choice::of(|app| app.want(Effect::Quit)));
-    let question = Question::new(export::EXPORT_RUNS, text, [("Wait", Choice::none()), quit]);
-    app.ask(Question { selected: 0, ..question });
+    app.ask(Question::new(export::EXPORT_RUNS, text, [("Wait", Choice::none()), quit]).on(0));
 }
 
 /// Carries out the step after a save.
@@ -460,17 +442,14 @@ fn go(app: &mut App, next: Next) {
         Next::Quit => leave(app),
         Next::Load(path) => app.want(Effect::Load(path)),
         Next::Close => close_tab(app),
-        Next::SaveRest => save_rest(app),
+        Next::SaveRest => match app.tabs().position(Tab::is_unsaved) {
+            Some(unsaved) => {
+                go_to_tab(app, unsaved);
+                save(app, Next::SaveRest);
+            }
+            None => leave(app),
+        },
     }
-}
-
-fn save_rest(app: &mut App) {
-    let unsaved = app.tabs().position(Tab::is_unsaved);
-    let Some(unsaved) = unsaved else {
-        return leave(app);
-    };
-    go_to_tab(app, unsaved);
-    save(app, Next::SaveRest);
 }
 
 // A path through a link names the same file, and hence the same case.
@@ -485,11 +464,7 @@ fn is_open_as_another(app: &mut App, document: &Document, path: &Path) -> bool {
     };
     app.prompts.clear();
     go_to_tab(app, at);
-    app.say(format!(
-        "{} is open already, as {}",
-        ascii::printable(&path.display().to_string()),
-        ascii::printable(&app.tab.name())
-    ));
+    app.say(format!("{} is open already, as {}", path.display(), app.tab.name()));
     true
 }
 
@@ -501,12 +476,12 @@ fn place_of(app: &App, path: &Path) -> Option<usize> {
 // A file with invalid values could not be opened again; a file with missing values can.
 fn refuse_faulty(app: &mut App) -> bool {
     let wrong = app.tab.problems.iter().find(|(row, _)| !rows::lacks(&app.tab.case, *row));
-    let Some(&(field, _)) = wrong else {
-        return false;
-    };
-    app.focus_on(field);
-    app.complain("not saved: fix the fields marked with ! first");
-    true
+    let wrong = wrong.map(|(row, _)| *row);
+    if let Some(row) = wrong {
+        app.focus_on(row);
+        app.complain("not saved: fix the fields marked with ! first");
+    }
+    wrong.is_some()
 }
 
 fn write(app: &mut App, path: PathBuf, over: Over, next: Next) {
@@ -518,27 +493,22 @@ fn write(app: &mut App, path: PathBuf, over: Over, next: Next) {
 // The list of cases in a folder shows only names with the extension.
 fn named(name: &str) -> PathBuf {
     let last = name.rsplit('/').next().unwrap_or_default();
-    let is_place = matches!(last, "" | "." | ".." | "~");
-    let has_ending = last.rfind('.').is_some_and(|dot| dot > 0);
-    PathBuf::from(if is_place || has_ending {
-        name.to_owned()
-    } else {
-        format!("{name}{CASE_ENDING}")
-    })
+    let is_whole =
+        matches!(last, "" | "." | ".." | "~") || last.rfind('.').is_some_and(|dot| dot > 0);
+    PathBuf::from(if is_whole { name.to_owned() } else { format!("{name}{CASE_ENDING}") })
 }
 
 /// Shows a document: in the tab of its path, instead of the unchanged built-in case, or in a new
 /// tab.
 fn show_tab(app: &mut App, document: Document, path: PathBuf) {
     let own = app.tabs().position(|tab| tab.path.as_ref() == Some(&path));
-    if let Some(own) = own {
-        go_to_tab(app, own);
-    }
-    let replaces = own.is_some() || app.tab.is_untouched();
-    let before = own.map(|_| app.tab.id);
+    go_to_tab(app, own.unwrap_or(app.place_of_tab));
+    let (id, replaces) = (app.tab.id, own.is_some() || app.tab.is_untouched());
     put_tab(app, Tab::new(document, Some(path)), replaces);
-    // A file that is read again keeps its tab.
-    app.tab.id = before.unwrap_or(app.tab.id);
+    if own.is_some() {
+        // A file that is read again keeps its tab.
+        app.tab.id = id;
+    }
 }
 
 /// Closes the current case; after the last one the built-in case is shown.
@@ -573,14 +543,4 @@ fn put_tab(app: &mut App, tab: Tab, replaces: bool) {
     app.cursor = None;
     app.solve();
     app.focus_on(focus);
-}
-
-/// Replaces document and saved case by the content of the file.
-fn take_over(tab: &mut Tab, document: Document) {
-    if !matches!(tab.access, Access::Held(_)) {
-        tab.access = Access::of(&document);
-    }
-    tab.saved = document.case.clone();
-    tab.document = document;
-    tab.is_outdated = false;
 }

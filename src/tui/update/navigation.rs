@@ -4,7 +4,6 @@
 use ratatui::layout::Position;
 
 use super::{edit, files, panes, studies};
-use crate::case::Case;
 use crate::model::Stage;
 use crate::tui::app::App;
 use crate::tui::app::actions::{Effect, Running, Slot, Work};
@@ -23,21 +22,12 @@ const LEAVING: &str = "no running work and no unsaved edits: press Ctrl-C again 
 
 /// Handles a letter that is no command of the table: it presses a button, or is text.
 pub(super) fn letter(app: &mut App, letter: char) {
-    if let Some(Prompt::Ask(question)) = app.prompts.last() {
-        if let Some(change) = question.by_letter(letter) {
-            change.apply(app);
-        }
-    } else {
-        edit::insert(app, letter);
+    let Some(Prompt::Ask(question)) = app.prompts.last() else {
+        return edit::insert(app, letter);
+    };
+    if let Some(change) = question.by_letter(letter) {
+        change.apply(app);
     }
-}
-
-/// Previews a new selection.
-pub(super) fn preview(app: &mut App) {
-    let units = app.settings.units;
-    let prompt = app.prompts.last_mut();
-    let work = prompt.and_then(|prompt| prompt.dialog_mut().preview(units));
-    app.start_all(work);
 }
 
 /// Selects another field of the explanation and makes it visible.
@@ -54,20 +44,11 @@ fn close(app: &mut App) -> bool {
     prompt.is_some()
 }
 
-/// Opens the browser in the folder of the present case.
-pub(super) fn open_browser(app: &mut App) {
-    browse(app, false);
-}
-
-/// Goes to the recent cases, in an open browser or in a new one.
-pub(super) fn open_recent(app: &mut App) {
-    match app.browser() {
-        Some(browser) => browser.select_recents(),
-        None => browse(app, true),
+/// Opens the browser in the folder of the present case, or goes to the recent cases in the open one.
+pub(super) fn browse(app: &mut App, prefers_recents: bool) {
+    if let Some(browser) = app.browser() {
+        return browser.select_recents();
     }
-}
-
-fn browse(app: &mut App, prefers_recents: bool) {
     let opens = (files::open as fn(&mut App, _), files::begin_example as fn(&mut App, _));
     let browser = Browser::beside(app.tab.path.as_deref(), prefers_recents, opens);
     let recents = |app: &mut App, recents| {
@@ -89,7 +70,7 @@ pub(super) fn complete_path(app: &mut App) {
 /// Handles a click on a field, a result, the chart, the name of a case or of a hidden pane, a line
 /// of a list, or a button. A second click on the selection is Enter.
 pub(super) fn click(app: &mut App, at: Position) {
-    match app.with_dialog(|dialog, around| dialog.click(at, around.screen)) {
+    match app.with_dialog(|dialog, around| dialog.click(at, around)) {
         None => in_panes(app, at),
         Some(true) => app.accept(),
         Some(false) => (),
@@ -151,8 +132,7 @@ pub(super) fn cancel(app: &mut App) {
     }
 }
 
-/// Goes to a field of the form.
-pub(super) fn field(app: &mut App, field: usize) {
+fn field(app: &mut App, field: usize) {
     app.layout.focus_on(Pane::Form);
     app.focus_on(field);
 }
@@ -164,11 +144,9 @@ pub(super) fn end_of_form(app: &mut App, way: isize) {
 
 /// Goes to the next invalid field, wrapping around.
 pub(super) fn fault(app: &mut App) {
-    let rows = || {
-        let problems = app.tab.problems.iter().map(|(row, _)| *row);
-        problems.chain(app.tab.refused_row())
-    };
-    match rows().filter(|&row| row > app.tab.form.focus).min().or_else(|| rows().min()) {
+    let (tab, focus) = (&app.tab, app.tab.form.focus);
+    let rows = tab.problems.iter().map(|(row, _)| *row).chain(tab.refused_row());
+    match rows.min_by_key(|&row| (row <= focus, row)) {
         Some(row) => field(app, row),
         None => app.say("no field has an error"),
     }
@@ -191,10 +169,19 @@ pub(super) fn leap(app: &mut App, by: isize) {
     if app.with_dialog(|dialog, around| dialog.turn(by, around)).is_some() {
         return;
     }
-    match app.layout.focus() {
-        Pane::Results => turn(app, by),
-        _ => app.focus_on(group_beside(&app.tab.case, app.tab.form.focus, by)),
+    if app.layout.focus() == Pane::Results {
+        return turn(app, by);
     }
+    // The first field of the next group, of this one, or of the previous one.
+    let (case, focus) = (&app.tab.case, app.tab.form.focus);
+    let starts = rows::groups(case);
+    let found = if by > 0 {
+        starts.iter().find(|&&start| start > focus)
+    } else {
+        starts.iter().rev().find(|&&start| start < focus)
+    };
+    let end = if by > 0 { rows::count(case) - 1 } else { 0 };
+    app.focus_on(found.copied().unwrap_or(end));
 }
 
 /// Goes to the first line, or to the last one if `way` is positive.
@@ -217,22 +204,13 @@ pub(super) fn turn(app: &mut App, by: isize) {
     app.follow();
 }
 
-// The first field of the next group, of this one, or of the previous one.
-fn group_beside(case: &Case, focus: usize, by: isize) -> usize {
-    let starts = rows::groups(case);
-    let found = if by > 0 {
-        starts.iter().find(|&&start| start > focus)
-    } else {
-        starts.iter().rev().find(|&&start| start < focus)
-    };
-    found.copied().unwrap_or(if by > 0 { rows::count(case) - 1 } else { 0 })
-}
-
 fn in_panes(app: &mut App, at: Position) {
     let plan = app.layout.plan();
+    let owner = plan.names_hidden();
+    let hidden = owner.and_then(|owner| app.title(owner).hidden_at(plan.area(owner), at));
     if let Some(tab) = header::tab_at(app, plan.header, at) {
         files::go_to_tab(app, tab);
-    } else if let Some(pane) = hidden_at(app, at) {
+    } else if let Some(pane) = hidden {
         panes::show(app, pane);
     } else if let Some(pane) = pane_at(app, at) {
         in_pane(app, pane, at);
@@ -279,12 +257,6 @@ fn in_form(app: &mut App, field: Option<usize>) {
     }
 }
 
-fn hidden_at(app: &App, at: Position) -> Option<Pane> {
-    let plan = app.layout.plan();
-    let owner = plan.names_hidden()?;
-    app.title(owner).hidden_at(plan.area(owner), at)
-}
-
 fn pane_at(app: &App, at: Position) -> Option<Pane> {
     let plan = app.layout.plan();
     Pane::ALL.into_iter().find(|&pane| plan.area(pane).contains(at))
@@ -294,35 +266,34 @@ fn pane_at(app: &App, at: Position) -> Option<Pane> {
 fn stop(app: &mut App, has_study: bool) -> bool {
     let has_measured = studies::stop_benchmark(app);
     let has_studied = has_study && studies::stop(app);
-    let has_solved = stop_solve(app) || stop_seeking(app);
+    let has_solved = stop_solve(app);
     has_measured || has_studied || has_solved
 }
 
+// Stops a slow solve, or the search for the required relief, which starts after the other results
+// are shown.
 fn stop_solve(app: &mut App) -> bool {
-    if app.tab.solving.take().is_none() {
-        return false;
+    let is_slow = app.tab.solving.take().is_some();
+    let mut words = None;
+    if let Some(answer) = &mut app.tab.answer {
+        if is_slow {
+            let shown = "is stopped; the closed form is shown until the next edit";
+            words = answer.pending.take().map(|method| format!("method {} {shown}", method.name()));
+        } else if answer.strikes() && answer.lacks(Stage::Clearing) {
+            answer.requested = answer.stages;
+            let search = "the search for the required relief is stopped until the next edit";
+            words = Some(search.to_owned());
+        }
     }
-    app.tab.is_settled = true;
-    app.is_pinning = false;
-    if let Some(method) = app.tab.answer.as_mut().and_then(|answer| answer.pending.take()) {
-        app.say(format!(
-            "method {} is stopped; the closed form is shown until the next edit",
-            method.name()
-        ));
+    if is_slow {
+        (app.tab.is_settled, app.is_pinning) = (true, false);
     }
-    app.want(Effect::CancelSolve);
-    true
-}
-
-// Stops the search for the required relief, which starts after the other results are shown.
-fn stop_seeking(app: &mut App) -> bool {
-    let answer = app.tab.answer.as_mut();
-    let Some(answer) = answer.filter(|answer| answer.strikes() && answer.lacks(Stage::Clearing))
-    else {
-        return false;
-    };
-    answer.requested = answer.stages;
-    app.say("the search for the required relief is stopped until the next edit");
-    app.want(Effect::CancelSolve);
-    true
+    let has_run = is_slow || words.is_some();
+    if has_run {
+        app.want(Effect::CancelSolve);
+    }
+    if let Some(words) = words {
+        app.say(words);
+    }
+    has_run
 }

@@ -17,12 +17,13 @@ use crate::tui::app::actions::{Effect, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::cursor_to::{CursorTo, Reach, cursor_range};
 use crate::tui::app::dialogs::page::{Explanation, Page};
-use crate::tui::ascii;
 use crate::tui::jobs::{ChartRequest, ChartValues, OwnChart};
 use crate::tui::layout::Pane;
 use crate::tui::panes::chart::{self, ChartCommand, first_contact};
 use crate::tui::panes::results as results_pane;
 use crate::tui::panes::teeth::TeethCommand;
+
+const NO_CURSOR: &str = "no valid results for a cursor";
 
 /// Time between two messages of a growing curve.
 const CHART_STEP: Duration = Duration::from_millis(150);
@@ -48,16 +49,14 @@ pub(super) fn step(app: &mut App, by: isize) {
 pub(super) fn cycle_lower(app: &mut App) {
     let plan = app.layout.plan();
     let now = Pane::LOWER.iter().position(|&pane| pane == app.layout.lower()).unwrap_or(0);
-    let others = (1..=Pane::LOWER.len()).map(|by| Pane::LOWER[(now + by) % Pane::LOWER.len()]);
-    let next = others.into_iter().find(|&pane| !plan.shows(pane)).unwrap_or(Pane::Chart);
+    let mut others = Pane::LOWER.into_iter().cycle().skip(now + 1).take(Pane::LOWER.len());
+    let next = others.find(|&pane| !plan.shows(pane)).unwrap_or(Pane::Chart);
+    app.layout.show_below(next);
     let has_room = Pane::LOWER.iter().any(|&pane| plan.shows(pane));
     if app.layout.focus().is_lower() || !has_room {
-        app.layout.show_below(next);
-        show(app, next);
-    } else {
-        app.layout.show_below(next);
-        app.follow();
+        return show(app, next);
     }
+    app.follow();
 }
 
 /// Makes the focused pane fill the screen, or restores the layout.
@@ -128,11 +127,10 @@ pub(super) fn explain(app: &mut App) {
 pub(super) fn notes(app: &mut App) {
     let lines = results_pane::in_full(&app.results());
     if lines.is_empty() {
-        app.complain("there are no results to show");
-    } else {
-        let page = Page::new("Outcome, limits, notes", lines);
-        app.prompts.push(Prompt::Read(Page { is_of_results: true, ..page }));
+        return app.complain("there are no results to show");
     }
+    let page = Page::new("Outcome, limits, notes", lines);
+    app.prompts.push(Prompt::Read(Page { is_of_results: true, ..page }));
 }
 
 /// Shows new results on that page while it is open.
@@ -150,11 +148,8 @@ pub(super) fn refresh_page(app: &mut App) {
 pub(super) fn stray(app: &mut App, letter: char) {
     let name = if letter == ' ' { "Space".to_owned() } else { letter.to_string() };
     let meant = if app.layout.focus() == Pane::Form { "Enter edits the field, " } else { "" };
-    app.say(format!(
-        "{} is not a command in {}: {meant}? lists the keys",
-        ascii::printable(&name),
-        app.layout.focus().name()
-    ));
+    let pane = app.layout.focus().name();
+    app.say(format!("{name} is not a command in {pane}: {meant}? lists the keys"));
 }
 
 /// Runs a command of the pane.
@@ -207,9 +202,14 @@ pub(super) fn step_slice(app: &mut App, by: isize) {
 
 /// Moves the cursor by columns towards E.
 pub(super) fn step_cursor(app: &mut App, columns: isize) {
-    match range_of_cursor(app) {
-        Some(reach) => app.cursor = Some(reach.moved(app.cursor, columns)),
-        None => app.complain("no valid results for a cursor"),
+    let reach = range_of_cursor(app).map(|reach| reach.moved(app.cursor, columns));
+    put_cursor(app, reach.ok_or(NO_CURSOR));
+}
+
+fn put_cursor(app: &mut App, angle: Result<f64, &str>) {
+    match angle {
+        Ok(angle) => app.cursor = Some(angle),
+        Err(reason) => app.complain(reason),
     }
     stop_playing(app);
 }
@@ -217,11 +217,7 @@ pub(super) fn step_cursor(app: &mut App, columns: isize) {
 /// Moves the cursor to the first contact.
 pub(super) fn cursor_to_start(app: &mut App) {
     let start = app.charts().solution().and_then(first_contact);
-    match start {
-        Some(angle) => app.cursor = Some(angle),
-        None => app.complain("no corner contact, so no D"),
-    }
-    stop_playing(app);
+    put_cursor(app, start.ok_or("no corner contact, so no D"));
 }
 
 /// Asks for an angle, a time or a point.
@@ -229,32 +225,29 @@ pub(super) fn ask_cursor(app: &mut App) {
     if range_of_cursor(app).is_some() {
         app.prompts.push(Prompt::CursorTo(CursorTo::new(move_cursor)));
     } else {
-        app.complain("no valid results for a cursor");
+        app.complain(NO_CURSOR);
     }
 }
 
 /// Moves the cursor to the typed angle. Shows the chart if neither charts nor teeth are visible.
 fn move_cursor(app: &mut App, typed: Result<f64, String>) {
-    match typed {
-        Err(reason) => app.complain(reason),
-        Ok(angle) => {
-            app.prompts.pop();
-            let plan = app.layout.plan();
-            if !plan.shows(Pane::Chart) && !plan.shows(Pane::Teeth) {
-                show(app, Pane::Chart);
-            }
-            app.cursor = Some(angle);
-            let reading = chart::readout(&app.charts(), angle);
-            app.say(format!("cursor at {reading}"));
+    if typed.is_ok() {
+        app.prompts.pop();
+        let plan = app.layout.plan();
+        if !plan.shows(Pane::Chart) && !plan.shows(Pane::Teeth) {
+            show(app, Pane::Chart);
         }
     }
-    stop_playing(app);
+    put_cursor(app, typed.as_ref().copied().map_err(String::as_str));
+    if let Ok(angle) = typed {
+        let reading = chart::readout(&app.charts(), angle);
+        app.say(format!("cursor at {reading}"));
+    }
 }
 
 /// Moves the cursor to E.
 pub(super) fn cursor_to_end(app: &mut App) {
-    app.cursor = Some(0.0);
-    stop_playing(app);
+    put_cursor(app, Ok(0.0));
 }
 
 pub(super) fn hide_cursor(app: &mut App) {

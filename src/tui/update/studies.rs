@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 
 use super::{edit, key_of, panes};
 use crate::case::fields::FIELDS;
-use crate::case::{Case, Evaluator, Problem, Variant};
+use crate::case::{Evaluator, Problem, Variant};
 use crate::model::inputs::Method;
-use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
+use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Stages};
 use crate::report::export::{format_of, is_picture};
 use crate::report::results::Named;
 use crate::report::svg;
@@ -57,15 +57,14 @@ const METHODS: [Method; 4] = [Method::Exact, Method::Paper, Method::Static, Meth
 
 /// Requests the visible study if it differs from the last one; stops a hidden one.
 pub(super) fn request(app: &mut App) {
-    if !app.layout.plan().shows(Pane::Study) {
-        app.cancel(Slot::Study);
-        return;
-    }
-    let parameters = match parameters(app, quantity(app)) {
-        Ok(parameters) => parameters,
-        Err(obstacle) => {
+    let is_visible = app.layout.plan().shows(Pane::Study);
+    let parameters = match parameters(app) {
+        Ok(parameters) if is_visible => parameters,
+        other => {
             app.cancel(Slot::Study);
-            app.tab.study.obstacle = Some(obstacle);
+            if is_visible {
+                app.tab.study.obstacle = other.err();
+            }
             return;
         }
     };
@@ -84,64 +83,48 @@ pub(super) fn request(app: &mut App) {
     app.tab.study.start(StudyRequest { serial, parameters });
 }
 
-fn quantity(app: &App) -> Option<&'static Quantity> {
-    let chosen = app.study.quantity.and_then(Quantity::find);
-    chosen.or_else(|| app.results().marked()).or_else(|| Quantity::find("impact_force"))
-}
-
-/// The study of the focused field and the selected result.
-///
-/// # Errors
-/// Returns the reason if there is no study.
-fn parameters(app: &App, quantity: Option<&'static Quantity>) -> Result<StudyParameters, String> {
+/// The study of the chosen or focused field and the chosen or selected result; the error is the
+/// reason why there is no study.
+fn parameters(app: &App) -> Result<StudyParameters, String> {
     let tab = &app.tab;
     let inputs = tab.inputs().ok_or("No study: a field has an error. Alt-E goes to that field.")?;
-    let quantity = quantity.ok_or("No result is selected.")?;
+    let chosen = app.study.quantity.and_then(Quantity::find);
+    let quantity = chosen.or_else(|| app.results().marked());
+    let quantity =
+        quantity.or_else(|| Quantity::find("impact_force")).ok_or("No result is selected.")?;
     if app.study.is_tolerance {
-        return tolerance_parameters(app, inputs, quantity);
+        if tab.case.spread.is_empty() {
+            return Err(
+                "The case has no [spread]: go to a field and type :spread normal 4 um, for \
+                example. d in this pane shows the field over its range."
+                    .to_owned(),
+            );
+        }
+        let (case, inputs) = (tab.case.clone(), inputs.clone());
+        let parameters = ToleranceParameters { case, inputs, quantity: quantity.key };
+        return Ok(StudyParameters::Tolerance(Box::new(parameters)));
     }
     let field = field(app).ok_or("A limit has no range: go to a field of the form.")?;
     let (across, up) = map_points(app.layout.plan().area(Pane::Study));
-    let second = app.study.second.filter(|second| *second != field);
     let place = RangeOf { case: &tab.case, units: app.settings.units, zoom: app.study.zoom };
     let axis_of = |field, steps| match app.study.ranges.iter().find(|axis| axis.field == field) {
         Some(typed) => Ok(typed.clone()),
         None => place.axis(field, steps),
     };
-    let axes = match second {
+    let axes = match app.study.second.filter(|second| *second != field) {
         Some(second) => {
             vec![axis_of(second, Steps::Round(up))?, axis_of(field, Steps::Round(across))?]
         }
         None => vec![axis_of(field, Steps::Equal(CURVE_POINTS))?],
     };
-    let axes = Grid::of(axes)
-        .map_err(|problem| {
-            let problem = problem.for_form();
-            format!("{}: s in this pane leaves the map.", problem.cause)
-        })?
-        .axes;
+    let refused =
+        |problem: Problem| format!("{}: s in this pane leaves the map.", problem.for_form().cause);
+    let axes = Grid::of(axes).map_err(refused)?.axes;
     let mut layers = layers(app, inputs, quantity);
     if axes.len() > 1 {
         layers.truncate(1);
     }
     Ok(StudyParameters::Grid(GridParameters { axes, layers }))
-}
-
-fn tolerance_parameters(
-    app: &App,
-    inputs: &Inputs,
-    quantity: &Quantity,
-) -> Result<StudyParameters, String> {
-    if app.tab.case.spread.is_empty() {
-        return Err("The case has no [spread]: go to a field and type :spread normal 4 um, for \
-            example. d in this pane shows the field over its range."
-            .to_owned());
-    }
-    Ok(StudyParameters::Tolerance(Box::new(ToleranceParameters {
-        case: app.tab.case.clone(),
-        inputs: inputs.clone(),
-        quantity: quantity.key,
-    })))
 }
 
 /// The chosen field, otherwise the focused field of the form.
@@ -155,26 +138,21 @@ fn field(app: &App) -> Option<usize> {
 /// The curves: the active method, the other methods, the baseline.
 fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer> {
     let active = inputs.method;
-    let answer = app.tab.answer.as_ref();
-    let solved_by = answer.map_or(active, |answer| answer.active);
-    let first = Layer { is_baseline: false, inputs: inputs.clone(), quantity: quantity.key };
-    let other = |method: Method| {
-        let own = counterpart(quantity, solved_by, method)?;
-        let inputs = Inputs { method, ..inputs.clone() };
-        Some(Layer { is_baseline: false, inputs, quantity: own.key })
+    let solved_by = app.tab.answer.as_ref().map_or(active, |answer| answer.active);
+    let layer = |is_baseline, inputs: Inputs, by| {
+        let quantity = counterpart(quantity, solved_by, by)?.key;
+        Some(Layer { is_baseline, inputs, quantity })
     };
-    let is_shown = |method: &Method| *method != Method::Paper || app.shows_every_method;
-    let others = METHODS.into_iter().filter(is_shown);
-    let others = others.filter(|method| *method != active && *method != solved_by);
-    let pinned = app.baseline.as_ref().and_then(|baseline| {
-        let answer = &baseline.answer;
-        Some(Layer {
-            is_baseline: true,
-            inputs: answer.inputs.clone(),
-            quantity: counterpart(quantity, solved_by, answer.active)?.key,
-        })
-    });
-    let others = others.filter_map(other);
+    let first = Layer { is_baseline: false, inputs: inputs.clone(), quantity: quantity.key };
+    let is_other = |method: &Method| {
+        (*method != Method::Paper || app.shows_every_method)
+            && ![active, solved_by].contains(method)
+    };
+    let others = METHODS.into_iter().filter(is_other);
+    let others =
+        others.filter_map(|method| layer(false, Inputs { method, ..inputs.clone() }, method));
+    let pinned = app.baseline.as_ref().map(|baseline| &baseline.answer);
+    let pinned = pinned.and_then(|answer| layer(true, answer.inputs.clone(), answer.active));
     std::iter::once(first).chain(others).chain(pinned).collect()
 }
 
@@ -232,7 +210,7 @@ pub(super) fn reset_range(app: &mut App) {
 /// Asks for the range of the study.
 pub(super) fn ask_range(app: &mut App) {
     show_grid(app);
-    let axes = parameters(app, quantity(app)).map(|parameters| parameters.axes().to_vec());
+    let axes = parameters(app).map(|parameters| parameters.axes().to_vec());
     let typed: Vec<String> = axes.unwrap_or_default().iter().rev().map(range::typed).collect();
     app.prompts.push(Prompt::Path(PathDialog {
         title: RANGE,
@@ -324,14 +302,12 @@ pub(super) fn take(app: &mut App) {
     if app.tab.study.cursor.is_none() {
         return app.say("the cursor is at the present value: move it to another one");
     }
-    let worded: Vec<String> = values
-        .iter()
-        .map(|(field, text)| format!("{} = {text}", FIELDS[*field].full_label()))
-        .collect();
+    let worded =
+        values.iter().map(|(field, text)| format!("{} = {text}", FIELDS[*field].full_label()));
+    let worded = worded.collect::<Vec<_>>().join(", ");
     app.tab.study.cursor = None;
-    let values: Vec<_> =
-        values.into_iter().map(|(field, text)| (FIELDS[field].key, text)).collect();
-    edit::set_values(app, &values, &worded.join(", "));
+    let values = values.into_iter().map(|(field, text)| (FIELDS[field].key, text));
+    edit::set_values(app, &values.collect::<Vec<_>>(), &worded);
 }
 
 /// What `tipstrike sweep` or `tipstrike tolerance` writes for the shown study, or its picture.
@@ -413,17 +389,6 @@ fn text_of(of: &Study, running: &Running<'_>) -> io::Result<String> {
     String::from_utf8(out).map_err(io::Error::other)
 }
 
-enum Unfinished {
-    Stopped,
-    Refused(Problem),
-}
-
-impl From<Stopped> for Unfinished {
-    fn from(_: Stopped) -> Unfinished {
-        Unfinished::Stopped
-    }
-}
-
 /// Changes the results of the study of a tab.
 fn change(app: &mut App, tab: usize, change: impl FnOnce(&mut StudyResults)) {
     if let Some(results) = app.tab_with(tab).and_then(|tab| tab.study.results()) {
@@ -440,16 +405,14 @@ fn ended(app: &mut App, tab: usize, end: End) {
 
 /// Computes a study for a tab and sends its results as they arrive.
 fn compute(tab: usize, parameters: &StudyParameters, running: &Running<'_>) {
-    let done = match parameters {
+    let solved = match parameters {
         StudyParameters::Grid(grid) => solve_grid(tab, grid, running),
         StudyParameters::Tolerance(tolerance) => sample(tab, tolerance, running),
     };
-    let end = match done {
-        Ok(()) => End::Whole,
-        Err(Unfinished::Stopped) => return,
-        Err(Unfinished::Refused(problem)) => {
-            End::Failed(format!("{}: {}", problem.cause, problem.fix))
-        }
+    let end = match solved {
+        Ok(Ok(())) => End::Whole,
+        Ok(Err(Stopped)) => return,
+        Err(problem) => End::Failed(format!("{}: {}", problem.cause, problem.fix)),
     };
     running.send(move |app| ended(app, tab, end));
 }
@@ -462,8 +425,7 @@ fn solve(
     take: &mut dyn FnMut(usize, &[batch::Row]) -> bool,
 ) -> Result<(), Stopped> {
     // One core stays free for the main loop and the solver.
-    let cores = batch::jobs(None);
-    let jobs = Some(cores.saturating_sub(1).max(1));
+    let jobs = Some(batch::jobs(None).saturating_sub(1).max(1));
     solve_all(batch, 0..count, &Control { jobs, go_on: &|_, _| running.is_wanted() }, take)
 }
 
@@ -471,101 +433,80 @@ fn solve_grid(
     tab: usize,
     parameters: &GridParameters,
     running: &Running<'_>,
-) -> Result<(), Unfinished> {
-    let grid = Grid::of(parameters.axes.clone()).map_err(Unfinished::Refused)?;
+) -> Result<Result<(), Stopped>, Problem> {
+    let grid = Grid::of(parameters.axes.clone())?;
     for (at, layer) in parameters.layers.iter().enumerate() {
-        solve_layer(&grid, layer, running, &mut |found| {
-            running.send(move |app| change(app, tab, |results| results.add(at, found)));
-        })?;
-    }
-    Ok(())
-}
-
-fn solve_layer(
-    grid: &Grid,
-    layer: &Layer,
-    running: &Running<'_>,
-    send: &mut dyn FnMut(LayerFound),
-) -> Result<(), Stopped> {
-    let quantities: Vec<&'static Quantity> = layer.quantity().into_iter().collect();
-    let inputs = &layer.inputs.clone().needing(quantities.iter().map(|of| of.stage));
-    let batch = Batch { inputs, points: grid, quantities: &quantities };
-    let (mut waiting, mut refusals) = (LayerFound::default(), Refusals::default());
-    let mut sent = Instant::now();
-    let solved = solve(&batch, grid.count(), running, &mut |first, rows| {
-        refusals.count(first, rows);
-        waiting.outcomes.extend(rows.iter().map(|row| row.outcome));
-        waiting.values.extend(rows.iter().map(|row| row.values.first().copied().flatten()));
-        if sent.elapsed() > STEP {
-            sent = Instant::now();
-            waiting.refusals = refusals.clone();
-            send(std::mem::take(&mut waiting));
+        let send =
+            |found| running.send(move |app| change(app, tab, |results| results.add(at, found)));
+        let quantities: Vec<&'static Quantity> = layer.quantity().into_iter().collect();
+        let inputs = &layer.inputs.clone().needing(quantities.iter().map(|of| of.stage));
+        let batch = Batch { inputs, points: &grid, quantities: &quantities };
+        let (mut waiting, mut refusals) = (LayerFound::default(), Refusals::default());
+        let mut sent = Instant::now();
+        let solved = solve(&batch, grid.count(), running, &mut |first, rows| {
+            refusals.count(first, rows);
+            waiting.outcomes.extend(rows.iter().map(|row| row.outcome));
+            waiting.values.extend(rows.iter().map(|row| row.values.first().copied().flatten()));
+            if sent.elapsed() > STEP {
+                sent = Instant::now();
+                waiting.refusals = refusals.clone();
+                send(std::mem::take(&mut waiting));
+            }
+            true
+        });
+        waiting.refusals = refusals;
+        send(waiting);
+        if solved.is_err() {
+            return Ok(solved);
         }
-        true
-    });
-    waiting.refusals = refusals;
-    send(waiting);
-    solved
+    }
+    Ok(Ok(()))
 }
 
 fn sample(
     tab: usize,
     parameters: &ToleranceParameters,
     running: &Running<'_>,
-) -> Result<(), Unfinished> {
+) -> Result<Result<(), Stopped>, Problem> {
+    let ToleranceParameters { case, inputs, quantity } = parameters;
     let size = Size { samples: SAMPLES, seed: 1, ranked: None };
-    let only: Vec<&'static Quantity> = Quantity::find(parameters.quantity).into_iter().collect();
-    let study = Tolerance::of(&parameters.case, &parameters.inputs, &only, size)
-        .map_err(Unfinished::Refused)?;
-    let inputs = &parameters.inputs.clone().needing(only.iter().map(|of| of.stage));
-    let batch = Batch { inputs, points: &study.design, quantities: &study.quantities };
-    let (mut samples, mut sent) = (Samples::of(&study), Instant::now());
+    let only: Vec<&'static Quantity> = Quantity::find(quantity).into_iter().collect();
+    let study = Tolerance::of(case, inputs, &only, size)?;
     let count = study.design.count();
-    let solved = solve(&batch, count, running, &mut |first, rows| {
-        samples.add(first, rows);
-        let is_due = sent.elapsed() > PAGE_STEP && samples.outcomes.len() > 1;
-        if is_due {
-            sent = Instant::now();
-            send_page(tab, sampled(parameters, &study, &samples), running);
+    // The page of the samples so far; the ranking needs all samples.
+    let send = |samples: &Samples| {
+        let solved = samples.outcomes.len();
+        if solved < 2 {
+            return;
         }
-        true
-    });
-    if samples.outcomes.len() > 1 {
-        send_page(tab, sampled(parameters, &study, &samples), running);
-    }
-    Ok(solved?)
-}
-
-fn send_page(tab: usize, (lines, part): (Vec<String>, f64), running: &Running<'_>) {
-    let page = move |results: &mut StudyResults| (results.page, results.part) = (lines, part);
-    running.send(move |app| change(app, tab, page));
-}
-
-/// The page of the samples so far, and the solved part; the ranking needs all samples.
-fn sampled(
-    parameters: &ToleranceParameters,
-    study: &Tolerance,
-    samples: &Samples,
-) -> (Vec<String>, f64) {
-    let (solved, count) = (samples.outcomes.len(), study.design.count());
-    let so_far = Tolerance {
-        design: Design {
+        let design = Design {
             samples: solved.min(study.design.samples),
             ranked: if solved < count { 0 } else { study.design.ranked },
             ..study.design.clone()
-        },
-        ..study.clone()
+        };
+        let so_far = Tolerance { design, ..study.clone() };
+        let report = ToleranceReport { case, method: inputs.method, study: &so_far, samples };
+        let mut page = report.lines_for_screen();
+        let refused = samples.refusals.0.iter().map(|refused| refused.sentence(&so_far.design));
+        page.extend(refused);
+        let part = solved as f64 / count as f64;
+        running.send(move |app| {
+            change(app, tab, |results| (results.page, results.part) = (page, part));
+        });
     };
-    let report = ToleranceReport {
-        case: &parameters.case,
-        method: parameters.inputs.method,
-        study: &so_far,
-        samples,
-    };
-    let mut lines = report.lines_for_screen();
-    let refused = samples.refusals.0.iter().map(|refused| refused.sentence(&so_far.design));
-    lines.extend(refused);
-    (lines, solved as f64 / count as f64)
+    let needing = &inputs.clone().needing(only.iter().map(|of| of.stage));
+    let batch = Batch { inputs: needing, points: &study.design, quantities: &study.quantities };
+    let (mut samples, mut sent) = (Samples::of(&study), Instant::now());
+    let solved = solve(&batch, count, running, &mut |first, rows| {
+        samples.add(first, rows);
+        if sent.elapsed() > PAGE_STEP {
+            sent = Instant::now();
+            send(&samples);
+        }
+        true
+    });
+    send(&samples);
+    Ok(solved)
 }
 
 /// Starts the benchmark of every method on the case of the form.
@@ -573,27 +514,34 @@ pub(super) fn measure(app: &mut App) {
     let Some(inputs) = app.tab.inputs().cloned() else {
         return app.complain("no benchmark: fix the fields marked with ! first");
     };
-    let (tab, own) = (app.tab.id, inputs.clone());
-    let patience = app.patience;
+    let (tab, own, patience) = (app.tab.id, inputs.clone(), app.patience);
+    let take = move |app: &mut App, trade| {
+        if let Some(traded) = app.tab_with(tab).and_then(|tab| tab.traded.as_mut()) {
+            traded.trade = Some(trade);
+        }
+    };
+    let failed = move |app: &mut App, reason: &str| {
+        if conclude(app, tab).is_some() {
+            app.complain(format!("no benchmark: {reason}"));
+        }
+    };
     let work = Work::in_steps(Slot::Benchmark, move |running| {
         let mut report = |sofar: &Trade| {
             let sofar = sofar.clone();
-            running.send(move |app| take_measured(app, tab, sofar));
+            running.send(move |app| take(app, sofar));
         };
         match trade(&own, patience, &|| running.is_wanted(), &mut report) {
             Ok(trade) => running.send(move |app| {
-                take_measured(app, tab, trade);
+                take(app, trade);
                 if let Some(words) = conclude(app, tab) {
                     app.say(words);
                 }
             }),
             Err(Refusal::Stopped) => (),
-            Err(refusal) => {
-                running.send(move |app| benchmark_failed(app, tab, &refusal.to_string()));
-            }
+            Err(refusal) => running.send(move |app| failed(app, &refusal.to_string())),
         }
     });
-    let work = app.start(work.or(move |app| benchmark_failed(app, tab, "internal error")));
+    let work = app.start(work.or(move |app| failed(app, "internal error")));
     app.tab.traded = Some(Traded { work, inputs, trade: None, marked: None });
 }
 
@@ -604,6 +552,19 @@ pub(super) fn stop_benchmark(app: &mut App) -> bool {
         app.say("the benchmark is stopped; its results stay");
     }
     has_run
+}
+
+/// Selects the recommended setting, unless the user has selected one. Returns the conclusion, empty
+/// without results, if the tab is the current one.
+fn conclude(app: &mut App, tab: usize) -> Option<String> {
+    let is_shown = app.tab.id == tab;
+    let traded = app.tab_with(tab)?.traded.as_mut()?;
+    let words = traded.trade.as_ref().map(|trade| {
+        let recommended = trade.recommended().map(|measured| measured.setting);
+        traded.marked = traded.marked.or(recommended);
+        conclusion(trade)
+    });
+    is_shown.then(|| words.unwrap_or_default())
 }
 
 /// Stops a hidden benchmark. A terminal that is briefly too small does not stop it.
@@ -632,61 +593,35 @@ pub(super) fn step_setting(app: &mut App, by: isize) {
 
 /// Writes the selected setting into the case.
 pub(super) fn take_setting(app: &mut App) {
-    let Some(setting) = app.tab.traded.as_ref().and_then(|traded| traded.marked) else {
-        return app.say(if app.tab.traded.is_some() {
-            "no setting is selected: the arrow keys select one"
-        } else {
-            "no benchmark yet: m runs it"
-        });
+    let setting = match &app.tab.traded {
+        Some(Traded { marked: Some(setting), .. }) => *setting,
+        Some(_) => return app.say("no setting is selected: the arrow keys select one"),
+        None => return app.say("no benchmark yet: m runs it"),
     };
     let mut case = app.tab.case.clone();
     setting.apply(&mut case);
     edit::replace_saying(app, case, &format!("method {setting}"));
 }
 
-fn traded_of(app: &mut App, tab: usize) -> Option<&mut Traded> {
-    app.tab_with(tab)?.traded.as_mut()
-}
-
-fn take_measured(app: &mut App, tab: usize, trade: Trade) {
-    if let Some(traded) = traded_of(app, tab) {
-        traded.trade = Some(trade);
-    }
-}
-
-/// Selects the recommended setting, unless the user has selected one. Returns the conclusion, empty
-/// without results, if the tab is the current one.
-fn conclude(app: &mut App, tab: usize) -> Option<String> {
-    let is_shown = app.tab.id == tab;
-    let traded = traded_of(app, tab)?;
-    let words = traded.trade.as_ref().map(|trade| {
-        let recommended = trade.recommended().map(|measured| measured.setting);
-        traded.marked = traded.marked.or(recommended);
-        conclusion(trade)
-    });
-    is_shown.then(|| words.unwrap_or_default())
-}
-
-fn benchmark_failed(app: &mut App, tab: usize, reason: &str) {
-    if conclude(app, tab).is_some() {
-        app.complain(format!("no benchmark: {reason}"));
-    }
-}
-
 /// Saves the edits since the last save as a variant and shows the case without them. Without edits,
 /// loads the variant with this name into the form.
 pub(super) fn keep_variant(app: &mut App, name: &str) {
     if let Err(problem) = Variant::check_name(name) {
-        app.complain(format!("{}: {}", problem.cause, problem.fix));
-        return;
+        return app.complain(format!("{}: {}", problem.cause, problem.fix));
     }
     let variant = Variant::between(name, &app.tab.saved, &app.tab.case);
     if variant.overrides.is_empty() {
-        return recall(app, name);
+        let Ok(variant) = app.tab.case.variant(name) else {
+            let key = key_of(app, "variant");
+            return app.say(format!(
+                "no edits since the last save: change a field, then type {key} NAME"
+            ));
+        };
+        let case = app.tab.case.with(variant);
+        return edit::replace_saying(app, case, &format!("the form shows variant {name}"));
     }
     if !app.tab.problems.is_empty() {
-        app.complain("a field has an error: correct it before the edits become a variant");
-        return;
+        return app.complain("a field has an error: correct it before the edits become a variant");
     }
     let count = variant.overrides.len();
     let edits = if count == 1 { "edit" } else { "edits" };
@@ -704,8 +639,7 @@ pub(super) fn next_variants(app: &mut App) {
     let count = app.tab.case.variants.len();
     if count == 0 {
         let key = key_of(app, "variant");
-        app.say(format!("the case has no variants: {key} NAME saves the edits as one"));
-        return;
+        return app.say(format!("the case has no variants: {key} NAME saves the edits as one"));
     }
     let page = app.results().variants_page();
     app.first_variant = match app.first_variant {
@@ -728,26 +662,24 @@ pub(super) fn request_variants(app: &mut App) {
     if !is_wanted || is_known || runs {
         return;
     }
-    let column = |variant: &Variant| (variant.name.clone(), variant_inputs(&tab.case, variant));
-    let columns: Vec<_> = tab.case.variants.iter().map(column).collect();
+    let case = tab.case.clone();
     app.comparing = Some(serial);
-    let stages = Pane::Results.needs();
     let solve = move |running: &Running<'_>| {
-        let solved = |inputs: &Inputs| {
-            let go_on = |_| running.is_wanted();
-            match Evaluator::default().solve(inputs, inputs.method, stages, &go_on) {
-                Err(Refusal::Stopped) => None,
-                found => Some(found.map_err(|refusal| format!("{refusal}: {}", refusal.fix()))),
-            }
-        };
-        let columns = columns.into_iter().map(|(name, inputs)| {
-            let found = match inputs {
-                Ok(inputs) => solved(&inputs)?,
-                Err(problem) => Err(problem),
+        let solved = |variant: &Variant| {
+            let found = match case.with(variant).inputs() {
+                Err(problems) => Err(problems.first().map(Problem::to_string).unwrap_or_default()),
+                Ok(inputs) => {
+                    let stages = Pane::Results.needs();
+                    let go_on = |_| running.is_wanted();
+                    match Evaluator::default().solve(&inputs, inputs.method, stages, &go_on) {
+                        Err(Refusal::Stopped) => return None,
+                        found => found.map_err(|refusal| format!("{refusal}: {}", refusal.fix())),
+                    }
+                }
             };
-            Some((name, found))
-        });
-        Some(Variants { serial, columns: columns.collect::<Option<_>>()? })
+            Some((variant.name.clone(), found))
+        };
+        Some(Variants { serial, columns: case.variants.iter().map(solved).collect::<Option<_>>()? })
     };
     app.start(Work::new(Slot::Variants, solve, move |app, found| {
         if let Some(tab) = app.tab_with(id) {
@@ -770,54 +702,11 @@ pub(super) fn toggle_baseline(app: &mut App) {
 
 /// Pins the requested results as soon as they are complete.
 pub(super) fn pin_baseline(app: &mut App) {
-    let Some(answer) = app
-        .tab
-        .answer
-        .as_ref()
-        .filter(|answer| app.is_pinning && answer.stages.covers(crate::model::Stages::EVERY))
-    else {
-        return;
-    };
-    let (name, is_file) = (app.tab.short_name(), app.tab.path.is_some());
-    let baseline = Baseline {
-        tab: app.tab.id,
-        name,
-        is_file,
-        case: app.tab.case.clone(),
-        answer: answer.clone(),
-    };
-    let words = format!("baseline: {} as it is now, for this session", baseline.name);
-    app.is_pinning = false;
-    app.baseline = Some(baseline);
-    app.say(words);
-}
-
-/// A case that had no file when it was pinned gets the name of the file to which these values were
-/// saved.
-pub(super) fn rename_baseline(app: &mut App) {
-    let (tab, name) = (app.tab.id, app.tab.short_name());
-    let saved = &app.tab.saved;
-    let is_it = |baseline: &&mut Baseline| {
-        baseline.tab == tab && !baseline.is_file && baseline.case == *saved
-    };
-    if let Some(baseline) = app.baseline.as_mut().filter(is_it) {
-        (baseline.name, baseline.is_file) = (name, true);
+    let answer = app.tab.answer.as_ref().filter(|answer| answer.stages.covers(Stages::EVERY));
+    if let Some(answer) = answer.filter(|_| app.is_pinning) {
+        let baseline = Baseline { name: app.tab.short_name(), answer: answer.clone() };
+        let words = format!("baseline: {} as it is now, for this session", baseline.name);
+        (app.is_pinning, app.baseline) = (false, Some(baseline));
+        app.say(words);
     }
-}
-
-fn recall(app: &mut App, name: &str) {
-    let Ok(variant) = app.tab.case.variant(name).cloned() else {
-        let key = key_of(app, "variant");
-        app.say(format!("no edits since the last save: change a field, then type {key} NAME"));
-        return;
-    };
-    let case = app.tab.case.with(&variant);
-    edit::replace_saying(app, case, &format!("the form shows variant {name}"));
-}
-
-fn variant_inputs(case: &Case, variant: &Variant) -> Result<Inputs, String> {
-    case.with(variant).inputs().map_err(|problems| {
-        let first = problems.into_iter().next();
-        first.map_or_else(String::new, |problem| problem.to_string())
-    })
 }

@@ -9,16 +9,14 @@ use ratatui::layout::{Position, Rect, Size};
 use ratatui::text::Line as Words;
 use ratatui::widgets::{Clear, Widget};
 
-use super::boxes::{self, PreviewPane};
-use super::{Dialog, Surroundings};
+use super::{Dialog, PreviewPane, Surroundings, Window, draw_details, halves, said};
 use crate::case::Example;
-use crate::case::units::System;
 use crate::tui::app::App;
-use crate::tui::app::actions::{Change, Slot, Work};
+use crate::tui::app::actions::{Change, Running, Slot, Work};
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
 use crate::tui::store::folder::{
-    Entry, Listing, Preview, SearchResult, Target, beneath, find, list, place_of,
+    Entry, Listing, SearchResult, Target, beneath, find, list, place_of,
 };
 use crate::tui::text;
 use crate::tui::theme::Theme;
@@ -29,7 +27,7 @@ const SIZE: Size = Size { width: u16::MAX, height: 34 };
 const RECENTS: usize = 6;
 
 /// The sources of the lines, in their order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Source {
     /// The folder, with its parent.
     Folder,
@@ -44,25 +42,26 @@ use Source::{Below, Examples, Folder, Recents};
 /// The functions that open a file or an example.
 pub(crate) type Opens = (fn(&mut App, PathBuf), fn(&mut App, &'static Example));
 
+/// The folder of the browser, and the folders typed after it.
+type Asked = (PathBuf, String);
+
 /// A folder and the recent cases.
 #[derive(Debug, Clone)]
 pub struct Browser {
     open: Opens,
     /// The typed text: a part of a name, or a path.
     pub(crate) input: Line,
-    /// The start folder or the entered folder, relative to the working directory if possible.
-    base: PathBuf,
-    /// The folder part of the typed path, which the listing belongs to.
-    typed_folder: String,
+    /// The start folder or the entered folder, relative to the working directory if possible, and
+    /// the folder part of the typed path, which the listing belongs to.
+    asked: Asked,
     /// The content of the folder; `None` while it is being read.
     listing: Option<Listing>,
-    /// The folder of the requested search below, and its result.
-    sought: Option<(PathBuf, String)>,
-    below: Option<SearchResult>,
-    /// The lines of each source.
-    entries: [Vec<Entry>; 4],
-    /// The matching lines: their source and their index in it.
-    matches: Vec<(Source, usize)>,
+    /// The folder of the requested search below, and whether the search has ended.
+    sought: Option<(Asked, bool)>,
+    /// The lines, in the order of their sources.
+    lines: Vec<(Source, Entry)>,
+    /// The indices of the matching lines.
+    matches: Vec<usize>,
     /// The index of the selected line among the matches.
     selected: usize,
     /// Whether to select a recent case rather than one of the folder.
@@ -76,17 +75,15 @@ pub struct Browser {
 
 impl Browser {
     /// A browser in the folder of the present case; selects the recent cases if they are preferred.
-    #[must_use]
     pub(crate) fn beside(path: Option<&Path>, prefers_recents: bool, open: Opens) -> Browser {
+        let base = path.and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
         Browser {
             open,
             input: Line::default(),
-            base: path.and_then(Path::parent).map(Path::to_owned).unwrap_or_default(),
-            typed_folder: String::new(),
+            asked: (base, String::new()),
             listing: None,
             sought: None,
-            below: None,
-            entries: [Vec::new(), Vec::new(), Entry::examples(), Vec::new()],
+            lines: Entry::examples().into_iter().map(|entry| (Examples, entry)).collect(),
             matches: Vec::new(),
             selected: 0,
             prefers_recents,
@@ -97,40 +94,38 @@ impl Browser {
     }
 
     /// The work that lists the folder.
-    #[must_use]
     pub(crate) fn list(&self) -> Work {
-        let asked = self.asked();
+        let asked = self.asked.clone();
         let show = |app: &mut App, listing| {
             if app.browser().is_some_and(|browser| browser.take(listing)) {
                 app.accept();
             }
         };
         Work::new(Slot::Folder, |running| Some(list(asked, running.path.to_owned())), show)
-            .at(self.place())
+            .at(self.folder())
     }
 
     // At most one search for each folder.
     fn search(&mut self) -> Option<Work> {
-        let asked = self.asked();
-        if !self.searches_below() || self.sought.as_ref() == Some(&asked) {
+        let is_known = self.sought.as_ref().is_some_and(|(asked, _)| *asked == self.asked);
+        if !self.searches_below() || is_known {
             return None;
         }
-        self.sought = Some(asked.clone());
-        let search = Work::new(
-            Slot::Search,
-            move |running| find(asked, running.path, &|_| running.is_wanted()),
-            |app, found| {
-                if let Some(browser) = app.browser() {
-                    browser.take_below(found);
-                }
-            },
-        );
-        Some(search.at(self.place()))
+        let asked = self.asked.clone();
+        self.sought = Some((asked.clone(), false));
+        let search =
+            move |running: &Running<'_>| find(asked, running.path, &|_| running.is_wanted());
+        let show = |app: &mut App, found| {
+            if let Some(browser) = app.browser() {
+                browser.take_below(found);
+            }
+        };
+        Some(Work::new(Slot::Search, search, show).at(self.folder()))
     }
 
     /// The path of the typed folder.
-    fn place(&self) -> PathBuf {
-        place_of(&self.base, &self.typed_folder)
+    fn folder(&self) -> PathBuf {
+        place_of(&self.asked.0, &self.asked.1)
     }
 
     /// Enters the selected folder, or writes the selected name into the line.
@@ -162,23 +157,16 @@ impl Browser {
     fn above(&self) -> PathBuf {
         match &self.listing {
             Some(Listing { folder, .. }) => folder.parent().unwrap_or(folder).to_owned(),
-            None => beneath(&self.base, &self.typed_folder).join(".."),
+            None => beneath(&self.asked.0, &self.asked.1).join(".."),
         }
     }
 
     fn enter(&mut self, folder: PathBuf) {
         let left = self.listing.as_ref().filter(|_| folder == self.above());
         self.came_from = left.and_then(|left| left.folder.file_name().map(ToOwned::to_owned));
-        self.base = folder;
-        (self.input, self.typed_folder, self.listing) = (Line::default(), String::new(), None);
+        (self.input, self.asked, self.listing) = (Line::default(), (folder, String::new()), None);
         (self.prefers_recents, self.is_accepting) = (false, false);
-        self.entries[Folder as usize].clear();
-        self.refit();
-    }
-
-    /// The folder and the typed part of the requested listing.
-    fn asked(&self) -> (PathBuf, String) {
-        (self.base.clone(), self.typed_folder.clone())
+        self.show(Folder, Vec::new());
     }
 
     /// The typed path up to its last slash, and the rest. A lone `~` is the home folder.
@@ -188,23 +176,30 @@ impl Browser {
         if typed == "~" { (typed, "") } else { typed.split_at(name) }
     }
 
-    // The part of a name to search for below and among the examples; hidden names are only searched
-    // in this folder.
+    // Whether the part of a name is also searched below and among the examples; hidden names are
+    // only searched in this folder.
     fn searches_below(&self) -> bool {
         let wanted = self.split().1;
         !wanted.is_empty() && !wanted.starts_with(['.', '~'])
     }
 
+    /// Shows the entries of a source.
+    fn show(&mut self, source: Source, entries: Vec<Entry>) {
+        self.lines.retain(|(own, _)| *own != source);
+        self.lines.extend(entries.into_iter().map(|entry| (source, entry)));
+        self.lines.sort_by_key(|(source, _)| *source);
+        self.refit();
+    }
+
     /// Shows a listing if it belongs to the present folder. Returns whether Enter waits for it.
     fn take(&mut self, listing: Listing) -> bool {
-        if listing.asked != self.asked() {
+        if listing.asked != self.asked {
             return false;
         }
         let found: Vec<Entry> = listing.entries.iter().flatten().cloned().collect();
         self.listing = Some(listing);
         let up = Entry::up(self.above());
-        self.entries[Folder as usize] = std::iter::once(up).chain(found).collect();
-        self.refit();
+        self.show(Folder, std::iter::once(up).chain(found).collect());
         let came_from = self.came_from.take();
         let is_it = |entry: &Entry| match &entry.target {
             Target::File(path) | Target::Folder(path) => {
@@ -219,47 +214,43 @@ impl Browser {
 
     /// Shows the cases in the folders below; a selection before them does not change.
     fn take_below(&mut self, below: SearchResult) {
-        let selected = self.selected;
-        let is_above = self.source() == Some(Folder);
-        self.entries[Below as usize].clone_from(&below.cases);
-        self.below = Some(below);
-        self.refit();
-        self.selected = if is_above { selected } else { self.selected };
+        let before = Some(self.selected).filter(|_| self.source() == Some(Folder));
+        self.sought = Some((below.asked, true));
+        self.show(Below, below.cases);
+        self.selected = before.unwrap_or(self.selected);
     }
 
     /// Shows the recent cases.
     pub fn remember(&mut self, recents: Vec<Entry>) {
-        self.entries[Recents as usize] = recents;
-        self.refit();
+        self.show(Recents, recents);
     }
 
     fn is_searched(&self) -> bool {
-        self.below.as_ref().is_some_and(|below| below.asked == self.asked())
+        matches!(&self.sought, Some((asked, true)) if *asked == self.asked)
     }
 
     /// The matching lines of the folder itself.
     fn in_folder(&self) -> impl Iterator<Item = &Entry> {
-        let own = self.matches.iter().take_while(|(source, _)| *source == Folder);
-        own.map(|&(_, at)| &self.entries[Folder as usize][at])
+        let lines = self.matches.iter().map(|&at| &self.lines[at]);
+        lines.take_while(|(source, _)| *source == Folder).map(|(_, entry)| entry)
     }
 
-    fn entry(&self, at: usize) -> Option<&Entry> {
-        let &(source, at) = self.matches.get(at)?;
-        self.entries[source as usize].get(at)
+    fn line(&self, at: usize) -> Option<&(Source, Entry)> {
+        self.lines.get(*self.matches.get(at)?)
     }
 
     /// The number of lines before the recent cases.
     fn before_recents(&self) -> usize {
-        self.matches.partition_point(|(source, _)| *source != Recents)
+        self.matches.partition_point(|&at| self.lines[at].0 != Recents)
     }
 
     fn source(&self) -> Option<Source> {
-        self.matches.get(self.selected).map(|(source, _)| *source)
+        self.line(self.selected).map(|(source, _)| *source)
     }
 
     /// The target of the selected line.
     fn target(&self) -> Option<&Target> {
-        self.entry(self.selected).map(|entry| &entry.target)
+        self.line(self.selected).map(|(_, entry)| &entry.target)
     }
 
     // Hidden entries match only if the user types their dot.
@@ -267,18 +258,13 @@ impl Browser {
         let (wanted, typed) = (self.split().1.to_lowercase(), self.input.value().to_lowercase());
         let (is_below, has_dot) = (self.searches_below(), wanted.starts_with('.'));
         let is_own = self.is_searched();
-        let fits = |source: Source, entry: &Entry| match source {
-            Folder => (has_dot || !entry.folded.starts_with('.')) && entry.folded.contains(&wanted),
-            Below => is_own && is_below && entry.folded.contains(&wanted),
-            Examples => is_below && entry.folded.contains(&typed),
-            Recents => entry.folded.contains(&typed),
+        let fits = |(source, Entry { folded, .. }): &(Source, Entry)| match source {
+            Folder => (has_dot || !folded.starts_with('.')) && folded.contains(&wanted),
+            Below => is_own && is_below && folded.contains(&wanted),
+            Examples => is_below && folded.contains(&typed),
+            Recents => folded.contains(&typed),
         };
-        let sources = [Folder, Below, Examples, Recents].into_iter();
-        let all = sources.flat_map(|source| {
-            self.entries[source as usize].iter().enumerate().map(move |one| (source, one))
-        });
-        let fitting = all.filter(|(source, (_, entry))| fits(*source, entry));
-        self.matches = fitting.map(|(source, (at, _))| (source, at)).collect();
+        self.matches = (0..self.lines.len()).filter(|&at| fits(&self.lines[at])).collect();
         self.select_first();
     }
 
@@ -287,63 +273,66 @@ impl Browser {
     fn select_first(&mut self) {
         let wanted = self.split().1.to_lowercase();
         let at = |is_it: &dyn Fn(&str) -> bool| {
-            self.in_folder().position(|entry| is_it(entry.folded.as_str()))
+            self.in_folder().position(|entry| !entry.folded.is_empty() && is_it(&entry.folded))
         };
-        let best = at(&|name| name == wanted && !name.is_empty())
-            .or_else(|| at(&|name| !name.is_empty() && name.starts_with(&wanted)))
-            .unwrap_or(0);
+        let best = at(&|name| name == wanted).or_else(|| at(&|name| name.starts_with(&wanted)));
         let recents = self.before_recents();
-        let is_recent = self.prefers_recents || recents == 0;
-        self.selected = if is_recent && recents < self.matches.len() { recents } else { best };
+        let is_recent = (self.prefers_recents || recents == 0) && recents < self.matches.len();
+        self.selected = if is_recent { recents } else { best.unwrap_or(0) };
     }
 
-    // The folder, and the recent cases with their title below it.
-    fn lists(&self, area: Rect) -> [Rect; 2] {
-        let recents = self.matches.len() - self.before_recents();
-        let recents = recents.min(RECENTS).min(usize::from(area.height) / 3);
-        let height = if recents == 0 { 0 } else { recents as u16 + 1 };
+    // The list of the folder and the list of recent cases, with the area of its title above it.
+    fn windows(&self, area: Rect) -> [Window; 2] {
+        let recents = self.before_recents();
+        let count = self.matches.len() - recents;
+        let shown = count.min(RECENTS).min(usize::from(area.height) / 3);
+        let height = if shown == 0 { 0 } else { shown as u16 + 1 };
         let above = Rect { height: area.height - height, ..area };
-        [above, Rect { y: above.bottom(), height, ..area }]
+        let below = Rect { y: above.bottom(), height, ..area };
+        let selected = self.selected;
+        [
+            Window {
+                count: recents,
+                selected: (selected < recents).then_some(selected),
+                area: above,
+            },
+            Window { count, selected: selected.checked_sub(recents), area: below },
+        ]
     }
 
     fn draw_lists(&self, area: Rect, theme: &Theme, buffer: &mut Buffer) {
-        let [above, below] = self.lists(area);
-        let recents = self.before_recents();
-        let name = |at: usize| {
-            let name = self.entry(at).map_or("", |entry| &entry.name);
-            let is_path = name.trim_end_matches('/').contains('/') && at < recents;
-            if is_path {
+        let [above, below] = self.windows(area);
+        let name = |at: usize| self.line(at).map_or("", |(_, entry)| entry.name.as_str());
+        let in_folder = |at: usize| {
+            let name = name(at);
+            if name.trim_end_matches('/').contains('/') {
                 text::cut_front(name, area.width.saturating_sub(2).into())
             } else {
                 name.to_owned()
             }
         };
-        boxes::draw_window(recents, name, Some(self.selected), above, theme, buffer);
-        self.draw_state(above, theme, buffer);
-        if !below.is_empty() {
-            let area = text::titled("Recent cases", below, theme, buffer);
-            let name = |at: usize| name(recents + at);
-            let count = self.matches.len() - recents;
-            let selected = self.selected.checked_sub(recents);
-            boxes::draw_window(count, name, selected, area, theme, buffer);
+        above.draw(in_folder, theme, buffer);
+        self.draw_state(above.area, theme, buffer);
+        if !below.area.is_empty() {
+            let area = text::titled("Recent cases", below.area, theme, buffer);
+            let recents = above.count;
+            Window { area, ..below }.draw(|at| name(recents + at).to_owned(), theme, buffer);
         }
     }
 
     // Why the folder has no more lines, below them.
     fn draw_state(&self, area: Rect, theme: &Theme, buffer: &mut Buffer) {
         let count = self.before_recents();
-        let state = match &self.listing {
+        let state = match self.listing.as_ref().map(|listing| (listing, &listing.entries)) {
             None => "reading ...",
-            Some(listing) => match &listing.entries {
-                Err(reason) => reason,
-                Ok(_) if listing.is_cut() => "The list is not complete.",
-                Ok(entries) if entries.is_empty() => "No folders and no *.toml here.",
-                Ok(_) if count > 0 => return,
-                Ok(_) if self.searches_below() && !self.is_searched() => "Searching below ...",
-                Ok(_) => "No match here or below.",
-            },
+            Some((_, Err(reason))) => reason,
+            Some((listing, Ok(_))) if listing.is_cut() => "The list is not complete.",
+            Some((_, Ok(entries))) if entries.is_empty() => "No folders and no *.toml here.",
+            Some(_) if count > 0 => return,
+            Some(_) if self.searches_below() && !self.is_searched() => "Searching below ...",
+            Some(_) => "No match here or below.",
         };
-        let lines: Vec<_> = boxes::said(state, theme.note, area.width).collect();
+        let lines = said(state, theme.note, area.width);
         let above = (count as u16).min(area.height.saturating_sub(3));
         let below = Rect { y: area.y + above, height: area.height - above, ..area };
         Clear.render(Rect { height: below.height.min(lines.len() as u16), ..below }, buffer);
@@ -352,7 +341,8 @@ impl Browser {
 
     fn preview_lines(&self, width: u16, theme: &Theme) -> Vec<Words<'static>> {
         let mut lines = Vec::new();
-        if let (Some(Target::File(path)), Some(Recents)) = (self.target(), self.source()) {
+        if let Some((Recents, Entry { target: Target::File(path), .. })) = self.line(self.selected)
+        {
             let path = text::cut_front(&path.display().to_string(), width.into());
             lines.push(Words::styled(path, theme.faint));
         }
@@ -374,12 +364,13 @@ impl Dialog for Browser {
         self.is_accepting = false;
         let mut works = Vec::new();
         let folder = self.split().0.to_owned();
-        if folder != self.typed_folder {
-            (self.typed_folder, self.listing) = (folder, None);
-            self.entries[Folder as usize].clear();
+        if folder == self.asked.1 {
+            self.refit();
+        } else {
+            (self.asked.1, self.listing) = (folder, None);
+            self.show(Folder, Vec::new());
             works.push(self.list());
         }
-        self.refit();
         works.extend(self.search());
         works
     }
@@ -389,24 +380,18 @@ impl Dialog for Browser {
         self.selected = self.selected.saturating_add_signed(by).min(last);
     }
 
-    fn click(&mut self, at: Position, screen: Rect) -> bool {
-        let [above, below] = self.lists(boxes::halves(body(boxes::inside(SIZE, screen)))[0]);
-        let recents = self.before_recents();
-        let selected = Some(self.selected).filter(|&selected| selected < recents);
-        let in_folder = boxes::line_at(recents, selected, above, at);
-        let below = Rect { y: below.y + 1, height: below.height.saturating_sub(1), ..below };
-        let recent = || {
-            let count = self.matches.len() - recents;
-            boxes::line_at(count, self.selected.checked_sub(recents), below, at)
-        };
-        let line = in_folder.or_else(|| recent().map(|line| recents + line));
-        line.is_some_and(|line| boxes::select(&mut self.selected, line))
+    fn click(&mut self, at: Position, around: &Surroundings<'_>) -> bool {
+        let [above, mut recents] = self.windows(halves(below(around.inside(SIZE), 2))[0]);
+        recents.area = below(recents.area, 1);
+        let recent = || recents.line_at(at).map(|line| above.count + line);
+        let line = above.line_at(at).or_else(recent);
+        line.is_some_and(|line| std::mem::replace(&mut self.selected, line) == line)
     }
 
     // Without a match, opens the typed path.
     fn accept(&mut self, _: &Surroundings<'_>) -> Option<Change> {
-        let is_typed = !self.input.value().is_empty() && !self.prefers_recents;
-        if self.listing.is_none() && is_typed {
+        let typed = self.input.value();
+        if self.listing.is_none() && !typed.is_empty() && !self.prefers_recents {
             self.is_accepting = true;
             return None;
         }
@@ -423,32 +408,28 @@ impl Dialog for Browser {
                 }));
             }
             Some(Target::File(path)) => path.clone(),
-            None if self.input.value().is_empty() => return None,
-            None => beneath(&self.base, self.input.value()),
+            None if typed.is_empty() => return None,
+            None => beneath(&self.asked.0, typed),
         };
         Some(Change::of(move |app| open(app, path)))
     }
 
-    fn preview(&mut self, units: System) -> Option<Work> {
+    fn preview(&mut self) -> Option<(&mut PreviewPane, Option<Target>)> {
         let target = self.target().cloned();
-        self.preview.request(target, units)
+        Some((&mut self.preview, target))
     }
 
-    fn show(&mut self, target: &Target, preview: Preview) {
-        self.preview.show(target, preview);
-    }
-
-    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        let theme = around.look.theme;
-        let inner = boxes::frame("Open a case", SIZE, area, theme, buffer);
+    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
+        let theme = around.theme();
+        let inner = around.frame("Open a case", SIZE, buffer);
         let folder = self.listing.as_ref().map(|listing| listing.folder.display().to_string());
         let width = usize::from(inner.width);
         let folder = text::cut_front(&folder.unwrap_or_default(), width);
         buffer.set_stringn(inner.x, inner.y, folder, width, theme.title);
-        let [left, right] = boxes::halves(body(inner));
+        let [left, right] = halves(below(inner, 2));
         self.draw_lists(left, theme, buffer);
-        boxes::draw_details(|width| self.preview_lines(width, theme), right, buffer);
-        let line = Rect { y: inner.y + 1, height: inner.height.saturating_sub(1).min(1), ..inner };
+        draw_details(|width| self.preview_lines(width, theme), right, buffer);
+        let line = Rect { height: inner.height.saturating_sub(1).min(1), ..below(inner, 1) };
         if self.input.value().is_empty() {
             let how = "  type part of a name or a path; ~ is the home folder";
             buffer.set_stringn(line.x, line.y, how, width, theme.faint);
@@ -457,6 +438,6 @@ impl Dialog for Browser {
     }
 }
 
-fn body(inner: Rect) -> Rect {
-    Rect { y: inner.y + 2, height: inner.height.saturating_sub(2), ..inner }
+fn below(inner: Rect, rows: u16) -> Rect {
+    Rect { y: inner.y + rows, height: inner.height.saturating_sub(rows), ..inner }
 }

@@ -1,12 +1,12 @@
 //! The dialog for the roll angle, time or point of the cursor.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::Position;
 use ratatui::style::Style;
 use ratatui::text::Span;
 use unicode_width::UnicodeWidthStr;
 
-use super::{Dialog, Surroundings, boxes};
+use super::{Dialog, Surroundings, said};
 use crate::case::units::{self, Dimension};
 use crate::numeric::decimal::{shortest, significant};
 use crate::report::graphs::GRAPHS;
@@ -63,20 +63,18 @@ impl Dialog for CursorTo {
         Some(Change::of(move |app| done(app, angle)))
     }
 
-    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        let (input, scope, theme) = (&self.input, &around.cursor, around.look.theme);
+    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
+        let (input, scope, theme) = (&self.input, &around.cursor, around.theme());
         let typed = input.value();
-        let width = WIDTH.min(boxes::room(area).width);
+        let width = WIDTH.min(around.room().width);
         let (meant, style) = match parse_cursor(scope, typed) {
             _ if typed.trim().is_empty() => (String::new(), theme.faint),
             Ok(angle) => (format!("= {}", describe(scope, angle)), theme.note),
             Err(reason) => (reason, theme.faint),
         };
-        let meant = Span::styled(text::cut(&meant, width.into()), style).into();
-        let lines: Vec<_> =
-            std::iter::once(meant).chain(boxes::said(HOW, Style::new(), width)).collect();
-        let (line, cursor) =
-            boxes::input_box("Cursor to", WIDTH, input, &lines, theme, (area, buffer));
+        let mut lines = vec![Span::styled(text::cut(&meant, width.into()), style).into()];
+        lines.extend(said(HOW, Style::new(), width));
+        let (line, cursor) = around.input_box("Cursor to", WIDTH, input, &lines, buffer);
         text::ending(ending(scope, typed).as_deref(), typed.width(), line, theme, buffer);
         cursor
     }
@@ -109,16 +107,12 @@ pub(in crate::tui) struct Reach {
 
 impl Reach {
     /// The angle after a move by `columns` towards E; D if there is no cursor yet.
-    #[must_use]
     pub(in crate::tui) fn moved(self, cursor: Option<f64>, columns: isize) -> f64 {
-        let Some(cursor) = cursor else {
-            return self.held(self.start);
-        };
-        self.held(cursor - columns as f64 * self.column)
+        let moved = cursor.map(|cursor| cursor - columns as f64 * self.column);
+        self.held(moved.unwrap_or(self.start))
     }
 
     /// The angle of the next frame; `None` at the end.
-    #[must_use]
     pub(in crate::tui) fn played(self, cursor: f64) -> Option<f64> {
         let next = cursor - (self.run_from - self.run_to) / PICTURES;
         (next > self.run_to && next < cursor).then_some(next)
@@ -132,23 +126,21 @@ impl Reach {
 }
 
 /// The completion of a typed angle or time.
-#[must_use]
 fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
-    let dimensions = [Dimension::Angle, Dimension::Time];
     if units::parse(typed, Dimension::Number, "").is_ok() {
         let unit = scope.charts.ruler().1.unit;
         return units::ending(typed, Dimension::of_unit(&unit)?, &unit);
     }
-    let mut endings =
-        dimensions.into_iter().filter_map(|dimension| units::ending(typed, dimension, ""));
-    let is_whole =
-        dimensions.into_iter().any(|dimension| units::parse(typed, dimension, "").is_ok());
-    endings.next().filter(|_| endings.next().is_none() && !is_whole)
+    let dimensions = [Dimension::Angle, Dimension::Time];
+    let is_whole = dimensions.iter().any(|&one| units::parse(typed, one, "").is_ok());
+    match dimensions.map(|dimension| units::ending(typed, dimension, "")) {
+        [Some(ending), None] | [None, Some(ending)] if !is_whole => Some(ending),
+        _ => None,
+    }
 }
 
 /// The range of the cursor in the focused pane, or in the visible pane. In a chart it is the range
 /// of the axis. In the teeth pane it extends to one base pitch after E.
-#[must_use]
 pub(in crate::tui) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
     let solution = scope.charts.solution()?;
     let pitch = solution.geometry.base_pitch / solution.geometry.driver.base;
@@ -211,16 +203,14 @@ fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
 }
 
 /// An angle as text, with its time from E.
-#[must_use]
 fn describe(scope: &CursorScope<'_>, angle: f64) -> String {
     let short = |number: f64, digits| {
         let rounded = significant(number, digits);
         rounded.parse().map_or(rounded, shortest)
     };
     let side = if angle < 0.0 { "after" } else { "before" };
-    let micros = 1e6 * angle.abs() / speed(scope);
-    let time =
-        if micros.is_finite() { format!(" ({} us)", short(micros, 4)) } else { String::new() };
+    let micros = Some(1e6 * angle.abs() / speed(scope)).filter(|micros| micros.is_finite());
+    let time = micros.map(|micros| format!(" ({} us)", short(micros, 4))).unwrap_or_default();
     format!("{} deg{time} {side} E", short(angle.abs().to_degrees(), 5))
 }
 

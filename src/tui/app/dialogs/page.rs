@@ -2,11 +2,11 @@
 //! selection among the fields of its last list.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::Position;
 use ratatui::style::Style;
 use ratatui::text::{Line as Words, Span};
 
-use super::{Dialog, Surroundings, boxes};
+use super::{Dialog, Surroundings, wrapped};
 use crate::case::fields::index_of;
 use crate::model::Quantity;
 use crate::report::Shown;
@@ -15,12 +15,10 @@ use crate::tui::app::App;
 use crate::tui::app::actions::Change;
 use crate::tui::ascii::written_out;
 use crate::tui::keys::Place;
-use crate::tui::theme::{Look, Theme};
 
 /// A page of text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Page {
-    /// The title.
     pub(crate) title: String,
     pub(crate) lines: Vec<String>,
     /// The first visible line.
@@ -31,14 +29,13 @@ pub struct Page {
 
 impl Page {
     /// A page that shows its first line.
-    #[must_use]
     pub(crate) fn new(title: impl Into<String>, lines: Vec<String>) -> Page {
         Page { title: title.into(), lines, top: 0, is_of_results: false }
     }
 
-    fn wrapped(&self, screen: Rect) -> Vec<Words<'static>> {
-        let width = boxes::room(screen).width;
-        self.lines.iter().flat_map(|line| boxes::wrapped(line, width)).map(Words::from).collect()
+    fn wrapped(&self, around: &Surroundings<'_>) -> Vec<Words<'static>> {
+        let width = around.room().width;
+        self.lines.iter().flat_map(|line| wrapped(line, width)).map(Words::from).collect()
     }
 }
 
@@ -48,13 +45,11 @@ impl Dialog for Page {
     }
 
     fn step(&mut self, by: isize, around: &Surroundings<'_>) {
-        let count = self.wrapped(around.screen).len();
-        self.top = boxes::scrolled(self.top, by, count, around.screen);
+        self.top = around.scrolled(self.top, by, self.wrapped(around).len());
     }
 
-    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        let (lines, theme) = (self.wrapped(area), around.look.theme);
-        boxes::page_box(&self.title, &lines, self.top, theme, (area, buffer));
+    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
+        around.page_box(&self.title, &self.wrapped(around), self.top, buffer);
         None
     }
 }
@@ -79,7 +74,6 @@ pub struct Explanation {
 
 impl Explanation {
     /// An explanation without its page, which a job computes.
-    #[must_use]
     pub(crate) fn new(
         quantity: &'static Quantity,
         case: String,
@@ -90,7 +84,6 @@ impl Explanation {
     }
 
     /// The keys of the fields that the result depends on, in the order of the page.
-    #[must_use]
     pub fn fields(&self) -> Vec<&'static str> {
         let effects = self.page.iter().flatten().flat_map(|page| &page.effects);
         let (acting, idle): (Vec<_>, Vec<_>) =
@@ -99,30 +92,27 @@ impl Explanation {
     }
 
     /// The selected field.
-    #[must_use]
     pub fn field(&self) -> Option<&'static str> {
         self.fields().get(self.selected?).copied()
     }
 
-    fn lines(&self, screen: Rect, ascii: bool) -> Vec<Line> {
-        let width = boxes::room(screen).width;
-        let said = |text: String| vec![Line { kind: Kind::Text, text }];
-        let page = match &self.page {
-            None => said("computing: each field is changed by a small step".to_owned()),
-            Some(Err(reason)) => said(reason.clone()),
-            Some(Ok(page)) => lines(page, &self.case, width.into()),
-        };
-        let other_units = self
-            .value
-            .iter()
-            .flat_map(|value| said(format!("{value} in inch units; this page is in metric ones.")));
-        let lines = other_units.chain(page);
+    fn lines(&self, around: &Surroundings<'_>) -> Vec<Line> {
+        let width = around.room().width;
+        let said = |text: String| Line { kind: Kind::Text, text };
+        let units = "in inch units; this page is in metric ones.";
+        let mut all: Vec<_> =
+            self.value.iter().map(|value| said(format!("{value} {units}"))).collect();
+        match &self.page {
+            None => all.push(said("computing: each field is changed by a small step".to_owned())),
+            Some(Err(reason)) => all.push(said(reason.clone())),
+            Some(Ok(page)) => all.extend(lines(page, &self.case, width.into())),
+        }
         // Symbols spelled in ASCII may need another line.
         let in_ascii = |Line { kind, text }: Line| {
-            let lines = boxes::wrapped(&written_out(&text), width);
+            let lines = wrapped(&written_out(&text), width);
             lines.into_iter().map(move |text| Line { kind, text })
         };
-        if ascii { lines.flat_map(in_ascii).collect() } else { lines.collect() }
+        if around.look.ascii { all.into_iter().flat_map(in_ascii).collect() } else { all }
     }
 
     // Row and column of the selected field, and its key. No line breaks inside a key.
@@ -145,8 +135,7 @@ impl Dialog for Explanation {
     }
 
     fn step(&mut self, by: isize, around: &Surroundings<'_>) {
-        let count = self.lines(around.screen, around.look.ascii).len();
-        self.top = boxes::scrolled(self.top, by, count, around.screen);
+        self.top = around.scrolled(self.top, by, self.lines(around).len());
     }
 
     // Wraps around, and makes the selected field visible.
@@ -154,9 +143,8 @@ impl Dialog for Explanation {
         let count = self.fields().len();
         let from = self.selected.unwrap_or(if by > 0 { count.saturating_sub(1) } else { 0 });
         self.selected = (count > 0).then(|| (from + count).saturating_add_signed(by) % count);
-        let lines = self.lines(around.screen, around.look.ascii);
-        let height = usize::from(boxes::room(around.screen).height).max(1);
-        if let Some((row, ..)) = self.place_of_field(&lines) {
+        if let Some((row, ..)) = self.place_of_field(&self.lines(around)) {
+            let height = around.page_height().unsigned_abs();
             self.top = self.top.clamp((row + 1).saturating_sub(height), row);
         }
     }
@@ -171,10 +159,18 @@ impl Dialog for Explanation {
         None
     }
 
-    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        let Look { theme, ascii } = around.look;
-        let lines = self.lines(area, ascii);
-        let mut shown: Vec<_> = lines.iter().map(|line| styled(line, theme)).collect();
+    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
+        let (lines, theme) = (self.lines(around), around.theme());
+        let styled = |line: &Line| {
+            let style = match line.kind {
+                Kind::Title => theme.focus,
+                Kind::Heading => theme.title,
+                Kind::Outside => theme.problem,
+                Kind::Formula | Kind::Numbers | Kind::Text => Style::new(),
+            };
+            Words::from(Span::styled(line.text.as_str(), style))
+        };
+        let mut shown: Vec<_> = lines.iter().map(styled).collect();
         if let Some((row, at, key)) = self.place_of_field(&lines) {
             let text = &lines[row].text;
             let before = text[..at].strip_suffix(' ').unwrap_or(&text[..at]);
@@ -185,18 +181,7 @@ impl Dialog for Explanation {
                 Span::raw(&text[at + key.len()..]),
             ]);
         }
-        let title = self.quantity.label.trim();
-        boxes::page_box(title, &shown, self.top, theme, (area, buffer));
+        around.page_box(self.quantity.label.trim(), &shown, self.top, buffer);
         None
     }
-}
-
-fn styled<'l>(line: &'l Line, theme: &Theme) -> Words<'l> {
-    let style = match line.kind {
-        Kind::Title => theme.focus,
-        Kind::Heading => theme.title,
-        Kind::Outside => theme.problem,
-        Kind::Formula | Kind::Numbers | Kind::Text => Style::new(),
-    };
-    Span::styled(line.text.as_str(), style).into()
 }

@@ -10,17 +10,17 @@ use ratatui::text::Span;
 use ratatui::widgets::{Block, Borders, Widget};
 use unicode_width::UnicodeWidthStr;
 
-use super::boxes::{self, PreviewPane};
-use super::{Dialog, Surroundings, closing};
+use super::{
+    Dialog, PreviewPane, Surroundings, Window, closing, draw_details, halves, input_above, said,
+};
 use crate::case::fields::{FIELDS, Field, Kind};
-use crate::case::units::System;
 use crate::model::{QUANTITIES, Quantity};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Choice, Work};
 use crate::tui::form_aids::{COMMAND, Entry, HELP, LABEL, query};
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
-use crate::tui::store::folder::{Preview, Target};
+use crate::tui::store::folder::Target;
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
@@ -104,7 +104,6 @@ impl Picker {
     }
 
     /// The lines that match every typed word, the best first.
-    #[must_use]
     pub fn fitting(&self) -> Vec<Arc<Item>> {
         if let Some(item) = self.with_argument() {
             return vec![Arc::new(item)];
@@ -208,45 +207,37 @@ impl Dialog for Picker {
         self.selected = self.selected.saturating_add_signed(by).min(last);
     }
 
-    fn click(&mut self, at: Position, screen: Rect) -> bool {
+    fn click(&mut self, at: Position, around: &Surroundings<'_>) -> bool {
         let items = self.fitting();
-        let (_, list, _) = self.areas(&items, boxes::inside(SIZE, screen));
-        boxes::line_at(items.len(), Some(self.selected), list, at)
-            .is_some_and(|line| boxes::select(&mut self.selected, line))
+        let (_, list, _) = self.areas(&items, around.inside(SIZE));
+        let line = self.window(&items, list).line_at(at);
+        line.is_some_and(|line| std::mem::replace(&mut self.selected, line) == line)
     }
 
     fn accept(&mut self, _: &Surroundings<'_>) -> Option<Change> {
         self.fitting().get(self.selected).map(|item| closing(&item.choice))
     }
 
-    fn preview(&mut self, units: System) -> Option<Work> {
+    fn preview(&mut self) -> Option<(&mut PreviewPane, Option<Target>)> {
         let target = self.fitting().get(self.selected).and_then(|item| item.preview.clone());
-        self.preview.as_mut()?.request(target, units)
+        Some((self.preview.as_mut()?, target))
     }
 
-    fn show(&mut self, target: &Target, preview: Preview) {
-        if let Some(pane) = &mut self.preview {
-            pane.show(target, preview);
-        }
-    }
-
-    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        let theme = around.look.theme;
+    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
+        let theme = around.theme();
         let items = self.fitting();
-        let inner = boxes::frame(self.title, SIZE, area, theme, buffer);
+        let inner = around.frame(self.title, SIZE, buffer);
         let (line, list, details) = self.areas(&items, inner);
         if let Some(preview) = &self.preview {
-            let name = |at: usize| items[at].name.clone();
-            boxes::draw_window(items.len(), name, Some(self.selected), list, theme, buffer);
-            boxes::draw_details(|width| preview.lines(width, theme), details, buffer);
+            self.window(&items, list).draw(|at| items[at].name.clone(), theme, buffer);
+            draw_details(|width| preview.lines(width, theme), details, buffer);
         } else {
             self.draw_items(&items, list, theme, buffer);
             if let Some(item) = items.get(self.selected) {
                 let rule = Block::new().borders(Borders::TOP).border_style(theme.rule);
                 let inner = rule.inner(details);
-                let lines: Vec<_> =
-                    boxes::said(&item.in_full(), Style::new(), inner.width).collect();
                 rule.render(details, buffer);
+                let lines = said(&item.in_full(), Style::new(), inner.width);
                 text::draw_lines(&lines, inner, buffer);
             }
         }
@@ -258,12 +249,16 @@ impl Dialog for Picker {
 }
 
 impl Picker {
+    fn window(&self, items: &[Arc<Item>], area: Rect) -> Window {
+        Window { count: items.len(), selected: Some(self.selected), area }
+    }
+
     // The input line, the list, and the details: beside the list of examples, otherwise below. The
     // longest description has room, so that the list does not move.
     fn areas(&self, items: &[Arc<Item>], inner: Rect) -> (Rect, Rect, Rect) {
-        let [line, list] = boxes::input_above(inner);
+        let [line, list] = input_above(inner);
         if self.preview.is_some() {
-            let [left, right] = boxes::halves(list);
+            let [left, right] = halves(list);
             return (line, left, right);
         }
         let lines = |item: &Arc<Item>| text::wrap(&item.in_full(), list.width.into()).len();
@@ -283,12 +278,10 @@ impl Picker {
         let line = |at: usize| {
             let item = &items[at];
             let name = text::padded(&item.name, name);
-            let keys = match keys {
-                0 => String::new(),
-                _ => format!("  {}", text::padded(&item.keys, keys)),
-            };
-            format!("{name}{keys}  {}", item.about).trim_end().to_owned()
+            let gap = if keys == 0 { "" } else { "  " };
+            let keys = text::padded(&item.keys, keys);
+            format!("{name}{gap}{keys}  {}", item.about).trim_end().to_owned()
         };
-        boxes::draw_window(items.len(), line, Some(self.selected), area, theme, buffer);
+        self.window(items, area).draw(line, theme, buffer);
     }
 }

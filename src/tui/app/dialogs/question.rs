@@ -1,13 +1,13 @@
-//! Questions with buttons, and the question for a path.
+//! Questions with buttons, and dialogs for a line of text such as a path.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect, Size};
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line as Words, Span};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::{Dialog, Surroundings, boxes, closing};
+use super::{Dialog, Surroundings, WIDEST, closing, extent, said};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Choice};
 use crate::tui::keys::Place;
@@ -21,14 +21,13 @@ const BESIDE_NAME: u16 = 7;
 /// A question with buttons.
 #[derive(Debug, Clone)]
 pub struct Question {
-    pub(crate) title: &'static str,
-    /// The question.
-    pub(crate) text: String,
+    pub(super) title: &'static str,
+    text: String,
     /// Details, one line each.
-    pub(crate) details: Vec<String>,
+    details: Vec<String>,
     /// The answers. The first letter of each selects it.
-    pub(crate) buttons: Vec<(&'static str, Choice)>,
-    pub(crate) selected: usize,
+    buttons: Vec<(&'static str, Choice)>,
+    selected: usize,
 }
 
 impl Question {
@@ -43,6 +42,15 @@ impl Question {
         Question { title, text, details: Vec::new(), buttons, selected }
     }
 
+    pub(crate) fn with(self, details: Vec<String>) -> Question {
+        Question { details, ..self }
+    }
+
+    /// The question with another button selected.
+    pub(crate) fn on(self, selected: usize) -> Question {
+        Question { selected, ..self }
+    }
+
     /// The change by the button that begins with a letter.
     pub(crate) fn by_letter(&self, letter: char) -> Option<Change> {
         let fits = |(name, _): &&(&str, Choice)| {
@@ -51,27 +59,27 @@ impl Question {
         self.buttons.iter().find(fits).map(|(_, choice)| closing(choice))
     }
 
-    // The lines above the buttons. The buttons must be visible: details that do not fit are
-    // omitted, one line each.
-    fn lines(&self, room: Size) -> Vec<Words<'static>> {
-        let mut lines: Vec<_> = boxes::said(&self.text, Style::new(), room.width).collect();
+    // The lines above the buttons, and the rows of text and buttons inside the box. The buttons
+    // must be visible: details that do not fit are omitted.
+    fn lines(&self, around: &Surroundings<'_>) -> Vec<Words<'static>> {
+        let room = around.room();
+        let mut lines = said(&self.text, Style::new(), room.width);
         let left = usize::from(room.height).saturating_sub(lines.len() + 2);
         let count = self.details.len();
         let shown = if count <= left { count } else { left.saturating_sub(1) };
         let cut = |line: &String| Words::from(text::cut(&format!("  {line}"), room.width.into()));
         lines.extend(self.details[..shown].iter().map(cut));
-        lines.extend(
-            (shown < count && left > 0).then(|| format!("  and {} more", count - shown).into()),
-        );
+        let more = shown < count && left > 0;
+        lines.extend(more.then(|| format!("  and {} more", count - shown).into()));
         // An empty line, and the line of the buttons.
         lines.extend([Words::default(), Words::default()]);
         lines
     }
+}
 
-    // The row of the buttons; empty if there is no room.
-    fn button_row(lines: &[Words<'_>], inner: Rect) -> Rect {
-        inner.rows().nth(lines.len() - 1).unwrap_or_default()
-    }
+// The row of the buttons; empty if there is no room.
+fn button_row(lines: &[Words<'_>], inner: Rect) -> Rect {
+    inner.rows().nth(lines.len() - 1).unwrap_or_default()
 }
 
 impl Dialog for Question {
@@ -87,9 +95,9 @@ impl Dialog for Question {
 
     fn wheel(&mut self, _: isize, _: &Surroundings<'_>) {}
 
-    fn click(&mut self, at: Position, screen: Rect) -> bool {
-        let lines = self.lines(boxes::room(screen));
-        let row = Question::button_row(&lines, boxes::inside(boxes::extent(&lines), screen));
+    fn click(&mut self, at: Position, around: &Surroundings<'_>) -> bool {
+        let lines = self.lines(around);
+        let row = button_row(&lines, around.inside(extent(&lines)));
         let mut right = row.x;
         // The gap before the next button is not part of a button.
         let button = self.buttons.iter().position(|(name, _)| {
@@ -105,30 +113,28 @@ impl Dialog for Question {
         self.buttons.get(self.selected).map(|(_, choice)| closing(choice))
     }
 
-    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        let theme = around.look.theme;
-        let lines = self.lines(boxes::room(area));
-        let inner = boxes::frame(self.title, boxes::extent(&lines), area, theme, buffer);
+    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
+        let lines = self.lines(around);
+        let inner = around.frame(self.title, extent(&lines), buffer);
         text::draw_lines(&lines, inner, buffer);
         let buttons = self.buttons.iter().enumerate().flat_map(|(at, (name, _))| {
             let button = if at == self.selected {
-                Span::styled(format!("[> {name} <]"), theme.key)
+                Span::styled(format!("[> {name} <]"), around.theme().key)
             } else {
                 Span::raw(format!("[  {name}  ]"))
             };
             [button, Span::raw(" ")]
         });
-        buttons.collect::<Words<'_>>().render(Question::button_row(&lines, inner), buffer);
+        buttons.collect::<Words<'_>>().render(button_row(&lines, inner), buffer);
         None
     }
 }
 
-/// The dialog for a path, to save or to export to.
+/// The dialog for a line of text, such as a path to save or to export to.
 #[derive(Debug, Clone)]
 pub struct PathDialog {
     pub(crate) title: &'static str,
     pub(crate) how: &'static str,
-    /// The typed path.
     pub(crate) input: Line,
     /// The step after a save.
     pub(crate) next: Next,
@@ -149,9 +155,8 @@ impl Dialog for PathDialog {
         Some(Change::of(move |app| done(app, &path, next)))
     }
 
-    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        let theme = around.look.theme;
-        let how: Vec<_> = boxes::said(self.how, theme.faint, boxes::room(area).width).collect();
-        boxes::input_box(self.title, boxes::WIDEST, &self.input, &how, theme, (area, buffer)).1
+    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
+        let how = said(self.how, around.theme().faint, around.room().width);
+        around.input_box(self.title, WIDEST, &self.input, &how, buffer).1
     }
 }

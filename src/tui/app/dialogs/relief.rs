@@ -1,12 +1,12 @@
 //! The dialog that searches for the tip relief to specify.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Constraint, Layout, Position, Rect};
+use ratatui::layout::{Constraint, Layout, Position};
 use ratatui::text::{Line as Words, Span};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::{Dialog, Prompt, Surroundings, boxes};
+use super::{Dialog, Prompt, Surroundings, Window, wrapped};
 use crate::model::{Inputs, Refusal};
 use crate::report::relief::ReliefReport;
 use crate::study::relief::{Demand, NoRelief, Specification, specify};
@@ -97,19 +97,15 @@ impl ReliefDialog {
         self.searched.is_some() && Demand::parse(self.input.value()).ok() == self.searched
     }
 
-    fn state(&self) -> String {
-        let state = match (&self.problem, &self.answer) {
-            (Some(problem), _) => return format!("! {problem}"),
-            (None, None) => "Searching. Esc ends the search.",
-            (None, Some(_)) if !self.is_searched() => {
-                "Results of the earlier input. Enter searches again."
-            }
-            (None, Some(Ok(_))) => {
+    fn state(&self) -> &str {
+        match &self.answer {
+            None => "Searching. Esc ends the search.",
+            Some(_) if !self.is_searched() => "Results of the earlier input. Enter searches again.",
+            Some(Ok(_)) => {
                 "Up, Down select; Enter writes the relief into the case; PageDown scrolls."
             }
-            (None, Some(Err(_))) => "No relief is found.",
-        };
-        state.to_owned()
+            Some(Err(_)) => "No relief is found.",
+        }
     }
 
     fn found(&self) -> Option<&Specification> {
@@ -117,8 +113,8 @@ impl ReliefDialog {
     }
 
     /// The lines about the selected relief. Rows of tables keep their spaces.
-    fn lines(&self, screen: Rect) -> Vec<Words<'static>> {
-        let width = boxes::room(screen).width;
+    fn lines(&self, around: &Surroundings<'_>) -> Vec<Words<'static>> {
+        let width = around.room().width;
         let lines = match (self.found(), &self.answer) {
             (Some(found), _) => {
                 ReliefReport { method: self.inputs.method, found }.of_choice(self.selected)
@@ -126,7 +122,7 @@ impl ReliefDialog {
             (None, Some(Err(reason))) => vec![reason.clone()],
             _ => Vec::new(),
         };
-        lines.iter().flat_map(|line| boxes::wrapped(line, width)).map(Words::from).collect()
+        lines.iter().flat_map(|line| wrapped(line, width)).map(Words::from).collect()
     }
 
     fn count(&self) -> usize {
@@ -156,9 +152,9 @@ impl Dialog for ReliefDialog {
 
     fn turn(&mut self, by: isize, around: &Surroundings<'_>) {
         let above = self.count() + usize::from(HEAD) + 1;
-        let page = boxes::page_height(around.screen) - above.cast_signed();
-        let count = self.lines(around.screen).len() + above;
-        self.top = boxes::scrolled(self.top, by * page.max(1), count, around.screen);
+        let page = around.page_height() - above.cast_signed();
+        let count = self.lines(around).len() + above;
+        self.top = around.scrolled(self.top, by * page.max(1), count);
     }
 
     fn accept(&mut self, _: &Surroundings<'_>) -> Option<Change> {
@@ -172,27 +168,21 @@ impl Dialog for ReliefDialog {
         Some(Change::of(move |app| take_over(app, &values)))
     }
 
-    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        let theme = around.look.theme;
-        let inner = boxes::frame("Tip relief", boxes::room(area), area, theme, buffer);
+    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
+        let theme = around.theme();
+        let inner = around.frame("Tip relief", around.room(), buffer);
         let count = self.count();
-        let [line, state, _, head, list, _, below] = Layout::vertical([
-            Constraint::Length(1),
-            Constraint::Length(1),
-            Constraint::Length(1),
-            Constraint::Length(u16::from(count > 0)),
-            Constraint::Length(count as u16),
-            Constraint::Length(u16::from(count > 0)),
-            Constraint::Fill(1),
-        ])
-        .areas(inner);
+        let has_list = u16::from(count > 0);
+        let heights = [1, 1, 1, has_list, count as u16, has_list].map(Constraint::Length);
+        let rows = Layout::vertical(heights.into_iter().chain([Constraint::Fill(1)]));
+        let [line, state, _, head, list, _, below] = rows.areas(inner);
         if let Some(found) = self.found() {
             let rows = ReliefReport { method: self.inputs.method, found }.gains().lines();
             Span::raw(format!("  {}", rows[0])).render(head, buffer);
             let row = |at: usize| rows[at + 1].clone();
-            boxes::draw_window(count, row, Some(self.selected), list, theme, buffer);
+            Window { count, selected: Some(self.selected), area: list }.draw(row, theme, buffer);
         }
-        let lines = self.lines(area);
+        let lines = self.lines(around);
         text::draw_lines(lines.get(self.top..).unwrap_or_default(), below, buffer);
         let is_stale = self.answer.is_some() && !self.is_searched();
         if is_stale {
@@ -201,7 +191,9 @@ impl Dialog for ReliefDialog {
             }
         }
         let style = if is_stale { theme.problem } else { theme.note };
-        Span::styled(text::cut(&self.state(), inner.width.into()), style).render(state, buffer);
+        let problem = self.problem.as_ref().map(|problem| format!("! {problem}"));
+        let words = text::cut(problem.as_deref().unwrap_or(self.state()), inner.width.into());
+        Span::styled(words, style).render(state, buffer);
         let [label, line] =
             Layout::horizontal([Constraint::Length(LABEL.width() as u16), Constraint::Fill(1)])
                 .areas(line);
