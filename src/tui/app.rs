@@ -21,7 +21,7 @@ use super::panes::study::{StudyPane, StudyState};
 use super::panes::teeth::{Picture, TeethView};
 use super::panes::trade::TradePane;
 use super::rows;
-use super::session::save::{Access, NEWER, OpenCase};
+use super::session::{Access, NEWER, OpenCase};
 use super::settings::Settings;
 use super::solver::{self, Answer, Baseline, Request};
 use super::store::WatchedFile;

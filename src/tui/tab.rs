@@ -7,7 +7,7 @@ use super::line::Line;
 use super::panes::form::FormState;
 use super::panes::results::ResultsState;
 use super::rows::{self, Row};
-use super::session::save::{Access, OpenCase};
+use super::session::{Access, OpenCase};
 use super::solver::{Answer, Values, Variants};
 use super::study::Study;
 use crate::case::{Case, Document, FIELDS, Limit, Problem, Spread, Variant, fields};

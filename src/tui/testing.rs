@@ -63,8 +63,7 @@ pub mod session {
     pub use crate::tui::session::Autosave;
     pub use crate::tui::session::journal::Journal;
     pub use crate::tui::session::journal::JournalWriter;
-    pub use crate::tui::session::save::{Access, Claim, Offer};
-    pub use crate::tui::session::save::{Found, Next, SaveFault};
+    pub use crate::tui::session::{Access, Claim, Found, Next, Offer, SaveFault};
 }
 
 pub mod settings {

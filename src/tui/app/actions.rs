@@ -11,7 +11,7 @@ use ratatui::layout::{Position, Size};
 use super::App;
 use crate::case::Document;
 use crate::tui::keys::Place;
-use crate::tui::session::save::{Claim, Next, SaveFault, Saving, Written};
+use crate::tui::session::{Claim, Next, SaveFault, Saving, Written};
 use crate::tui::settings::Settings;
 use crate::tui::solver::{Answer, Request};
 

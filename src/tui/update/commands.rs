@@ -551,12 +551,10 @@ pub static BINDINGS: &[Binding] = &[
         "Close a dialog or stop the running work. Otherwise press twice to quit; asks before \
             unsaved edits are discarded."),
     // In an input line.
-    row(Place::LINE, "Right", "", |app| edit::handle(app, Line::GoToNextChar), "Move one character right."),
-    row(Place::LINE, "Left", "", |app| edit::handle(app, Line::GoToPrevChar), "Move one character left."),
-    row(Place::LINE, "Ctrl-Right Alt-Right", "", |app| edit::handle(app, Line::GoToNextWord),
-        "Move one word right."),
-    row(Place::LINE, "Ctrl-Left Alt-Left", "", |app| edit::handle(app, Line::GoToPrevWord),
-        "Move one word left."),
+    pair(Place::LINE, "Right/Left", "", |app, by| edit::handle(app, if by > 0 { Line::GoToNextChar } else { Line::GoToPrevChar }),
+        "Move one character right or left."),
+    pair(Place::LINE, "Ctrl-Right/Ctrl-Left Alt-Right/Alt-Left", "", |app, by| edit::handle(app, if by > 0 { Line::GoToNextWord } else { Line::GoToPrevWord }),
+        "Move one word right or left."),
     row(Place::LINE, "Home Ctrl-A", "", |app| edit::handle(app, Line::GoToStart),
         "Move to the start of the value."),
     row(Place::LINE, "End Ctrl-E", "", |app| edit::handle(app, Line::GoToEnd),

@@ -18,7 +18,7 @@ use crate::tui::form_aids::step_limit;
 use crate::tui::layout::Pane;
 use crate::tui::line::Line;
 use crate::tui::rows::{self, Row};
-use crate::tui::session::save;
+use crate::tui::session;
 
 /// Greatest length of a text; a longer one is not a value, title or path.
 const LONGEST: usize = 4096;
@@ -165,7 +165,7 @@ fn travel(app: &mut App, forwards: bool, verb: &str) {
         return app.say(format!("nothing to {verb}"));
     };
     app.tab.remember();
-    let summary = save::summary(&changes::between(&app.tab.case, &case));
+    let summary = session::summary(&changes::between(&app.tab.case, &case));
     app.replace_case(case, focus);
     app.say(format!("{verb}: {summary}"));
 }
@@ -295,7 +295,7 @@ fn announce(app: &mut App, digit: char, before: Option<&str>) {
     let earlier = app.message.take();
     let earlier = earlier.map_or_else(String::new, |message| message.text + ". ");
     let label = rows::full_label(&app.tab.case, app.tab.form.focus);
-    let edit = match save::shown(before) {
+    let edit = match session::shown(before) {
         text if before.is_some() => format!("{digit} replaces {text}. Ctrl-Z restores {text}"),
         _ => format!("{digit} starts a value. Ctrl-Z removes {digit}"),
     };

@@ -20,7 +20,7 @@ use crate::tui::layout::Pane;
 use crate::tui::line::Line;
 use crate::tui::panes::chart;
 use crate::tui::rows::{self, Row};
-use crate::tui::session::save::Next;
+use crate::tui::session::Next;
 use crate::tui::store::at_home;
 
 /// Terminals refuse or cut a longer text.

@@ -15,7 +15,7 @@ use crate::tui::app::dialogs::picker::{Item, Picker};
 use crate::tui::app::dialogs::question::{PathDialog, Question};
 use crate::tui::layout::Pane;
 use crate::tui::line::{CASE_ENDING, Line};
-use crate::tui::session::save::{
+use crate::tui::session::{
     self, Access, Claim, Found, NEWER, Next, Offer, Over, SaveFault, Saving, Written,
 };
 use crate::tui::store::folder::Target;
@@ -116,7 +116,7 @@ fn ask_recovery(app: &mut App, name: &str, offer: Offer) {
         "Unsaved edits of {name}, {} old.{changed} Value in the file -> edited value:",
         offer.age
     );
-    let details = offer.changes.iter().map(save::line).collect();
+    let details = offer.changes.iter().map(session::line).collect();
     let buttons = [
         ("Discard", forgetting(vec![offer.journal.clone()])),
         ("Recover", Choice::of(move |app| recover(app, &offer))),

@@ -34,7 +34,7 @@ use crate::tui::panes::study::range::{self, MOST_ZOOM, RangeOf, Steps};
 use crate::tui::panes::study::{self, CURVE_POINTS, map_points};
 use crate::tui::panes::trade::{nearest, stepped};
 use crate::tui::rows::{self, Row};
-use crate::tui::session::save::Next;
+use crate::tui::session::Next;
 use crate::tui::solver::{Baseline, Variants};
 use crate::tui::study::{
     End, GridParameters, Layer, LayerFound, SAMPLES, StudyParameters, StudyRequest, StudyResults,

@@ -12,7 +12,7 @@ use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Choice};
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
-use crate::tui::session::save::Next;
+use crate::tui::session::Next;
 use crate::tui::text;
 
 /// Width of brackets, marks and gap around the name of a button.
