@@ -190,14 +190,11 @@ impl App {
 
     /// The files of the open cases and their content.
     pub(super) fn files(&self) -> Vec<WatchedFile> {
-        let files = self.tabs().filter_map(|tab| {
-            Some(WatchedFile {
-                path: tab.path.clone()?,
-                target: tab.document.path()?.to_owned(),
-                stamp: tab.document.stamp(),
-            })
-        });
-        files.collect()
+        let file = |tab: &Tab| {
+            let (path, target) = (tab.path.clone()?, tab.document.path()?.to_owned());
+            Some(WatchedFile { path, target, stamp: tab.document.stamp() })
+        };
+        self.tabs().filter_map(file).collect()
     }
 
     /// The state of every open case for the autosave.
@@ -233,9 +230,8 @@ impl App {
     /// Whether the focused row is a value and typing would replace all of it.
     fn is_fresh(&self) -> bool {
         let Tab { case, form, .. } = &self.tab;
-        let is_words =
-            rows::field(case, form.focus).is_some_and(|field| matches!(field.kind, Kind::Text));
-        !is_words && form.input.kept() == 0
+        let field = rows::field(case, form.focus);
+        form.input.kept() == 0 && !field.is_some_and(|field| matches!(field.kind, Kind::Text))
     }
 
     /// Whether a key would be the first of an edit that replaces the text of the focused row.
@@ -247,17 +243,12 @@ impl App {
 
     /// The completion of the typed text of the focused field: its unit, or the rest of a name.
     pub fn ending(&self) -> Option<String> {
-        let (tab, system) = (&self.tab, self.settings.units);
-        let typed = || {
-            rows::ending(
-                &tab.case,
-                tab.form.focus,
-                tab.form.input.value(),
-                tab.form.written_unit.as_deref(),
-                system,
-            )
-        };
-        if self.has_line() { typed() } else { None }
+        let Tab { case, form, .. } = &self.tab;
+        let (typed, written) = (form.input.value(), form.written_unit.as_deref());
+        if !self.has_line() {
+            return None;
+        }
+        rows::ending(case, form.focus, typed, written, self.settings.units)
     }
 
     /// Shows a message until the next key.
@@ -506,41 +497,32 @@ impl App {
 
     /// Checks the form and returns the request for its results if the form is valid.
     fn checked(&mut self) -> Option<Request> {
-        let (stages, wants_stiffness) = (self.wanted(), self.wants_stiffness());
-        let (inputs, problems) = self.tab.case.read();
-        self.tab.inputs_so_far = inputs.clone();
-        if problems.is_empty() {
-            self.last_serial += 1;
-            let tab = &mut self.tab;
-            tab.requested_stiffness = wants_stiffness;
-            (tab.serial, tab.requested, tab.is_settled, tab.solving) =
-                (self.last_serial, stages, false, None);
-            tab.problems.clear();
-            return Some(Request {
-                serial: tab.serial,
-                case: tab.case.clone(),
-                inputs,
-                stages,
-                stiffness: wants_stiffness,
-            });
+        let (stages, stiffness) = (self.wanted(), self.wants_stiffness());
+        let tab = &mut self.tab;
+        let (inputs, problems) = tab.case.read();
+        tab.inputs_so_far = inputs.clone();
+        let (case, focus) = (tab.case.clone(), tab.form.focus);
+        let place_of = |problem: &Problem| rows::of_key(&case, &problem.field).unwrap_or(focus);
+        let placed = problems.iter().map(|problem| (place_of(problem), problem.for_form()));
+        tab.problems = placed.collect();
+        if !tab.problems.is_empty() {
+            tab.refusal = None;
+            return None;
         }
-        self.tab.refusal = None;
-        let (case, focus) = (&self.tab.case, self.tab.form.focus);
-        let place_of = |problem: &Problem| rows::of_key(case, &problem.field).unwrap_or(focus);
-        self.tab.problems =
-            problems.into_iter().map(|problem| (place_of(&problem), problem.for_form())).collect();
-        None
+        self.last_serial += 1;
+        let serial = self.last_serial;
+        (tab.serial, tab.requested, tab.requested_stiffness) = (serial, stages, stiffness);
+        (tab.is_settled, tab.solving) = (false, None);
+        Some(Request { serial, case, inputs, stages, stiffness })
     }
 
     /// The request for the results that the first frame leaves out.
     pub(super) fn unanswered(&mut self) -> Option<Request> {
-        let requested = self.tab.requested;
-        let lacks_stiffness = self.wants_stiffness();
-        let is_partial = |answer: &Answer| {
-            answer.stages != requested || (lacks_stiffness && answer.stiffness.is_none())
-        };
-        let waits = !self.tab.is_settled || self.tab.answer.as_ref().is_some_and(is_partial);
-        if waits { self.checked() } else { None }
+        let stiffness = self.wants_stiffness();
+        let is_partial = self.tab.answer.as_ref().is_some_and(|answer| {
+            answer.stages != self.tab.requested || (stiffness && answer.stiffness.is_none())
+        });
+        if is_partial || !self.tab.is_settled { self.checked() } else { None }
     }
 
     /// Solves the stages that became visible after the last request.
