@@ -296,8 +296,8 @@ impl Decoder {
                 Step::Restart(Some(Input::Key(KeyCode::Esc.into())))
             }
             [ESC, byte] if is_text(byte) => Step::Unfinished,
-            [0x80.., ..] => in_letter(&self.bytes, KeyModifiers::NONE),
-            [ESC, 0x80.., ..] => in_letter(&self.bytes[1..], KeyModifiers::ALT),
+            [0x80..=0xff, ..] => in_letter(&self.bytes, KeyModifiers::NONE),
+            [ESC, 0x80..=0xff, ..] => in_letter(&self.bytes[1..], KeyModifiers::ALT),
             [byte] => Step::Done(Some(of_byte(byte, KeyModifiers::NONE))),
             [ESC, byte] => Step::Done(Some(of_byte(byte, KeyModifiers::ALT))),
             [ESC, b'[', b'M', .., 0..b' '] => Step::Restart(None),

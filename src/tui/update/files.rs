@@ -290,7 +290,8 @@ pub(super) fn step_tab(app: &mut App, by: isize) {
 
 /// Shows the built-in case, in a new tab if another case is in use.
 pub(super) fn built_in(app: &mut App) {
-    match app.tabs().position(Tab::is_built_in) {
+    let at = app.tabs().position(Tab::is_built_in);
+    match at {
         Some(at) => go_to_tab(app, at),
         None => add_tab(app, Origin::Given, store::built_in()),
     }
@@ -442,13 +443,12 @@ fn go(app: &mut App, next: Next) {
         Next::Quit => leave(app),
         Next::Load(path) => app.want(Effect::Load(path)),
         Next::Close => close_tab(app),
-        Next::SaveRest => match app.tabs().position(Tab::is_unsaved) {
-            Some(unsaved) => {
-                go_to_tab(app, unsaved);
-                save(app, Next::SaveRest);
-            }
-            None => leave(app),
-        },
+        Next::SaveRest => {
+            let unsaved = app.tabs().position(Tab::is_unsaved);
+            let Some(unsaved) = unsaved else { return leave(app) };
+            go_to_tab(app, unsaved);
+            save(app, Next::SaveRest);
+        }
     }
 }
 

@@ -15,6 +15,7 @@ use crate::tui::app::App;
 use crate::tui::app::actions::Change;
 use crate::tui::ascii::written_out;
 use crate::tui::keys::Place;
+use crate::tui::theme::Theme;
 
 /// A page of text.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -161,16 +162,7 @@ impl Dialog for Explanation {
 
     fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
         let (lines, theme) = (self.lines(around), around.theme());
-        let styled = |line: &Line| {
-            let style = match line.kind {
-                Kind::Title => theme.focus,
-                Kind::Heading => theme.title,
-                Kind::Outside => theme.problem,
-                Kind::Formula | Kind::Numbers | Kind::Text => Style::new(),
-            };
-            Words::from(Span::styled(line.text.as_str(), style))
-        };
-        let mut shown: Vec<_> = lines.iter().map(styled).collect();
+        let mut shown: Vec<_> = lines.iter().map(|line| styled(line, theme)).collect();
         if let Some((row, at, key)) = self.place_of_field(&lines) {
             let text = &lines[row].text;
             let before = text[..at].strip_suffix(' ').unwrap_or(&text[..at]);
@@ -184,4 +176,14 @@ impl Dialog for Explanation {
         around.page_box(self.quantity.label.trim(), &shown, self.top, buffer);
         None
     }
+}
+
+fn styled<'l>(line: &'l Line, theme: &Theme) -> Words<'l> {
+    let style = match line.kind {
+        Kind::Title => theme.focus,
+        Kind::Heading => theme.title,
+        Kind::Outside => theme.problem,
+        Kind::Formula | Kind::Numbers | Kind::Text => Style::new(),
+    };
+    Span::styled(line.text.as_str(), style).into()
 }
