@@ -13,7 +13,6 @@ mod input;
 mod jobs;
 mod keys;
 mod layout;
-mod line;
 mod panes;
 mod rows;
 mod session;

@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use super::jobs::{ChartWork, Traded};
-use super::line::Line;
 use super::panes::form::FormState;
 use super::panes::results::ResultsState;
 use super::rows::{self, Row};
 use super::session::{Access, OpenCase};
 use super::solver::{Answer, Values, Variants};
 use super::study::Study;
+use super::text::Line;
 use crate::case::{Case, Document, FIELDS, Limit, Problem, Spread, Variant, fields};
 use crate::model::{Inputs, Refusal, Solution, Stages};
 

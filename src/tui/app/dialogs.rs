@@ -21,9 +21,9 @@ use super::actions::{Change, Choice, Running, Slot, Work};
 use crate::case::units::System;
 use crate::tui::ascii::printable;
 use crate::tui::keys::Place;
-use crate::tui::line::Line;
 use crate::tui::store::folder::{self, Preview, Target};
 use crate::tui::text;
+use crate::tui::text::Line;
 use crate::tui::theme::{Look, Theme};
 
 use browser::Browser;

@@ -14,7 +14,7 @@ use crate::model::{Inputs, Solution};
 use crate::report::verdict::{Standing, verdict};
 use crate::tui::ascii;
 use crate::tui::form_aids::materials;
-use crate::tui::line::Line as Text;
+use crate::tui::text::Line as Text;
 use crate::tui::theme::Look;
 use crate::tui::{rows, text};
 

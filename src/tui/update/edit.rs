@@ -16,9 +16,9 @@ use crate::tui::ascii;
 use crate::tui::form_aids::materials::{self, Material};
 use crate::tui::form_aids::step_limit;
 use crate::tui::layout::Pane;
-use crate::tui::line::Line;
 use crate::tui::rows::{self, Row};
 use crate::tui::session;
+use crate::tui::text::Line;
 
 /// Greatest length of a text; a longer one is not a value, title or path.
 const LONGEST: usize = 4096;

@@ -17,11 +17,11 @@ use crate::tui::app::actions::{Choice, Content, Effect, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::question::{PathDialog, Question};
 use crate::tui::layout::Pane;
-use crate::tui::line::Line;
 use crate::tui::panes::chart;
 use crate::tui::rows::{self, Row};
 use crate::tui::session::Next;
 use crate::tui::store::at_home;
+use crate::tui::text::Line;
 
 /// Terminals refuse or cut a longer text.
 const MOST_BYTES: usize = 48 * 1024;

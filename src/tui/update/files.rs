@@ -14,12 +14,12 @@ use crate::tui::app::dialogs::page::Page;
 use crate::tui::app::dialogs::picker::{Item, Picker};
 use crate::tui::app::dialogs::question::{PathDialog, Question};
 use crate::tui::layout::Pane;
-use crate::tui::line::{CASE_ENDING, Line};
 use crate::tui::session::{
     self, Access, Claim, Found, NEWER, Next, Offer, Over, SaveFault, Saving, Written,
 };
 use crate::tui::store::folder::Target;
 use crate::tui::tab::{Origin, Tab};
+use crate::tui::text::{CASE_ENDING, Line};
 use crate::tui::{rows, store};
 
 const UNSAVED: &str = "Unsaved edits";

@@ -29,7 +29,6 @@ use crate::tui::app::dialogs::picker::Picker;
 use crate::tui::app::dialogs::question::PathDialog;
 use crate::tui::jobs::Traded;
 use crate::tui::layout::{Pane, is_too_small};
-use crate::tui::line::Line;
 use crate::tui::panes::study::range::{self, MOST_ZOOM, RangeOf, Steps};
 use crate::tui::panes::study::{self, CURVE_POINTS, map_points};
 use crate::tui::panes::trade::{nearest, stepped};
@@ -40,6 +39,7 @@ use crate::tui::study::{
     End, GridParameters, Layer, LayerFound, SAMPLES, StudyParameters, StudyRequest, StudyResults,
     ToleranceParameters,
 };
+use crate::tui::text::Line;
 
 /// The title and the instruction of the dialog for a range.
 const RANGE: &str = "Range of the study";

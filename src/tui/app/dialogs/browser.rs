@@ -14,11 +14,11 @@ use crate::case::Example;
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Running, Slot, Work};
 use crate::tui::keys::Place;
-use crate::tui::line::Line;
 use crate::tui::store::folder::{
     Entry, Listing, SearchResult, Target, beneath, find, list, place_of,
 };
 use crate::tui::text;
+use crate::tui::text::Line;
 use crate::tui::theme::Theme;
 
 /// The full width, and a limited number of lines.

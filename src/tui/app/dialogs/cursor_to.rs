@@ -13,10 +13,10 @@ use crate::report::graphs::GRAPHS;
 use crate::tui::app::App;
 use crate::tui::app::actions::Change;
 use crate::tui::keys::Place;
-use crate::tui::line::Line;
 use crate::tui::panes::chart::curves::{CurveSource, curves};
 use crate::tui::panes::chart::{Charts, columns, first_contact, last_contact};
 use crate::tui::text;
+use crate::tui::text::Line;
 
 /// The width at which the instruction has two lines.
 const WIDTH: u16 = 62;

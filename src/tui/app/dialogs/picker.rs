@@ -19,9 +19,9 @@ use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Choice, Work};
 use crate::tui::form_aids::{COMMAND, Entry, HELP, LABEL, query};
 use crate::tui::keys::Place;
-use crate::tui::line::Line;
 use crate::tui::store::folder::Target;
 use crate::tui::text;
+use crate::tui::text::Line;
 use crate::tui::theme::Theme;
 
 /// Preferred size of a list.

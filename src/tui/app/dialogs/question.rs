@@ -11,9 +11,9 @@ use super::{Dialog, Surroundings, WIDEST, closing, extent, said};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Choice};
 use crate::tui::keys::Place;
-use crate::tui::line::Line;
 use crate::tui::session::Next;
 use crate::tui::text;
+use crate::tui::text::Line;
 
 /// Width of brackets, marks and gap around the name of a button.
 const BESIDE_NAME: u16 = 7;

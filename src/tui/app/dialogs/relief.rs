@@ -13,8 +13,8 @@ use crate::study::relief::{Demand, NoRelief, Specification, specify};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Running, Slot, Work};
 use crate::tui::keys::Place;
-use crate::tui::line::Line;
 use crate::tui::text;
+use crate::tui::text::Line;
 
 /// The label of the input line.
 const LABEL: &str = "Loads, tolerances, te|peak|entry: ";
