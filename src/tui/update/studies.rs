@@ -58,17 +58,15 @@ const METHODS: [Method; 4] = [Method::Exact, Method::Paper, Method::Static, Meth
 /// Requests the visible study if it differs from the last one; stops a hidden one.
 pub(super) fn request(app: &mut App) {
     let is_visible = app.layout.plan().shows(Pane::Study);
-    let parameters = match parameters(app) {
-        Ok(parameters) if is_visible => parameters,
-        other => {
-            app.cancel(Slot::Study);
-            if is_visible {
-                app.tab.study.obstacle = other.err();
-            }
-            return;
-        }
+    let Some(parameters) = is_visible.then(|| parameters(app)) else {
+        app.cancel(Slot::Study);
+        return;
     };
-    app.tab.study.obstacle = None;
+    app.tab.study.obstacle = parameters.as_ref().err().cloned();
+    let Ok(parameters) = parameters else {
+        app.cancel(Slot::Study);
+        return;
+    };
     // A hidden study, or one that another tab replaced, was stopped before its end.
     if let Some(request) = &app.tab.study.request
         && request.parameters == parameters
