@@ -111,6 +111,15 @@ fn a_shown_value_is_short() {
 }
 
 #[test]
+fn a_number_of_a_unit_has_no_rounding_error() {
+    for (number, unit) in [(0.0508_f64, "mm"), (0.3, "in"), (0.1, "deg"), (0.5131, "")] {
+        let dimension = Dimension::of_unit(unit).unwrap();
+        let value = parse(&format!("{number} {unit}"), dimension, unit).unwrap();
+        assert_eq!(in_unit(value, unit).to_bits(), number.to_bits(), "{number} {unit}");
+    }
+}
+
+#[test]
 fn every_dimension_finds_its_units() {
     for (at, (dimension, ..)) in UNITS.iter().enumerate() {
         assert_eq!(*dimension as usize, at, "{}", dimension.name());
