@@ -25,7 +25,7 @@ use crate::study::batch::Stopped;
 use crate::study::shard::Format;
 use crate::system::files::is_same;
 use crate::system::interrupt::Interrupt;
-use clap::{CommandFactory, FromArgMatches, Parser, ValueHint};
+use clap::{CommandFactory, FromArgMatches, Parser};
 pub use commands::Command;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use options::{CaseFile, Edits, Setting};
@@ -149,7 +149,6 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
 #[command(name = "tipstrike", version = VERSION.as_str(), args_conflicts_with_subcommands = true, after_help = exit_codes())]
 pub struct Arguments {
     /// Case to open in the workbench (default: the last case, or Table 1 of Zhou & Chen 2014)
-    #[arg(value_hint = ValueHint::FilePath)]
     pub case: Option<PathBuf>,
     /// The headless command; without one the workbench starts.
     #[command(subcommand)]

@@ -13,7 +13,12 @@ use crate::study::condition::distinct;
 use crate::study::shard::{Format, Shard};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::{Error, ErrorKind};
-use clap::{Arg, Args, ValueEnum, ValueHint};
+use clap::{Arg, Args, ValueEnum};
+
+/// Formats of words and objects.
+pub(super) const WORDS: [Format; 2] = [Format::Text, Format::Json];
+/// Formats of words, objects and tables.
+pub(super) const TABLES: [Format; 3] = [Format::Text, Format::Json, Format::Csv];
 
 /// Parser of the formats of a command.
 pub(super) fn formats<const N: usize>(
@@ -238,7 +243,7 @@ fn names(list: &str) -> Vec<String> {
 #[derive(Debug, Args)]
 pub(super) struct Cases {
     /// Case files; - is standard input
-    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    #[arg(required = true, value_name = "CASE")]
     pub cases: Vec<PathBuf>,
     /// The changes of each case
     #[command(flatten)]
@@ -263,7 +268,7 @@ impl Cases {
 #[derive(Debug, Args)]
 pub(super) struct CaseFile {
     /// Case file; - is standard input
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "CASE")]
     pub case: PathBuf,
     /// The changes of the case
     #[command(flatten)]
@@ -274,7 +279,7 @@ pub(super) struct CaseFile {
 #[derive(Debug, Args)]
 pub(super) struct Destination {
     /// File to write (default: standard output); replaces an existing file
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 }
 

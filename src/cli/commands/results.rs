@@ -9,8 +9,8 @@ use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 use crate::case::{Case, Document, EXAMPLES, Example};
 use crate::cli::options::{
-    Cases, Changes, Destination, Edits, Only, Quantities, Setting, Settings, by_method, formats,
-    methods, one_quantity, station_count,
+    Cases, Changes, Destination, Edits, Only, Quantities, Setting, Settings, TABLES, WORDS,
+    by_method, formats, methods, one_quantity, station_count,
 };
 use crate::cli::{self, Done, Exit, Failure, Opened, Streams, check_out, follow, write_to};
 use crate::model::inputs::Method;
@@ -24,8 +24,8 @@ use crate::report::solve::{self, compared};
 use crate::report::verdict::{self, Standing, refused, stages, verdicts};
 use crate::report::{self, Selection, data, fields, page, schema, svg, sweep, text};
 use crate::study::shard::Format;
+use clap::Args;
 use clap::builder::{PossibleValuesParser, Resettable, TypedValueParser};
-use clap::{Args, ValueHint};
 use clap_complete::Shell;
 
 /// The options of the command.
@@ -41,7 +41,7 @@ pub struct Solve {
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = station_count)]
     stations: Option<String>,
     /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
+    #[arg(long, default_value = "text", value_parser = formats(TABLES))]
     format: Format,
 }
 
@@ -97,7 +97,7 @@ pub struct Check {
     #[command(flatten)]
     input: Cases,
     /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    #[arg(long, default_value = "text", value_parser = formats(WORDS))]
     format: Format,
 }
 
@@ -165,13 +165,13 @@ pub struct Explain {
     #[arg(value_name = "QUANTITY", hide_possible_values = true, value_parser = one_quantity())]
     quantity: &'static Quantity,
     /// The case file, - for standard input (default: Table 1 of Zhou & Chen 2014)
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "CASE")]
     case: Option<PathBuf>,
     /// The changes of the case
     #[command(flatten)]
     changes: Changes,
     /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    #[arg(long, default_value = "text", value_parser = formats(WORDS))]
     format: Format,
 }
 
@@ -199,7 +199,7 @@ impl Explain {
 #[derive(Debug, Args)]
 pub struct Compare {
     /// Case files, each with its variants; - is standard input
-    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    #[arg(required = true, value_name = "CASE")]
     cases: Vec<PathBuf>,
     /// Compare only these variants
     #[arg(long = "variant", value_name = "NAME,...", value_delimiter = ',')]
@@ -286,7 +286,7 @@ fn solve_edited((file, edits, document): &Edited, selection: &Selection) -> Comp
 #[derive(Debug, Args)]
 pub struct Plot {
     /// Case file; - is standard input
-    #[arg(value_name = "CASE", required_unless_present = "sweep", value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "CASE", required_unless_present = "sweep")]
     case: Option<PathBuf>,
     /// The changes of the case
     #[command(flatten)]
@@ -295,7 +295,7 @@ pub struct Plot {
     #[arg(long, value_name = "NAME", default_value = "force", value_parser = charts())]
     chart: Picture,
     /// Draw the CSV file of a sweep instead of a case
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["case", "chart", "variant", "method", "settings"], value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["case", "chart", "variant", "method", "settings"])]
     sweep: Option<PathBuf>,
     /// The quantities of the sweep
     #[arg(long, value_name = "QUANTITY,...", requires = "sweep", hide_possible_values = true, value_parser = Quantities)]
@@ -357,7 +357,7 @@ pub struct Report {
     #[command(flatten)]
     settings: page::Settings,
     /// File to write; the extension selects the format; replaces an existing file
-    #[arg(long, required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, required = true, value_name = "FILE")]
     out: PathBuf,
 }
 
@@ -397,7 +397,6 @@ pub struct New {
     #[arg(long, conflicts_with_all = ["from", "file"])]
     list: bool,
     /// File to write (default: standard output); must not exist yet
-    #[arg(value_hint = ValueHint::FilePath)]
     file: Option<PathBuf>,
 }
 
@@ -462,14 +461,14 @@ fn examples() -> impl TypedValueParser<Value = &'static Example> {
 #[derive(Debug, Args)]
 pub struct Import {
     /// REXS model (.rexs, .rexsj or .rexsz); - is standard input
-    #[arg(value_name = "MODEL", value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "MODEL")]
     model: PathBuf,
     /// Import the stage with this id (default: the first stage of two external
     /// cylindrical gears)
     #[arg(long, value_name = "ID")]
     stage: Option<String>,
     /// File to write (default: standard output); must not exist yet
-    #[arg(long, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "CASE")]
     out: Option<PathBuf>,
 }
 
@@ -487,7 +486,7 @@ pub struct Fields {
     #[arg(long)]
     results: bool,
     /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    #[arg(long, default_value = "text", value_parser = formats(WORDS))]
     format: Format,
 }
 

@@ -6,7 +6,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use crate::cli::options::{
-    CaseFile, Destination, Edits, Only, StudyOptions, Threads, count, formats,
+    CaseFile, Destination, Edits, Only, StudyOptions, TABLES, Threads, WORDS, count, formats,
 };
 use crate::cli::{self, Done, Exit, Failure, Opened, Streams, check_out, follow, write_to};
 use crate::model::{Inputs, Quantity};
@@ -34,7 +34,7 @@ use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare_flanks, compare
 use crate::study::sweep::Grid;
 use crate::study::tolerance::{self, MOST_SAMPLES, Samples, Size, USUAL_SAMPLES};
 use crate::study::trade::{self, STEADY};
-use clap::{Args, ValueHint};
+use clap::Args;
 
 /// The options of the command.
 #[derive(Debug, Args)]
@@ -134,7 +134,7 @@ pub struct Tolerance {
     #[command(flatten)]
     only: Only,
     /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
+    #[arg(long, default_value = "text", value_parser = formats(TABLES))]
     format: Format,
     /// How the study runs
     #[command(flatten)]
@@ -170,7 +170,7 @@ impl Tolerance {
 #[derive(Debug, Args)]
 pub struct Gather {
     /// Files that --shard wrote, in any order
-    #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// The file
     #[command(flatten)]
@@ -324,7 +324,7 @@ pub struct Seek {
     #[command(flatten)]
     input: CaseFile,
     /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    #[arg(long, default_value = "text", value_parser = formats(WORDS))]
     format: Format,
     /// The threads
     #[command(flatten)]
@@ -419,7 +419,7 @@ pub struct Relief {
     #[command(flatten)]
     input: CaseFile,
     /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
+    #[arg(long, default_value = "text", value_parser = formats(TABLES))]
     format: Format,
     /// The file
     #[command(flatten)]
@@ -474,7 +474,7 @@ impl Relief {
 #[derive(Debug, Args)]
 pub struct Stiffness {
     /// Case file; - is standard input
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "CASE")]
     case: PathBuf,
     /// The changes of the case
     #[command(flatten)]
@@ -483,7 +483,7 @@ pub struct Stiffness {
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = point_count)]
     points: usize,
     /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
+    #[arg(long, default_value = "text", value_parser = formats(TABLES))]
     format: Format,
 }
 
@@ -554,7 +554,7 @@ fn place_count(text: &str) -> Result<usize, String> {
 #[derive(Debug, Args)]
 pub struct Trade {
     /// Case file; - is standard input
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "CASE")]
     case: PathBuf,
     /// The changes of the case
     #[command(flatten)]
@@ -564,7 +564,7 @@ pub struct Trade {
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true, value_parser = part)]
     within: Option<f64>,
     /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    #[arg(long, default_value = "text", value_parser = formats(WORDS))]
     format: Format,
 }
 
