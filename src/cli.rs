@@ -112,7 +112,7 @@ fn no_command(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
 
 /// Runs a command.
 pub fn run(command: &Command, streams: &mut Streams) -> Exit {
-    let done = command.run(Arguments::command, streams);
+    let done = command.run(streams);
     finish(done, streams)
 }
 

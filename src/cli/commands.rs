@@ -145,8 +145,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// Runs the command. Completions and manual use the definition of the whole program.
-    pub(super) fn run(&self, program: fn() -> clap::Command, streams: &mut Streams) -> Done {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
         match self {
             Command::Solve(command) => command.run(streams),
             Command::Check(command) => command.run(streams),
@@ -166,8 +165,8 @@ impl Command {
             Command::Schema(command) => command.run(streams),
             Command::New(command) => command.run(streams),
             Command::Import(command) => command.run(streams),
-            Command::Completions(command) => command.run(program(), streams),
-            Command::Man(command) => command.run(program(), streams),
+            Command::Completions(command) => command.run(streams),
+            Command::Man(command) => command.run(streams),
         }
     }
 }

@@ -12,7 +12,9 @@ use crate::cli::options::{
     Cases, Changes, Destination, Edits, Only, Quantities, Setting, Settings, TABLES, WORDS,
     by_method, formats, methods, one_quantity, station_count,
 };
-use crate::cli::{self, Done, Exit, Failure, Opened, Streams, check_out, follow, write_to};
+use crate::cli::{
+    self, Arguments, Done, Exit, Failure, Opened, Streams, check_out, follow, write_to,
+};
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stage, Stages};
 use crate::report::compare::{ComparedCase, Comparison};
@@ -24,8 +26,8 @@ use crate::report::solve::{self, compared};
 use crate::report::verdict::{self, Standing, refused, stages, verdicts};
 use crate::report::{self, Selection, data, fields, page, schema, svg, sweep, text};
 use crate::study::shard::Format;
-use clap::Args;
 use clap::builder::{PossibleValuesParser, Resettable, TypedValueParser};
+use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
 /// The options of the command.
@@ -531,7 +533,8 @@ pub struct Completions {
 }
 
 impl Completions {
-    pub(super) fn run(&self, mut program: clap::Command, streams: &mut Streams) -> Done {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let mut program = Arguments::command();
         // The generator panics if its writer fails, and therefore writes to memory.
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut program, "tipstrike", &mut script);
@@ -548,8 +551,8 @@ pub struct Man {
 }
 
 impl Man {
-    pub(super) fn run(&self, program: clap::Command, streams: &mut Streams) -> Done {
-        let page = page(self.command.as_deref(), program).ok_or_else(|| {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let page = page(self.command.as_deref()).ok_or_else(|| {
             Failure::usage(format!(
                 "man: there is no command {}: `tipstrike help` lists them",
                 self.command.as_deref().unwrap_or_default()
@@ -569,8 +572,8 @@ fn exit_status(out: &mut dyn Write) -> io::Result<()> {
         .try_for_each(|&(exit, meaning)| writeln!(out, ".TP\n\\fB{}\\fR\n{meaning}", exit as u8))
 }
 
-fn page(name: Option<&str>, program: clap::Command) -> Option<clap::Command> {
-    let mut program = program.disable_help_subcommand(true);
+fn page(name: Option<&str>) -> Option<clap::Command> {
+    let mut program = Arguments::command().disable_help_subcommand(true);
     program.build();
     match name {
         // The help ends with the exit codes, which have a separate section in the manual page.
