@@ -475,7 +475,8 @@ pub enum SaveError {
     IsAFolder(String, String),
     /// The folder of the file is missing.
     #[error(
-        "{0}: the folder {1} does not exist: create the folder (mkdir -p), or choose another name"
+        "{0}: the folder {1} does not exist: create the folder (mkdir -p '{quoted}'), or choose \
+            another name", quoted = .1.replace('\'', r"'\''")
     )]
     NoFolder(String, String),
     /// A part of the path is a file instead of a folder.

@@ -75,15 +75,14 @@ impl Spread {
     pub fn malformed(key: &str, shape: Option<&str>) -> Problem {
         let problem = match (spreadable(key), shape.map(named)) {
             (Err(problem), _) | (_, Some(Err(problem))) => problem,
-            (Ok((field, _)), _) => {
-                let width = match field.usual_unit() {
-                    "" => "0.01".to_owned(),
-                    unit => format!("\"1 {unit}\""),
+            (Ok((field, _)), shape) => {
+                let (shape, others) = match shape {
+                    Some(Ok(shape)) => (shape, ""),
+                    _ => {
+                        (Shape::Normal, ", or uniform, triangular or truncated in place of normal")
+                    }
                 };
-                let fix = format!(
-                    "write {{ normal = {width} }}, or uniform, triangular or truncated in place of \
-                        normal"
-                );
+                let fix = format!("write {}{others}", by_example(shape, field));
                 Problem::new("", "this is not a distribution", fix)
             }
         };
@@ -112,6 +111,16 @@ fn spreadable(key: &str) -> Result<(&'static Field, Dimension), Problem> {
         }
     };
     Err(Problem::new("", cause, fix))
+}
+
+/// An example of a distribution of a field.
+fn by_example(shape: Shape, field: &Field) -> String {
+    let width = match (shape, field.usual_unit()) {
+        (Shape::Grade, _) => "7".to_owned(),
+        (_, "") => "0.01".to_owned(),
+        (_, unit) => format!("\"1 {unit}\""),
+    };
+    format!("{{ {} = {width} }}", shape.name())
 }
 
 fn width(dimension: Dimension, field: &Field, text: &str) -> Result<f64, Problem> {

@@ -370,7 +370,7 @@ fn a_path_that_is_no_file_is_reported_without_a_terminal() {
         (
             "far",
             format!(
-                "the folder {here}/nodir does not exist: create the folder (mkdir -p {here}/nodir)"
+                "the folder {here}/nodir does not exist: create the folder (mkdir -p '{here}/nodir')"
             ),
         ),
         (
