@@ -8,6 +8,7 @@ use super::compare::{ComparedCase, Comparison};
 use super::pictures::{Picture, find, pictures};
 use super::solve::Subject;
 use super::table::{Cell, Column, Table};
+use super::tolerance::{distributions, probabilities, samples as samples_of};
 use super::verdict::verdicts;
 use super::{Report, case_notes, common_unit, groups, is_default, shown_with, text, value};
 use crate::case::fields::{Absent, index_of};
@@ -18,7 +19,7 @@ use crate::case::{Case, FIELDS, units};
 use crate::model::Quantity;
 use crate::model::explanation::tidy;
 use crate::study::condition::distinct;
-use crate::study::statistics::{Estimate, PERCENTILES};
+use crate::study::statistics::PERCENTILES;
 use crate::study::tolerance::{Samples, Tolerance};
 use askama::Template;
 
@@ -398,30 +399,15 @@ fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples) -> Table {
         let cells = names.chain(values.map(|value| shown(value).number.into()));
         Some(cells.chain([shown(found.mean.value).unit.into()]).collect())
     });
-    let spread = case.spread.iter().map(|spread| {
-        let value = index_of(spread.field).and_then(|field| case.effective(field));
-        let value = value.unwrap_or_default();
-        sanitize(&format!("{} {value}, {}", spread.field, spread.in_words()))
-    });
-    let spread: Vec<String> = spread.collect();
-    let contact = summary.contact.map(|found| chance("corner contact", &found));
-    let limits = summary.limits.iter().filter_map(|limit| {
-        let name = format!("{} > {}", limit.quantity.key, sanitize(&limit.limit.text));
-        Some(chance(&name, limit.probability.as_ref()?))
-    });
-    let samples = study.design.samples;
-    let refused = Some(samples - summary.solved).filter(|&refused| refused > 0);
-    let refused = refused.map_or_else(String::new, |refused| format!(", {refused} refused"));
+    let spread = distributions(case).into_iter();
+    let spread: Vec<String> = spread.map(|(field, text)| format!("{field} {text}")).collect();
     let spread = format!("Spread: {}.", spread.join("; "));
-    let title = format!("Tolerance, {samples} samples{refused}, seed {}", study.design.seed);
+    let chances = probabilities(&summary).into_iter();
+    let chances =
+        chances.map(|(name, text)| format!("Probability of {name} (95 % interval): {text}."));
+    let title = format!("Tolerance, {}", samples_of(study, &summary));
     Table {
-        notes: [spread].into_iter().chain(contact).chain(limits).collect(),
+        notes: [spread].into_iter().chain(chances).collect(),
         ..Table::new(title, columns).with(rows)
     }
-}
-
-fn chance(what: &str, Estimate { value, from, to }: &Estimate) -> String {
-    let percent = |part: &f64| format!("{:.1}", 100.0 * part);
-    let (value, from, to) = (percent(value), percent(from), percent(to));
-    format!("Probability of {what}: {value} % (95 % interval {from} to {to} %).")
 }

@@ -12,9 +12,9 @@ use crate::case::{Case, Problem, Spread};
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::study::batch::Points;
-use crate::study::sample::Distribution;
+use crate::study::sample::{Design, Distribution};
 use crate::study::statistics::{Estimate, Figure, Indices, PERCENTILES, least_count};
-use crate::study::tolerance::{Exceedance, OfQuantity, Samples, Tolerance};
+use crate::study::tolerance::{Exceedance, OfQuantity, Samples, Summary, Tolerance};
 
 /// Greatest length of a bar of a histogram, in characters.
 const LONGEST_BAR: usize = 40;
@@ -42,39 +42,21 @@ impl ToleranceReport<'_> {
 
     /// The lines about the samples, the distributions and the results.
     fn sections(&self, bar: &str) -> [Vec<String>; 3] {
-        let (summary, design) = (self.study.summary(self.samples), &self.study.design);
-        let (samples, seed, method) = (design.samples, design.seed, self.method.name());
-        let refused = match samples - summary.solved {
-            0 => String::new(),
-            refused => format!(", {refused} refused"),
-        };
-        let first = format!("{samples} samples{refused}, seed {seed}, method {method}");
-        let contact = ("corner contact".to_owned(), summary.contact);
-        let limits =
-            summary.limits.iter().map(|Exceedance { quantity, limit, probability, .. }| {
-                (format!("{} > {}", quantity.key, sanitize(&limit.text)), *probability)
-            });
-        let rows: Vec<_> = std::iter::once(contact).chain(limits).collect();
+        let summary = self.study.summary(self.samples);
+        let first = format!("{}, method {}", samples(self.study, &summary), self.method.name());
+        let rows = probabilities(&summary);
         let width = widest(rows.iter().map(|(name, _)| name.as_str()));
         let mut figures = vec![String::new(), "Probability (95 % interval)".to_owned()];
-        figures.extend(rows.into_iter().map(|(name, probability)| {
-            let unknown = || "unknown: no sample has a value".to_owned();
-            let probability = probability.as_ref().map_or_else(unknown, in_percent);
-            format!("  {name:width$}  {probability}")
-        }));
+        figures.extend(rows.iter().map(|(name, text)| format!("  {name:width$}  {text}")));
         figures.extend(summary.quantities.iter().flat_map(|of| self.quantity_lines(of, bar)));
         [vec![first], self.spread(), figures]
     }
 
     fn spread(&self) -> Vec<String> {
         let width = self.key_width();
-        let line = |spread: &Spread| {
-            let value = index_of(spread.field).and_then(|field| self.case.effective(field));
-            let value = sanitize(value.unwrap_or_default());
-            format!("  {:width$}  {value}, {}", spread.field, sanitize(&spread.in_words()))
-        };
         let mut lines = vec![String::new(), "Spread".to_owned()];
-        lines.extend(self.case.spread.iter().map(line));
+        let spread = distributions(self.case).into_iter();
+        lines.extend(spread.map(|(field, text)| format!("  {field:width$}  {text}")));
         if self.case.spread.iter().any(|spread| spread.field.ends_with(".base_pitch")) {
             let is_sum = self.combination() == "sum";
             let rule = if is_sum { "with their signs: known" } else { "as squares: independent" };
@@ -248,6 +230,36 @@ impl Results for ToleranceReport<'_> {
             "quantities": sorted(quantities),
         })
     }
+}
+
+/// Number and seed of the samples.
+pub(super) fn samples(study: &Tolerance, summary: &Summary) -> String {
+    let Design { samples, seed, .. } = study.design;
+    match samples - summary.solved {
+        0 => format!("{samples} samples, seed {seed}"),
+        refused => format!("{samples} samples, {refused} refused, seed {seed}"),
+    }
+}
+
+/// The spread fields of a case with their values and distributions.
+pub(super) fn distributions(case: &Case) -> Vec<(&'static str, String)> {
+    let of = |spread: &Spread| {
+        let value = index_of(spread.field).and_then(|field| case.effective(field));
+        let value = sanitize(value.unwrap_or_default());
+        (spread.field, format!("{value}, {}", sanitize(&spread.in_words())))
+    };
+    case.spread.iter().map(of).collect()
+}
+
+/// The probabilities of corner contact and of a value above each limit, with their intervals.
+pub(super) fn probabilities(summary: &Summary) -> Vec<(String, String)> {
+    let limits =
+        summary.limits.iter().map(|Exceedance { quantity, limit, probability, .. }| {
+            (format!("{} > {}", quantity.key, sanitize(&limit.text)), probability.as_ref())
+        });
+    let all = [("corner contact".to_owned(), summary.contact.as_ref())].into_iter().chain(limits);
+    let unknown = || "unknown: no sample has a value".to_owned();
+    all.map(|(name, found)| (name, found.map_or_else(unknown, in_percent))).collect()
 }
 
 /// A probability with its interval, down to the first digit in which the ends of the interval
