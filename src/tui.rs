@@ -6,12 +6,9 @@
 //! draws once and sleeps.
 
 mod app;
-mod ascii;
 mod form_aids;
 mod header;
 mod input;
-mod jobs;
-mod keys;
 mod layout;
 mod panes;
 mod rows;
@@ -125,5 +122,5 @@ fn fail(code: u8, words: &str) -> ExitCode {
 
 // Errors of a closed terminal or pipe are ignored.
 fn tell(words: &str) {
-    drop(writeln!(io::stderr(), "tipstrike: {}", ascii::printable(words)));
+    drop(writeln!(io::stderr(), "tipstrike: {}", text::printable(words)));
 }

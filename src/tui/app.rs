@@ -10,16 +10,14 @@ use std::time::Duration;
 
 use ratatui::layout::{Position, Rect, Size};
 
-use super::jobs::TradeView;
-use super::keys::Place;
-use super::layout::{Layout, Pane};
+use super::layout::{Layout, Pane, Place};
 use super::panes::Title;
 use super::panes::chart::{ChartPane, Charts};
 use super::panes::form::Form;
 use super::panes::results::Results;
 use super::panes::study::{StudyPane, StudyState};
 use super::panes::teeth::{Picture, TeethView};
-use super::panes::trade::TradePane;
+use super::panes::trade::{TradePane, TradeView};
 use super::rows;
 use super::session::{Access, NEWER, OpenCase};
 use super::settings::Settings;

@@ -18,7 +18,7 @@ use crossterm::event::{
 use ratatui::layout::Position;
 
 use super::app::actions::Action;
-use super::keys::Place;
+use super::layout::Place;
 use super::update::commands::of_key;
 use crate::system::terminal::{self, is_in_foreground, read, wait_for_input};
 

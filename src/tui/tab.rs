@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::jobs::{ChartWork, Traded};
+use super::panes::chart::ChartWork;
 use super::panes::form::FormState;
 use super::panes::results::ResultsState;
+use super::panes::trade::Traded;
 use super::rows::{self, Row};
 use super::session::{Access, OpenCase};
 use super::solver::{Answer, Values, Variants};

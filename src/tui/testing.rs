@@ -10,7 +10,7 @@ pub mod app {
 }
 
 pub mod ascii {
-    pub use crate::tui::ascii::{finish, is_safe, written_out};
+    pub use crate::tui::text::{finish, is_safe, written_out};
 }
 
 pub mod commands {
@@ -112,7 +112,7 @@ pub mod view {
 }
 
 pub mod worker_chart {
-    pub use crate::tui::jobs::ChartRequest;
+    pub use crate::tui::panes::chart::ChartRequest;
 }
 
 pub mod worker {

@@ -9,8 +9,8 @@ use unicode_width::UnicodeWidthStr;
 
 use super::app::App;
 use super::app::dialogs::Surroundings;
-use super::ascii::{self, symbol};
 use super::form_aids::materials;
+use super::header;
 use super::layout::{self, Pane, SMALLEST};
 use super::panes::chart::{self, Charts};
 use super::panes::form::{self, Form};
@@ -19,8 +19,8 @@ use super::panes::study::{self, StudyPane};
 use super::panes::teeth;
 use super::panes::trade::{self, TradePane};
 use super::rows::{self, Row};
+use super::text::{self, symbol};
 use super::update::commands::BINDINGS;
-use super::{header, text};
 use crate::case::fields::{Absent, Field, Kind};
 use crate::case::{Acting, FIELDS, Limit, partial_relevance, relevance};
 use crate::model::inputs::Method;
@@ -40,7 +40,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     } else {
         draw_panes(app, area, buffer)
     };
-    ascii::finish(buffer, app.look.ascii);
+    text::finish(buffer, app.look.ascii);
     cursor.filter(|&cursor| area.contains(cursor))
 }
 

@@ -10,7 +10,7 @@ use ratatui::layout::{Position, Size};
 
 use super::App;
 use crate::case::Document;
-use crate::tui::keys::Place;
+use crate::tui::layout::Place;
 use crate::tui::session::{Claim, Next, SaveFault, Saving, Written};
 use crate::tui::settings::Settings;
 use crate::tui::solver::{Answer, Request};

@@ -19,11 +19,11 @@ use unicode_width::UnicodeWidthStr;
 use super::App;
 use super::actions::{Change, Choice, Running, Slot, Work};
 use crate::case::units::System;
-use crate::tui::ascii::printable;
-use crate::tui::keys::Place;
+use crate::tui::layout::Place;
 use crate::tui::store::folder::{self, Preview, Target};
 use crate::tui::text;
 use crate::tui::text::Line;
+use crate::tui::text::printable;
 use crate::tui::theme::{Look, Theme};
 
 use browser::Browser;

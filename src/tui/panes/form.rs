@@ -12,7 +12,6 @@ use crate::case::fields::{GROUPS, Kind};
 use crate::case::{Acting, Case, Limit, Problem, relevance};
 use crate::model::{Inputs, Solution};
 use crate::report::verdict::{Standing, verdict};
-use crate::tui::ascii;
 use crate::tui::form_aids::materials;
 use crate::tui::text::Line as Text;
 use crate::tui::theme::Look;
@@ -222,13 +221,13 @@ fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> 
         rows::Row::Field(field) => (rows::unwritten(case, pane.inputs, field), None),
         rows::Row::Limit(limit) => ("(no limit)".to_owned(), verdict_on(pane, limit)),
     };
-    let value = written.map_or(default, |text| ascii::printable(text).into_owned());
+    let value = written.map_or(default, |text| text::printable(text).into_owned());
     let (verdict, of_verdict) = verdict.unwrap_or_default();
     let [symbol, label] = rows::names_of(case, index);
     let [symbol, label] = match kind {
         // A text has no symbol; its value needs the room.
         Some(Kind::Text) => [label, ""],
-        _ => [&ascii::symbol(symbol, pane.look.ascii), label],
+        _ => [&text::symbol(symbol, pane.look.ascii), label],
     };
     let (is_edited, is_choice) = (pane.is_edited(index), matches!(kind, Some(Kind::Choice(..))));
     let is_typed = is_edited && written.is_some() && !is_choice;

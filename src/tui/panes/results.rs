@@ -18,11 +18,11 @@ use crate::model::inputs::Method;
 use crate::model::{Quantity, Refusal, Solution, Stage};
 use crate::report::verdict::{Verdict, verdicts};
 use crate::report::{self, digest};
-use crate::tui::ascii::symbol;
-use crate::tui::keys::NEXT_FAULT;
+use crate::tui::layout::NEXT_FAULT;
 use crate::tui::rows;
 use crate::tui::solver::{Answer, Baseline, Values, Variants};
 use crate::tui::text;
+use crate::tui::text::symbol;
 use crate::tui::theme::Look;
 
 pub(crate) use table::{compared, label};

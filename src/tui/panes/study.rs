@@ -18,9 +18,9 @@ use crate::report::{common_unit, shown_in, shown_with};
 use crate::study::axis::Axis as StudyAxis;
 use crate::study::batch::PointOutcome;
 use crate::study::batch::Refused;
-use crate::tui::ascii::symbol;
 use crate::tui::study::{End, Layer, LayerFound, SAMPLES, Study, StudyParameters, StudyResults};
 use crate::tui::text;
+use crate::tui::text::symbol;
 use crate::tui::theme::Look;
 
 /// Points of a curve over a range.

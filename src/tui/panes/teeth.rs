@@ -20,8 +20,8 @@ use crate::report::chart::{Point, Span};
 use crate::report::pattern::Pattern;
 use crate::report::stations::{COLUMNS, Column};
 use crate::report::teeth::{Ink, Scene, Window, scale_bar};
-use crate::tui::ascii::symbol;
 use crate::tui::text;
+use crate::tui::text::symbol;
 use crate::tui::theme::Look;
 
 pub use view::{Centre, TeethView};

@@ -16,7 +16,6 @@ use crate::report::trade::{
     power_of_time, summary,
 };
 use crate::study::trade::{MeasuredSetting, Setting, Trade};
-use crate::tui::jobs::{TradeView, Traded};
 use crate::tui::text;
 use crate::tui::theme::Look;
 
@@ -24,6 +23,57 @@ use crate::tui::theme::Look;
 const TALL: u16 = 8;
 const INVITATION: &str = "runs every method with its settings on this case for a few seconds. Esc stops the \
     benchmark and keeps its results. Enter then applies the selected setting to the case.";
+
+/// The benchmark of a case, with error and time of every setting.
+#[derive(Debug, Clone)]
+pub struct Traded {
+    /// The number of its work.
+    pub(crate) work: u64,
+    /// The pair at the time of the request.
+    pub(crate) inputs: Inputs,
+    /// The results so far.
+    pub trade: Option<Trade>,
+    /// The selected setting.
+    pub marked: Option<Setting>,
+}
+
+/// The view of the trade pane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum TradeView {
+    /// Error against time of every setting.
+    #[default]
+    Chart,
+    /// Time and error of every method with every compliance.
+    Table,
+}
+
+impl TradeView {
+    /// The other view.
+    pub(crate) fn other(self) -> TradeView {
+        match self {
+            TradeView::Chart => TradeView::Table,
+            TradeView::Table => TradeView::Chart,
+        }
+    }
+}
+
+impl Traded {
+    /// Whether the case has changed since the benchmark, apart from its setting.
+    pub(crate) fn is_stale(&self, inputs: &Inputs) -> bool {
+        let with_setting = Inputs {
+            method: inputs.method,
+            tooth_compliance: inputs.tooth_compliance,
+            contact_compliance: inputs.contact_compliance,
+            tolerance: inputs.tolerance,
+            within: inputs.within,
+            stations: inputs.stations,
+            station_tolerance: inputs.station_tolerance,
+            accurate: inputs.accurate,
+            ..self.inputs.clone()
+        };
+        with_setting != *inputs
+    }
+}
 
 /// The pane with the benchmark that it shows.
 #[derive(Debug, Clone)]

@@ -3,11 +3,11 @@
 
 use std::collections::BTreeSet;
 
-use crossterm::event::KeyEvent;
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::symbols::Marker;
 use tui_input::InputRequest as Line;
 
-use super::{edit, export, files, navigation, panes, studies};
+use super::{edit, export, files, panes, studies};
 use crate::case::{Acting, FIELDS, Field, relevance};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
@@ -17,14 +17,18 @@ use crate::tui::app::actions::{Action, Binding, Choice, Effect, Run};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::page::Page;
 use crate::tui::app::dialogs::picker::{Item, Picker, Typed};
-use crate::tui::jobs::OwnChart;
-use crate::tui::keys::{self, Place};
-use crate::tui::layout::Pane;
-use crate::tui::panes::chart::ChartCommand as Chart;
+use crate::tui::layout::{Pane, Place};
+use crate::tui::panes::chart::{ChartCommand as Chart, OwnChart};
 use crate::tui::panes::results::Results;
 use crate::tui::panes::teeth::TeethCommand as Teeth;
 use crate::tui::rows;
 use crate::tui::settings::marker_name;
+
+const PREFIXES: [(KeyModifiers, &str); 3] = [
+    (KeyModifiers::CONTROL, "Ctrl-"),
+    (KeyModifiers::ALT, "Alt-"),
+    (KeyModifiers::SHIFT, "Shift-"),
+];
 
 /// A command of the status line that the palette leaves out.
 const LEAVE_FIELD: &str = "leave field";
@@ -85,13 +89,40 @@ const PLACES: [(&str, Place); 16] = [
 
 /// The action of a key in a place.
 pub fn of_key(event: KeyEvent, place: Place) -> Option<Action> {
-    if let Some((command, way)) = called(&keys::name(event), place) {
+    if let Some((command, way)) = called(&name(event), place) {
         return Some(Action::Do(command, way));
     }
-    match keys::letter(event)? {
+    match letter_of(event)? {
         letter if place.meets(Place::TYPED) => Some(Action::Insert(letter)),
         letter => place.meets(Place::OUTSIDE).then_some(Action::Stray(letter)),
     }
+}
+
+/// The name of a key with its modifiers, such as `Ctrl-S`, `Shift-Tab` or `x`.
+fn name(event: KeyEvent) -> String {
+    let (code, mut held) = (event.code, event.modifiers);
+    // Shift is part of a letter and of Shift-Tab, and terminals differ in whether they report it.
+    if matches!(code, KeyCode::Char(_) | KeyCode::BackTab) {
+        held -= KeyModifiers::SHIFT;
+    }
+    let name = match code {
+        // Ctrl-4 and Ctrl-\ are one byte, which the reader decodes as Ctrl-4.
+        KeyCode::Char('4') if held == KeyModifiers::CONTROL => "\\".to_owned(),
+        KeyCode::Char(' ') => "Space".to_owned(),
+        KeyCode::Char(letter) if letter_of(event).is_some() => letter.to_string(),
+        KeyCode::Char(letter) => letter.to_ascii_uppercase().to_string(),
+        KeyCode::F(number) => format!("F{number}"),
+        KeyCode::BackTab => "Shift-Tab".to_owned(),
+        code => format!("{code:?}"),
+    };
+    let held = PREFIXES.iter().filter(|(one, _)| held.contains(*one));
+    held.map(|(_, prefix)| *prefix).collect::<String>() + &name
+}
+
+/// The letter of a key without modifiers.
+fn letter_of(event: KeyEvent) -> Option<char> {
+    let is_plain = !event.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT);
+    event.code.as_char().filter(|_| is_plain)
 }
 
 fn called(key: &str, place: Place) -> Option<(&'static Binding, isize)> {
@@ -304,7 +335,7 @@ pub static BINDINGS: &[Binding] = &[
         "Benchmark every method and setting with this case on this machine.").shown(),
     row(Place::TRADE, "v", "chart/table", studies::switch_view,
         "Switch between the chart of all settings and the table of methods and compliances.").shown(),
-    pair(Place::TRADE, "l/h j/k Right/Left Down/Up", "", navigation::step,
+    pair(Place::TRADE, "l/h j/k Right/Left Down/Up", "", super::step,
         "Select the next slower or faster setting."),
     row(Place::CURSOR, "Space", "play", panes::play,
         "Play the visible part of the contact, or stop.").shown(),
@@ -419,10 +450,10 @@ pub static BINDINGS: &[Binding] = &[
         "Go to accuracy against run time."),
     row(Place::OUTSIDE, "6", "study", |app| panes::show(app, Pane::Study),
         "Go to the study: the selected result over a range of the focused field."),
-    pair(Place::FIELD.or(Place::RESULTS), "j/k Down/Up", "", navigation::step, "Go to the next or previous line."),
-    pair(Place::FIELD.or(Place::RESULTS), "l/h Right/Left", "", navigation::leap,
+    pair(Place::FIELD.or(Place::RESULTS), "j/k Down/Up", "", super::step, "Go to the next or previous line."),
+    pair(Place::FIELD.or(Place::RESULTS), "l/h Right/Left", "", super::leap,
         "Go to the next or previous group, or page of results."),
-    pair(Place::FIELD.or(Place::RESULTS), "G/g End/Home", "", navigation::go_to_end, "Go to the last or first line."),
+    pair(Place::FIELD.or(Place::RESULTS), "G/g End/Home", "", super::go_to_end, "Go to the last or first line."),
     // Everywhere.
     row(Place::WORK, "F1 Alt-H", "help", help_page, "Show this page.").shown(),
     row(Place::WORK, "Ctrl-S", "save", files::save_here,
@@ -430,11 +461,11 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::WORK, "Ctrl-P", "commands", |app| type_command(app, ""),
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
             there.").shown(),
-    row(Place::WORK, "Ctrl-O", "open", |app| navigation::browse(app, false),
+    row(Place::WORK, "Ctrl-O", "open", |app| super::browse(app, false),
         "Open another case in a tab.").shown(),
     row(Place::WORK, "Ctrl-Q", "quit", files::quit,
         "Quit; asks if there are unsaved edits.").shown(),
-    row(Place::FORM, "Esc", LEAVE_FIELD, navigation::leave,
+    row(Place::FORM, "Esc", LEAVE_FIELD, super::leave,
         "Leave the field and keep its value; letters and digits are then commands.").shown(),
     row(Place::WORK, "Ctrl-T F6", "method", |app| edit::set_method(app, None),
         "Switch the method: paper, exact, static, dynamic, auto.").shown(),
@@ -452,9 +483,9 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::WORK, "F5 Alt-P", "switch", panes::cycle_lower,
         "Switch the lower area: chart, teeth, trade, study.").shown(),
     row(Place::WORK, "F9", "zoom", panes::zoom, "Show the focused pane alone, or all panes."),
-    row(Place::WORK, "F4 Ctrl-Down", "results down", |app| navigation::turn(app, 1),
+    row(Place::WORK, "F4 Ctrl-Down", "results down", |app| super::turn(app, 1),
         "Scroll the results down."),
-    row(Place::WORK, "F3 Ctrl-Up", "results up", |app| navigation::turn(app, -1),
+    row(Place::WORK, "F3 Ctrl-Up", "results up", |app| super::turn(app, -1),
         "Scroll the results up."),
     row(Place::WORK, "F2 Alt-S", "save as", files::ask_where,
         "Save under another name."),
@@ -468,7 +499,7 @@ pub static BINDINGS: &[Binding] = &[
         "Start a case from one of the examples."),
     row(Place::WORK, "Alt-T", "Table 1", files::built_in,
         "Show the built-in example, Table 1 of the paper."),
-    row(Place::WORK.or(Place::BROWSE), "Alt-R", "recent cases", |app| navigation::browse(app, true),
+    row(Place::WORK.or(Place::BROWSE), "Alt-R", "recent cases", |app| super::browse(app, true),
         "Open a recent case."),
     row(Place::WORK, "Ctrl-PageDown", "next case", |app| files::step_tab(app, 1),
         "Switch to the next tab."),
@@ -481,7 +512,7 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::WORK, "", "variant", |app| type_command(app, "variant "),
         "Save the edits since the last save as a variant: type variant NAME. Without edits, load \
             that variant into the form."),
-    row(Place::WORK, "Alt-E", "next error", navigation::fault,
+    row(Place::WORK, "Alt-E", "next error", super::fault,
         "Go to the next field with an error or a missing required value."),
     row(Place::WORK, "Ctrl-Y Ctrl-R", "redo", edit::redo, "Redo the last undone edit."),
     row(Place::WORK, "Alt-B", "baseline", studies::toggle_baseline,
@@ -513,41 +544,41 @@ pub static BINDINGS: &[Binding] = &[
         "Increase or decrease the last digit of the value by one.").shown_in(Place::FORM),
     pair(Place::FORM.or(Place::FIELD), "Alt-Up/Alt-Down", "", |app, by| edit::step(app, 10 * by),
         "Increase or decrease the last digit of the value by ten."),
-    pair(Place::FORM, "Down/Up Tab/Shift-Tab Enter", "", navigation::step,
+    pair(Place::FORM, "Down/Up Tab/Shift-Tab Enter", "", super::step,
         "Go to the next or previous field."),
-    pair(Place::FORM.or(Place::FIELD).or(Place::RESULTS), "PageDown/PageUp", "", navigation::leap,
+    pair(Place::FORM.or(Place::FIELD).or(Place::RESULTS), "PageDown/PageUp", "", super::leap,
         "Go to the next or previous group, or page of results."),
-    pair(Place::WORK, "Ctrl-End/Ctrl-Home", "", navigation::end_of_form,
+    pair(Place::WORK, "Ctrl-End/Ctrl-Home", "", super::end_of_form,
         "Go to the last or first field."),
     pair(Place::CHOICE, "Right/Left Space", "", edit::cycle, "Select the next or previous choice."),
     row(Place::CHOICE, "Backspace Delete Ctrl-H", "", |app| edit::handle(app, Line::DeleteLine),
         "Remove the choice: the default applies."),
-    row(Place::OUTSIDE, "Esc", "", navigation::leave,
+    row(Place::OUTSIDE, "Esc", "", super::leave,
         "Stop the running work, hide the cursor or go back to the form; no edit is lost."),
     // In prompts.
-    row(Place::BROWSE, "Tab", "complete", navigation::complete_path,
+    row(Place::BROWSE, "Tab", "complete", super::complete_path,
         "Open the selected folder, or complete the selected name.").shown(),
     row(Place::BROWSE, "Alt-Up", "folder up", App::browse_up,
         "Go to the parent folder; so does Backspace in an empty line.").shown(),
-    pair(Place::EXPLAIN, "Tab/Shift-Tab", "next field", navigation::step_page,
+    pair(Place::EXPLAIN, "Tab/Shift-Tab", "next field", super::step_page,
         "Select the next or previous field that the result depends on.").shown(),
     row(Place::EXPLAIN, "Enter", "go to field", App::accept,
         "Go to the selected field of the form.").shown(),
-    row(Place::EXPLAIN, "q", "", navigation::leave, "Close the page."),
-    pair(Place::ASK, "Tab/Shift-Tab Right/Left Down/Up", "", navigation::step,
+    row(Place::EXPLAIN, "q", "", super::leave, "Close the page."),
+    pair(Place::ASK, "Tab/Shift-Tab Right/Left Down/Up", "", super::step,
         "Select the next or previous button."),
-    pair(Place::LIST.or(Place::PAGE), "Down/Up", "", navigation::step, "Go to the next or previous line."),
-    pair(Place::PICK, "Ctrl-N/Ctrl-P Tab/Shift-Tab", "", navigation::step,
+    pair(Place::LIST.or(Place::PAGE), "Down/Up", "", super::step, "Go to the next or previous line."),
+    pair(Place::PICK, "Ctrl-N/Ctrl-P Tab/Shift-Tab", "", super::step,
         "Go to the next or previous line."),
-    pair(Place::PAGE, "j/k", "", navigation::step, "Go to the next or previous line."),
-    pair(Place::LIST.or(Place::PAGE), "PageDown/PageUp", "next page", navigation::leap,
+    pair(Place::PAGE, "j/k", "", super::step, "Go to the next or previous line."),
+    pair(Place::LIST.or(Place::PAGE), "PageDown/PageUp", "next page", super::leap,
         "Go to the next or previous page.").shown(),
-    pair(Place::PAGE, "Space", "", navigation::leap, "Go to the next page."),
+    pair(Place::PAGE, "Space", "", super::leap, "Go to the next page."),
     row(Place::LIST.or(Place::PATH).or(Place::ASK), "Enter", "accept", App::accept,
         "Accept.").shown(),
-    row(Place::READ, "Enter q ? F1", "", navigation::leave, "Close the page."),
-    row(Place::PROMPT, "Esc", "back", navigation::leave, "Close; no edit is lost.").shown(),
-    row(Place::ALL, "Ctrl-C Ctrl-\\", "", navigation::cancel,
+    row(Place::READ, "Enter q ? F1", "", super::leave, "Close the page."),
+    row(Place::PROMPT, "Esc", "back", super::leave, "Close; no edit is lost.").shown(),
+    row(Place::ALL, "Ctrl-C Ctrl-\\", "", super::cancel,
         "Close a dialog or stop the running work. Otherwise press twice to quit; asks before \
             unsaved edits are discarded."),
     // In an input line.

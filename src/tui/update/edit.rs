@@ -12,13 +12,12 @@ use crate::tui::app::App;
 use crate::tui::app::actions::Choice;
 use crate::tui::app::dialogs::picker::{Item, Picker};
 use crate::tui::app::dialogs::{Prompt, ReliefDialog};
-use crate::tui::ascii;
 use crate::tui::form_aids::materials::{self, Material};
 use crate::tui::form_aids::step_limit;
 use crate::tui::layout::Pane;
 use crate::tui::rows::{self, Row};
 use crate::tui::session;
-use crate::tui::text::Line;
+use crate::tui::text::{self, Line};
 
 /// Greatest length of a text; a longer one is not a value, title or path.
 const LONGEST: usize = 4096;
@@ -51,7 +50,7 @@ pub(super) fn paste(app: &mut App, text: &str) {
         1 => text.to_owned(),
         _ => parts.map(str::trim).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" "),
     };
-    let typed: String = text.chars().filter(|&letter| ascii::is_safe(letter)).take(room).collect();
+    let typed: String = text.chars().filter(|&letter| text::is_safe(letter)).take(room).collect();
     if typed.is_empty() {
         return;
     }
@@ -212,7 +211,7 @@ fn make_of_material(app: &mut App, gears: &[&str], material: &Material) {
         let symbol =
             FIELDS.iter().find(|field| field.name() == name).map_or("", |field| field.symbol);
         let name = symbol.trim_end_matches(|c: char| c.is_ascii_digit());
-        format!("{} {text}", ascii::symbol(name, app.look.ascii))
+        format!("{} {text}", text::symbol(name, app.look.ascii))
     });
     app.say(format!("{whose}: {} {verb} {}", values.join(", "), material.name));
 }

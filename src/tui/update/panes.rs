@@ -17,9 +17,10 @@ use crate::tui::app::actions::{Effect, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::cursor_to::{CursorTo, Reach, cursor_range};
 use crate::tui::app::dialogs::page::{Explanation, Page};
-use crate::tui::jobs::{ChartRequest, ChartValues, OwnChart};
 use crate::tui::layout::Pane;
-use crate::tui::panes::chart::{self, ChartCommand, first_contact};
+use crate::tui::panes::chart::{
+    self, ChartCommand, ChartRequest, ChartValues, OwnChart, first_contact,
+};
 use crate::tui::panes::results as results_pane;
 use crate::tui::panes::teeth::TeethCommand;
 

@@ -13,7 +13,7 @@ use super::{Dialog, PreviewPane, Surroundings, Window, draw_details, halves, sai
 use crate::case::Example;
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Running, Slot, Work};
-use crate::tui::keys::Place;
+use crate::tui::layout::Place;
 use crate::tui::store::folder::{
     Entry, Listing, SearchResult, Target, beneath, find, list, place_of,
 };

@@ -12,7 +12,7 @@ use crate::numeric::decimal::{shortest, significant};
 use crate::report::graphs::GRAPHS;
 use crate::tui::app::App;
 use crate::tui::app::actions::Change;
-use crate::tui::keys::Place;
+use crate::tui::layout::Place;
 use crate::tui::panes::chart::curves::{CurveSource, curves};
 use crate::tui::panes::chart::{Charts, columns, first_contact, last_contact};
 use crate::tui::text;

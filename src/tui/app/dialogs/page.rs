@@ -13,8 +13,8 @@ use crate::report::Shown;
 use crate::report::explain::{Kind, Line, Page as ExplanationPage, lines};
 use crate::tui::app::App;
 use crate::tui::app::actions::Change;
-use crate::tui::ascii::written_out;
-use crate::tui::keys::Place;
+use crate::tui::layout::Place;
+use crate::tui::text::written_out;
 use crate::tui::theme::Theme;
 
 /// A page of text.

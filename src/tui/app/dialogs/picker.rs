@@ -18,7 +18,7 @@ use crate::model::{QUANTITIES, Quantity};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Choice, Work};
 use crate::tui::form_aids::{COMMAND, Entry, HELP, LABEL, query};
-use crate::tui::keys::Place;
+use crate::tui::layout::Place;
 use crate::tui::store::folder::Target;
 use crate::tui::text;
 use crate::tui::text::Line;

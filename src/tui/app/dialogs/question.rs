@@ -10,7 +10,7 @@ use unicode_width::UnicodeWidthStr;
 use super::{Dialog, Surroundings, WIDEST, closing, extent, said};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Choice};
-use crate::tui::keys::Place;
+use crate::tui::layout::Place;
 use crate::tui::session::Next;
 use crate::tui::text;
 use crate::tui::text::Line;

@@ -12,7 +12,7 @@ use crate::report::relief::ReliefReport;
 use crate::study::relief::{Demand, NoRelief, Specification, specify};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Running, Slot, Work};
-use crate::tui::keys::Place;
+use crate::tui::layout::Place;
 use crate::tui::text;
 use crate::tui::text::Line;
 

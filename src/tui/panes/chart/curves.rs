@@ -14,9 +14,9 @@ use crate::report::chart::{Kind, Point, Series, Span};
 use crate::report::charts::{curve, pieces};
 use crate::report::graphs::{GRAPHS, Graph};
 use crate::report::stations::Column;
-use crate::tui::ascii::symbol;
 use crate::tui::panes::plot::Look;
 use crate::tui::solver::Answer;
+use crate::tui::text::symbol;
 
 /// Significant digits of the time since E.
 const TIME_DIGITS: usize = 4;

@@ -16,9 +16,9 @@ use crate::model::{QUANTITIES, Quantity, Solution, Stages};
 use crate::report::compare::difference;
 use crate::report::verdict::{Standing, verdict};
 use crate::report::{self, value_as_in};
-use crate::tui::ascii::symbol;
 use crate::tui::solver::Answer;
 use crate::tui::text;
+use crate::tui::text::symbol;
 
 /// The most important quantities of each method.
 const FIRST: [&str; 15] = [

@@ -14,11 +14,11 @@ use crate::report::table::{Cell, Column, Table};
 use crate::report::{common_unit, shown_with};
 use crate::study::axis::Axis as StudyAxis;
 use crate::study::batch::PointOutcome;
-use crate::tui::ascii::symbol;
 use crate::tui::panes;
 use crate::tui::panes::chart::curves::sign_of;
 use crate::tui::panes::plot::{Look, NO_CONTACT, REFUSED, TerminalChart};
 use crate::tui::study::{GridParameters, StudyParameters, StudyResults};
+use crate::tui::text::symbol;
 
 /// Least width of the labels beside a map.
 const MAP_MARGIN: u16 = 7;
