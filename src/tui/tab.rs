@@ -227,10 +227,9 @@ impl Tab {
     /// removes it.
     pub(super) fn focus_on(&mut self, at: usize) {
         let at = at.min(rows::count(&self.case) - 1);
-        let limit = if let Row::Limit(limit) = rows::row(&self.case, at) {
-            Some(limit.quantity)
-        } else {
-            None
+        let limit = match rows::row(&self.case, at) {
+            Row::Limit(limit) => Some(limit.quantity),
+            Row::Field(_) => None,
         };
         self.case.drop_empty_limits(limit);
         let focus = limit.and_then(|quantity| rows::of_limit(&self.case, quantity)).unwrap_or(at);

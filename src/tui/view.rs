@@ -8,6 +8,7 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::app::App;
+use super::app::actions::Binding;
 use super::app::dialogs::Surroundings;
 use super::form_aids::materials;
 use super::header;
@@ -73,12 +74,10 @@ fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
 fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let place = app.place();
-    let mut spans = Vec::new();
-    let mut shown: Vec<&str> = Vec::new();
+    let (mut spans, mut shown) = (Vec::new(), Vec::<&str>::new());
     let mut left = usize::from(area.width);
-    for binding in
-        BINDINGS.iter().filter(|binding| binding.places.meets(place) && binding.status.meets(place))
-    {
+    let is_here = |one: &&Binding| one.places.meets(place) && one.status.meets(place);
+    for binding in BINDINGS.iter().filter(is_here) {
         let key = binding.first_key().replace("Ctrl-", "^").replace("Shift-Tab", "S-Tab");
         let used = key.width() + binding.name.width() + 3;
         if used > left + 2 {
@@ -145,16 +144,12 @@ fn focused(app: &App) -> String {
         }
         Pane::Results => app.results().marked().map_or_else(String::new, |quantity| {
             let method = app.tab.answer.as_ref().map_or(Method::Exact, |answer| answer.active);
-            let name = symbol(quantity.symbol_in(method), app.look.ascii);
-            let about = format!(
-                "{name} {}, {} ({}).",
-                results::label(quantity, method).trim(),
-                symbol(quantity.equation, app.look.ascii),
-                quantity.key
-            );
-            let compared = results::compared(&app.results(), quantity)
-                .map_or_else(String::new, |compared| format!("{compared} "));
-            compared + &about
+            let [name, equation] = [quantity.symbol_in(method), quantity.equation]
+                .map(|text| symbol(text, app.look.ascii));
+            let label = results::label(quantity, method);
+            let about = format!("{name} {}, {equation} ({}).", label.trim(), quantity.key);
+            let compared = results::compared(&app.results(), quantity);
+            compared.into_iter().chain([about]).collect::<Vec<_>>().join(" ")
         }),
         Pane::Chart if app.chart.own_axes().is_some() => app.charts().own_readout(),
         Pane::Chart | Pane::Teeth => at_cursor(app),

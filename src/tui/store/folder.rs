@@ -80,8 +80,6 @@ pub struct SearchResult {
     pub asked: (PathBuf, String),
     /// The cases, the nearest first.
     pub cases: Vec<Entry>,
-    /// Whether the search ended at a limit.
-    pub is_cut: bool,
 }
 
 /// The preview of a line: texts, each with its style.
@@ -179,14 +177,13 @@ pub fn find(
 ) -> Option<SearchResult> {
     let shown = beneath(&asked.0, &asked.1);
     let (began, mut entries) = (Instant::now(), 0);
-    let (mut cases, mut is_cut) = (Vec::new(), false);
+    let mut cases = Vec::new();
     let mut ahead = VecDeque::from([(PathBuf::new(), 0)]);
     while let Some((way, depth)) = ahead.pop_front() {
         if !go_on(0.0) {
             return None;
         }
         if entries >= MOST_ENTRIES || cases.len() >= MOST_CASES || began.elapsed() > LONGEST {
-            is_cut = true;
             break;
         }
         let found = fs::read_dir(top.join(&way)).into_iter().flatten().flatten();
@@ -198,8 +195,6 @@ pub fn find(
             if name.as_encoded_bytes().starts_with(b".") {
             } else if kind.is_dir() && depth < DEEPEST {
                 ahead.push_back((way, depth + 1));
-            } else if kind.is_dir() {
-                is_cut = true;
             } else if kind.is_file() && depth > 0 && is_case(&way) {
                 cases.push((depth, sanitize(&way.to_string_lossy()), way));
             }
@@ -211,7 +206,7 @@ pub fn find(
         Entry::new(name.clone(), &name, Target::File(shown.join(way)))
     };
     let cases = cases.into_iter().map(entry).collect();
-    Some(SearchResult { asked, cases, is_cut })
+    Some(SearchResult { asked, cases })
 }
 
 /// Computes a preview; returns `None` if `go_on` returns false.

@@ -321,10 +321,32 @@ pub(super) fn request_chart(app: &mut App) {
 
 /// Computes a chart for a tab and sends its values as they arrive.
 fn compute(tab: usize, request: &ChartRequest, running: &Running<'_>) {
+    let inputs = &request.inputs;
+    let send = |found, is_over| running.send(move |app| take_chart(app, tab, found, is_over));
     let found = match request.chart {
-        OwnChart::ToothCompliance(gear) => tooth_compliance(gear, &request.inputs),
-        OwnChart::Spectrum => spectrum(&request.inputs, running),
-        OwnChart::Speed => over_speed(tab, request, running),
+        OwnChart::ToothCompliance(gear) => compare_flanks(inputs, FLANK_POINTS)
+            .map(|flanks| tooth_chart(gear, &flanks, model_of(inputs))),
+        // At rest and, for method `dynamic`, in steady motion. A closed form has no mesh; method
+        // `static` replaces it.
+        OwnChart::Spectrum => {
+            let is_dynamic = inputs.method == Method::Dynamic;
+            let method = if is_dynamic { Method::Dynamic } else { Method::Static };
+            let late = Stages::of(Stage::StaticSpectrum).and(Stages::of(Stage::SteadyMotion));
+            let inputs = Inputs { method, ..inputs.clone() };
+            solve_while(&inputs, late, &|_| running.is_wanted())
+                .map(|solution| Ok(chart_of_spectra(spectra("", &solution))))
+        }
+        OwnChart::Speed => {
+            let mut sent = Instant::now();
+            let curve = speeds(inputs, &mut |curve| {
+                if sent.elapsed() >= CHART_STEP {
+                    sent = Instant::now();
+                    send(speed_chart(&[("", curve)]).ok().map(Ok), false);
+                }
+                running.is_wanted()
+            });
+            curve.map(|curve| speed_chart(&[("", &curve)]))
+        }
         OwnChart::Pattern => return,
     };
     let found = match found {
@@ -332,7 +354,7 @@ fn compute(tab: usize, request: &ChartRequest, running: &Running<'_>) {
         Err(Refusal::Stopped) => None,
         Err(refusal) => Some(Err(format!("{refusal}: {}", refusal.fix()))),
     };
-    running.send(move |app| take_chart(app, tab, found, true));
+    send(found, true);
 }
 
 fn take_chart(app: &mut App, tab: usize, found: Option<ChartValues>, is_over: bool) {
@@ -341,40 +363,6 @@ fn take_chart(app: &mut App, tab: usize, found: Option<ChartValues>, is_over: bo
         work.found = Some((request.chart, found));
     }
     work.is_running = !is_over;
-}
-
-fn tooth_compliance(gear: usize, inputs: &Inputs) -> Result<ChartValues, Refusal> {
-    Ok(tooth_chart(gear, &compare_flanks(inputs, FLANK_POINTS)?, model_of(inputs)))
-}
-
-/// The spectra at rest and, for method `dynamic`, in steady motion. A closed form has no mesh;
-/// method `static` replaces it.
-fn spectrum(inputs: &Inputs, running: &Running<'_>) -> Result<ChartValues, Refusal> {
-    let method = match inputs.method {
-        Method::Dynamic => Method::Dynamic,
-        _ => Method::Static,
-    };
-    let inputs = Inputs { method, ..inputs.clone() };
-    let late = Stages::of(Stage::StaticSpectrum).and(Stages::of(Stage::SteadyMotion));
-    let solution = solve_while(&inputs, late, &|_| running.is_wanted())?;
-    Ok(Ok(chart_of_spectra(spectra("", &solution))))
-}
-
-fn over_speed(
-    tab: usize,
-    request: &ChartRequest,
-    running: &Running<'_>,
-) -> Result<ChartValues, Refusal> {
-    let mut sent = Instant::now();
-    let curve = speeds(&request.inputs, &mut |curve| {
-        if sent.elapsed() >= CHART_STEP {
-            sent = Instant::now();
-            let so_far = speed_chart(&[("", curve)]).ok().map(Ok);
-            running.send(move |app| take_chart(app, tab, so_far, false));
-        }
-        running.is_wanted()
-    })?;
-    Ok(speed_chart(&[("", &curve)]))
 }
 
 fn range_of_cursor(app: &App) -> Option<Reach> {
