@@ -71,7 +71,7 @@ pub fn opened(document: Document, path: Option<PathBuf>, look: Look, size: Size)
 fn happen(app: &mut App, action: Action) {
     match action {
         Action::Do(command, way) => command.run(app, way),
-        Action::Insert(letter) => letter(app, letter),
+        Action::Insert(letter) => type_letter(app, letter),
         Action::Paste(text) => edit::paste(app, &text),
         Action::Stray(letter) => panes::stray(app, letter),
         Action::Click(at) => click(app, at),
@@ -129,7 +129,7 @@ const LEAVING: &str = "no running work and no unsaved edits: press Ctrl-C again 
     quit";
 
 /// Handles a letter that is no command of the table: it presses a button, or is text.
-fn letter(app: &mut App, letter: char) {
+fn type_letter(app: &mut App, letter: char) {
     let Some(Prompt::Ask(question)) = app.prompts.last() else {
         return edit::insert(app, letter);
     };
