@@ -158,6 +158,8 @@ pub struct Solution {
     pub face_cycle: Option<FaceCycle>,
     /// The load sharing with inertia and damping.
     pub dynamic: Option<Dynamic>,
+    /// The line load of the incoming tooth over the face width in motion, if the pair is in slices.
+    pub face_motion: Option<Arc<FaceLoad>>,
     /// Mesh frequency and natural frequency.
     pub resonance: Option<Resonance>,
     /// The harmonics of the static transmission error without deviations, or the reason why there
@@ -207,6 +209,7 @@ impl Solution {
             face_load: None,
             face_cycle: None,
             dynamic: None,
+            face_motion: None,
             resonance: None,
             static_spectrum: None,
             steady: None,

@@ -10,7 +10,7 @@ use super::inputs::{Inputs, Method};
 use super::mesh::MeshInputs;
 use super::mesh::build::Meshes;
 use super::position::printed_relief_to_clear;
-use super::slices::Face;
+use super::slices::{self, Face};
 use super::static_load::{lead_before_start, places_before_start};
 use super::{Outcome, Refusal, Solution};
 
@@ -162,15 +162,16 @@ fn relieved(
     relieved.reliefs.driven.tip += relief;
     Meshes::new(&relieved, solution, solution.mesh.as_ref(), None).find(|mesh| {
         meter.spend(mesh.work());
-        if let Some(face) = &face {
-            let lead = Face::new(face, &solution.geometry, mesh)?.lead_before_start()?;
-            return Ok(Tried { relief, lead, contact_lost: false });
-        }
-        let Approach { lead, contact_lost } = if let Some(motion) = motion {
-            approach(mesh, motion, meter, go_on)?
-        } else {
-            meter.spend(places_before_start(mesh));
-            Approach { lead: lead_before_start(mesh)?, contact_lost: false }
+        let at_rest = |lead: f64| Approach { lead, contact_lost: false };
+        let over_face = face.map(|face| Face::new(&face, &solution.geometry, mesh)).transpose()?;
+        let Approach { lead, contact_lost } = match (over_face, motion) {
+            (Some(face), Some(motion)) => slices::motion::approach(&face, motion, go_on)?,
+            (Some(face), None) => at_rest(face.lead_at_rest()?),
+            (None, Some(motion)) => approach(mesh, motion, meter, go_on)?,
+            (None, None) => {
+                meter.spend(places_before_start(mesh));
+                at_rest(lead_before_start(mesh)?)
+            }
         };
         Ok(Tried { relief, lead, contact_lost })
     })
@@ -306,9 +307,13 @@ impl Solution {
     }
 
     /// How early the static load makes the tooth, in m. A negative value is the gap that is left.
-    /// `None` if the mesh is not computed.
+    /// `None` if the mesh is not computed, or if the tooth touches before E at a place of the face.
     pub fn lead_at_rest(&self) -> Option<f64> {
-        lead_before_start(self.mesh.as_ref()?).ok()
+        match (&self.face_load, &self.face_motion) {
+            (Some(face), _) => face.least_gap.map(|gap| -gap),
+            (None, Some(_)) => None,
+            (None, None) => lead_before_start(self.mesh.as_ref()?).ok(),
+        }
     }
 }
 

@@ -111,6 +111,8 @@ pub enum Refusal {
         /// The method.
         method: Method,
     },
+    /// In motion the driver reaches the back flanks of a pair whose load varies over the face width.
+    BackFlanksOverFace,
     /// The bore leaves no gear body.
     BoreTooLarge {
         /// The gear.
@@ -485,7 +487,14 @@ impl Refusal {
                         face: a helical, misaligned or crowned pair",
                     method.name()
                 ),
-                "set model.method to static",
+                "set model.method to static or dynamic",
+            ),
+            Refusal::BackFlanksOverFace => (
+                "back-flanks-over-face",
+                pair("backlash"),
+                "the driver reaches the back flanks, whose load over the face width has no model"
+                    .to_owned(),
+                "leave out the backlash for a motion on the working flanks, or use model.method = \"static\"",
             ),
             Refusal::BoreTooLarge { gear, bore, circle, limit } => (
                 "bore-too-large",

@@ -3,6 +3,7 @@
 
 pub mod balance;
 pub mod load;
+pub(super) mod motion;
 
 use std::sync::Arc;
 

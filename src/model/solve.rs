@@ -17,6 +17,7 @@ use super::mesh::build::{Meshes, late};
 use super::position::{position, velocity};
 use super::relief::check_reliefs;
 use super::slices::Face;
+use super::slices::motion::{self, Springs};
 use super::stage::{Stage, Stages};
 use super::static_load::{Resonance, static_load, static_spectrum};
 use super::stations::{Spacing, stations};
@@ -101,7 +102,7 @@ pub(crate) fn solve_by_method(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Solution, Refusal> {
     let face = inputs.face();
-    if face.is_some() && matches!(inputs.method, Method::Paper | Method::Dynamic) {
+    if face.is_some() && inputs.method == Method::Paper {
         return Err(Refusal::NotOverFace { method: inputs.method });
     }
     let mut run = Run {
@@ -312,10 +313,12 @@ impl<'a> Run<'a> {
         let alike = self.kept(Stage::Geometry).and_then(|earlier| earlier.mesh.as_ref());
         let mut meshes = Meshes::new(&of_mesh, solution, alike, kept.as_ref());
         let (face, geometry) = (self.face, solution.geometry);
+        let over_face =
+            |mesh: &Arc<Mesh>| face.map(|face| Face::new(&face, &geometry, mesh)).transpose();
         let find = |mesh: &Arc<Mesh>| {
             let spacing = Spacing::of(inputs);
-            match &face {
-                Some(face) => Face::new(face, &geometry, mesh)?.static_load(spacing),
+            match over_face(mesh)? {
+                Some(face) => face.static_load(spacing),
                 None => Ok((static_load(mesh, spacing)?, None)),
             }
         };
@@ -323,19 +326,24 @@ impl<'a> Run<'a> {
         if let Some((load, face)) = self.on_mesh(Stage::Static, of, &mut meshes, find)? {
             (solution.static_load, solution.face_load) = (Some(load), face);
         }
-        let find = |mesh: &Arc<Mesh>| dynamic(mesh, &Settings::of(inputs, mass), go_on);
-        let of = |s: &Solution| s.dynamic.clone();
-        solution.dynamic = self.on_mesh(Stage::Dynamic, of, &mut meshes, find)?;
+        let find = |mesh: &Arc<Mesh>| {
+            let settings = Settings::of(inputs, mass);
+            match over_face(mesh)? {
+                Some(face) => motion::dynamic(&face, &settings, go_on),
+                None => Ok((dynamic(mesh, &settings, go_on)?, None)),
+            }
+        };
+        let of = |s: &Solution| Some((s.dynamic.clone()?, s.face_motion.clone()));
+        if let Some((load, face)) = self.on_mesh(Stage::Dynamic, of, &mut meshes, find)? {
+            (solution.dynamic, solution.face_motion) = (Some(load), face);
+        }
         let find = |mesh: &Arc<Mesh>| Ok(Resonance::of(inputs.speed, mesh, mass));
         solution.resonance = self.on_mesh(Stage::Resonance, |s| s.resonance, &mut meshes, find)?;
-        let find = |mesh: &Arc<Mesh>| match &face {
-            Some(face) => {
-                let cycle = Face::new(face, &geometry, mesh)?.cycle();
-                late(mesh, cycle).map(|found| match found {
-                    Ok((cycle, spectrum)) => (Ok(spectrum), Some(cycle)),
-                    Err(refusal) => (Err(refusal), None),
-                })
-            }
+        let find = |mesh: &Arc<Mesh>| match over_face(mesh)? {
+            Some(face) => late(mesh, face.cycle()).map(|found| match found {
+                Ok((cycle, spectrum)) => (Ok(spectrum), Some(cycle)),
+                Err(refusal) => (Err(refusal), None),
+            }),
             None => Ok((late(mesh, static_spectrum(mesh))?, None)),
         };
         let of = |s: &Solution| Some((s.static_spectrum?, s.face_cycle.clone()));
@@ -343,8 +351,15 @@ impl<'a> Run<'a> {
             (solution.static_spectrum, solution.face_cycle) = (Some(found), cycle);
         }
         let find = |mesh: &Arc<Mesh>| {
-            let (settings, meter) = (Settings::steady(inputs, mass), Meter::new(MOTION_WORK));
-            late(mesh, steady(mesh, &settings, None, &meter, go_on))
+            let settings = Settings::steady(inputs, mass);
+            let steady = match over_face(mesh)? {
+                Some(face) => {
+                    let springs = Springs::new(&face, &settings, mesh.speed);
+                    motion::steady(&springs, &settings, mesh.speed, None, go_on)
+                }
+                None => steady(mesh, &settings, None, &Meter::new(MOTION_WORK), go_on),
+            };
+            late(mesh, steady)
         };
         let of = |s: &Solution| s.steady.clone();
         solution.steady = self.on_mesh(Stage::SteadyMotion, of, &mut meshes, find)?;

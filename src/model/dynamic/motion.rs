@@ -15,7 +15,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 /// Displacement of the driver ahead in m, and its rate in m/s.
-pub(super) type State = Vector2<f64>;
+pub(in crate::model) type State = Vector2<f64>;
 
 /// The oscillator.
 pub(super) struct Motion<'a> {

@@ -7,6 +7,8 @@ use super::steady::{Start, steady};
 use crate::model::budget::Meter;
 use crate::model::inputs::Drive;
 use crate::model::mesh::Mesh;
+use crate::model::slices::Face;
+use crate::model::slices::motion::{self, Springs};
 use crate::model::static_load::static_spectrum;
 use crate::model::{Inputs, Refusal, Resonance, Solution};
 
@@ -129,10 +131,20 @@ pub(crate) fn over_speed(
         resonance: at_resonance,
         is_cut: false,
     };
+    let settings = Settings::steady(&inputs, solution.reduced_mass);
+    let face = inputs.face().map(|face| Face::new(&face, &solution.geometry, &mesh)).transpose()?;
+    let springs = face
+        .as_ref()
+        .map(|face| Springs::new(face, &settings, curve.speeds[0] * mesh.base_radii.0));
+    let tooth_force = match &face {
+        Some(face) => face.cycle()?.1.tooth_force,
+        None => static_spectrum(&mesh)?.tooth_force,
+    };
     let runs = Runs {
         mesh: &mesh,
-        settings: Settings::steady(&inputs, solution.reduced_mass),
-        tooth_force: static_spectrum(&mesh)?.tooth_force,
+        springs: springs.as_ref(),
+        settings,
+        tooth_force,
         resonance: at_resonance,
         work: Meter::new(WORK),
     };
@@ -160,6 +172,8 @@ fn wide_mesh(inputs: &Inputs, solution: &Solution) -> Result<Mesh, Refusal> {
 
 struct Runs<'a> {
     mesh: &'a Arc<Mesh>,
+    /// The force over the face width, if the pair is in slices.
+    springs: Option<&'a Springs<'a>>,
     settings: Settings,
     /// Greatest force of a tooth at rest, in N.
     tooth_force: f64,
@@ -172,7 +186,11 @@ impl Runs<'_> {
     fn at(&self, speed: f64, last: &mut Option<Start>) -> Result<Option<AtSpeed>, Refusal> {
         let meter = Meter::new(WORK_OF_SPEED.min(self.work.limit() - self.work.spent().min(WORK)));
         let mesh = self.mesh.turning_at(speed);
-        let found = steady(&mesh, &self.settings, last.as_ref(), &meter, &|_| true);
+        let (settings, last_start) = (&self.settings, last.as_ref());
+        let found = match self.springs {
+            Some(springs) => motion::steady(springs, settings, mesh.speed, last_start, &|_| true),
+            None => steady(&mesh, settings, last_start, &meter, &|_| true),
+        };
         self.work.spend(meter.spent());
         let steady = match found {
             Ok(steady) => steady,

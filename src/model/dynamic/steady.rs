@@ -45,7 +45,7 @@ pub struct Steady {
 /// A state of the motion at the beginning of a base pitch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Start {
-    pub(super) state: State,
+    pub(in crate::model) state: State,
     pub(super) touching: Vec<PairName>,
 }
 
@@ -67,6 +67,11 @@ impl Start {
         })
     }
 
+    /// A state whose touching pairs follow from it.
+    pub(in crate::model) fn of_state(state: State) -> Start {
+        Start { state, touching: Vec::new() }
+    }
+
     /// A state with the touching pairs in order.
     fn of(state: State, touching: &[PairName]) -> Start {
         let mut touching = touching.to_vec();
@@ -76,8 +81,8 @@ impl Start {
 
     /// Change since another state, relative to the scale of the motion; infinite if other pairs
     /// touch.
-    fn moved_since(&self, then: &Start, motion: &Motion<'_>) -> f64 {
-        let moved = (self.state - then.state).component_div(&motion.scale()).amax();
+    fn moved_since(&self, then: &Start, scale: State) -> f64 {
+        let moved = (self.state - then.state).component_div(&scale).amax();
         if then.touching == self.touching { moved } else { f64::INFINITY }
     }
 
@@ -127,44 +132,63 @@ fn repeated(
         return Ok(None);
     }
     let mut round = Round::begin(motion, settings, from, meter)?;
+    let found = periodic(round.start(), motion.scale(), go_on, |start| {
+        round.run.y = start.state;
+        round.lap(|_, _, _| ())?;
+        Ok((!round.run.misses_back).then(|| round.start()))
+    })?;
+    let Some((start, periods)) = found else {
+        return Ok(None);
+    };
+    round.run.y = start.state;
+    round.measured(periods).map(Some)
+}
+
+/// The start of a base pitch from which the motion repeats, with the number of base pitches in a
+/// period. `lap` computes the next start; `None` if it finds none.
+pub(in crate::model) fn periodic(
+    mut start: Start,
+    scale: State,
+    go_on: &dyn Fn(f64) -> bool,
+    mut lap: impl FnMut(&Start) -> Result<Option<Start>, Refusal>,
+) -> Result<Option<(Start, u32)>, Refusal> {
     let mut before: Vec<Start> = Vec::with_capacity(PERIODS);
     for laps in 0..MOST_LAPS {
-        if !go_on(f64::from(laps) / f64::from(MOST_LAPS)) {
+        let done = f64::from(laps) / f64::from(MOST_LAPS);
+        if !go_on(done) {
             return Err(Refusal::Stopped);
         }
-        let start = round.start();
-        if let Some(periods) = repetition(motion, &before, &start) {
-            return round.measured(periods).map(Some);
+        if let Some(periods) = repetition(scale, &before, &start) {
+            return Ok(Some((start, periods)));
         }
-        if let Some(state) = fixed_point(motion, &before, &start) {
-            round.run.y = state;
+        if let Some(state) = fixed_point(scale, &before, &start) {
+            start.state = state;
             before.clear();
         } else {
-            before.insert(0, start);
+            before.insert(0, start.clone());
             before.truncate(PERIODS);
         }
-        round.lap(|_, _, _| ()).map_err(|refusal| match refusal {
-            Refusal::MotionTooLong { steps, .. } => {
-                Refusal::MotionTooLong { steps, done: f64::from(laps) / f64::from(MOST_LAPS) }
-            }
+        let next = lap(&start).map_err(|refusal| match refusal {
+            Refusal::MotionTooLong { steps, .. } => Refusal::MotionTooLong { steps, done },
             other => other,
         })?;
-        if round.run.misses_back {
+        let Some(next) = next else {
             return Ok(None);
-        }
+        };
+        start = next;
     }
     Err(Refusal::NoSteadyMotion { pitches: MOST_LAPS })
 }
 
 /// The number of base pitches in a period. `None` without repetition. `before` begins with the last
 /// start.
-fn repetition(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<u32> {
+fn repetition(scale: State, before: &[Start], now: &Start) -> Option<u32> {
     /// Relative to the scale of the state.
     const NONE: f64 = 1e-9;
     /// With a repetition after several base pitches, a nearly equal state after fewer counts as the
     /// period.
     const NEARLY: f64 = 1e-6;
-    let moved: Vec<f64> = before.iter().map(|then| now.moved_since(then, motion)).collect();
+    let moved: Vec<f64> = before.iter().map(|then| now.moved_since(then, scale)).collect();
     moved.iter().position(|&moved| moved <= NONE)?;
     let first = moved.iter().position(|&moved| moved <= NEARLY)?;
     Some(first as u32 + 1)
@@ -177,7 +201,7 @@ fn repetition(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<u32>
 /// ```text
 /// v_n = y_n+1 − y_n,   A = (v_1 v_2)(v_0 v_1)⁻¹,   y* = y_3 + (1 − A)⁻¹ A v_2
 /// ```
-fn fixed_point(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<State> {
+fn fixed_point(scale: State, before: &[Start], now: &Start) -> Option<State> {
     /// Greatest distance of the last two states, relative to the scale of the state.
     const NEAR: f64 = 0.03;
     /// Greatest distance of the fixed point, in distances of the last two states.
@@ -190,7 +214,6 @@ fn fixed_point(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<Sta
     if states.iter().any(|state| state.touching != now.touching) {
         return None;
     }
-    let scale = motion.scale();
     let [y0, y1, y2, y3] = states.map(|start| start.state.component_div(&scale));
     let (v0, v1, v2) = (y1 - y0, y2 - y1, y3 - y2);
     let differences = Matrix2::from_columns(&[v0, v1]);
@@ -385,8 +408,9 @@ impl RepeatDetector {
         self.next += 1.0;
         let mut now = Start::of(*y, touching);
         let before = self.last.take();
-        let moved =
-            before.as_ref().map_or(f64::INFINITY, |(then, _)| now.moved_since(then, motion));
+        let moved = before
+            .as_ref()
+            .map_or(f64::INFINITY, |(then, _)| now.moved_since(then, motion.scale()));
         let draws_near = before.is_some_and(|(_, last)| moved <= 0.5 * last);
         now.touching.iter_mut().for_each(|pair| *pair = pair.moved(-1));
         self.last = Some((now, moved));

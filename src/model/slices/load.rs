@@ -2,13 +2,14 @@
 //! incoming tooth.
 
 use super::balance::{Loads, Until};
+use super::motion::Course;
 use super::{Face, Slice};
 use crate::model::Refusal;
 use crate::model::budget::STATIONS;
 use crate::model::static_load::{HARMONICS, Spectrum, StaticLoad, StaticSpectrum};
 use crate::model::stations::{Own, Spacing, Station};
 use crate::numeric::root::{self, greatest};
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -37,6 +38,9 @@ pub struct FaceLoad {
     pub first: FacePlace,
     /// Last contact of the incoming tooth.
     pub last: FacePlace,
+    /// Least gap of the incoming tooth before E under the load of the other pairs, in m; `None` if it
+    /// touches there, or in motion.
+    pub least_gap: Option<f64>,
     /// Greatest line load of the incoming tooth.
     pub peak: LinePeak,
     /// The same before E, at the driven tip.
@@ -62,8 +66,6 @@ pub struct FaceCycle {
     pub line_loads: Vec<f64>,
     /// Swing of the point of attack of the force along the face, in m.
     pub swing: f64,
-    /// Greatest line load, and the same before E and after B.
-    pub peaks: [Option<LinePeak>; 3],
 }
 
 /// The part of the path of a contact.
@@ -75,8 +77,6 @@ enum Part {
 }
 
 impl Part {
-    const ALL: [Part; 3] = [Part::All, Part::BeforeStart, Part::AfterEnd];
-
     /// A place just inside the end of the part at the path of contact, in m.
     fn border(self, length: f64) -> Option<f64> {
         const INSIDE: f64 = 1e-9;
@@ -141,14 +141,35 @@ impl Face {
         touching.map(|at| -self.path(loads, 0, at)).fold(0.0, f64::max)
     }
 
-    /// The force of a pair in a part of the path, in N.
+    /// The force of a pair in a part of the path, in N: all of it as in the balance, a part of it up to its
+    /// border and to the end of the contact, which are between two slices.
     fn force(&self, loads: &Loads, ahead: i32, part: Part) -> f64 {
-        let of_slice = |number: usize| {
-            let is_here = part.has(self.path(loads, ahead, number), self.mesh.length);
-            let line_load = if is_here { loads.at(ahead, number) } else { 0.0 };
-            line_load * self.slices[number].width
+        let Some(border) = part.border(self.mesh.length) else {
+            let slices = self.slices.iter().enumerate();
+            return slices.map(|(number, slice)| loads.at(ahead, number) * slice.width).sum();
         };
-        (0..self.slices.len()).map(of_slice).sum()
+        let is_here = |number: &usize| part.has(self.path(loads, ahead, *number), self.mesh.length);
+        let at_slices = (0..self.slices.len()).filter(is_here).map(|number| {
+            let lead = loads.lead_at(ahead, number);
+            (self.slices[number].z, lead, loads.at(ahead, number))
+        });
+        let at_border = self.lead_between(loads, ahead, border);
+        let at_border =
+            at_border.map(|(lead, compliance, z)| (z, lead, lead.max(0.0) / compliance));
+        let mut places: Vec<(f64, f64, f64)> = at_slices.chain(at_border).collect();
+        places.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let between = |ends: &[(f64, f64, f64)]| {
+            let [(from, lead, load), (to, other, last)] = [ends[0], ends[1]];
+            // The lead is linear where the contact ends.
+            let part = match (lead > 0.0, other > 0.0) {
+                (true, true) => 1.0,
+                (false, false) => 0.0,
+                (true, false) => lead / (lead - other),
+                (false, true) => other / (other - lead),
+            };
+            0.5 * (load + last) * part * (to - from)
+        };
+        places.windows(2).map(between).sum()
     }
 
     /// ∫ of a value over the face.
@@ -159,7 +180,7 @@ impl Face {
 
     /// The balance with the incoming pair at `s`.
     fn balance(&self, s: f64, error: f64) -> Result<Loads, Refusal> {
-        let loads = self.loads(s, error, Until::Force(self.mesh.force), None)?;
+        let loads = self.loads(s, error, Until::Force(self.mesh.force))?;
         if loads.displacement.is_finite() { Ok(loads) } else { Err(Refusal::BeyondReach) }
     }
 
@@ -211,15 +232,6 @@ impl Face {
             mean_slope: mean(&|loads| loads.stiffness),
             face_load_factor: most * self.inputs.width / self.over_face(&line_loads, |_| 1.0),
             swing: extreme(&middle) + extreme(&|loads| -middle(loads)),
-            peaks: Part::ALL.map(|part| {
-                let known = all.iter().chain([&all[0]]).enumerate();
-                let peak = |loads: &Loads| self.line_peak(loads, loads.pairs(), part);
-                let known: Vec<_> =
-                    known.map(|(at, loads)| (place(at), peak(loads).line_load)).collect();
-                let at = |s: f64| self.balance(s, 0.0).ok().map(|loads| peak(&loads));
-                let (s, _) = greatest(&known, |s| at(s).map_or(0.0, |peak| peak.line_load));
-                at(s).filter(|peak| peak.line_load > 0.0)
-            }),
             line_loads,
         };
         let spectrum = Spectrum {
@@ -227,25 +239,25 @@ impl Face {
             peak_to_peak: extreme(&|loads| loads.displacement)
                 + extreme(&|loads| -loads.displacement),
         };
-        let tooth_force = extreme(&|loads| {
-            loads.pairs().map(|ahead| self.force(loads, ahead, Part::All)).fold(0.0, f64::max)
-        });
+        let tooth_force = extreme(&|loads| self.tooth_force(loads));
         Ok((cycle, StaticSpectrum { spectrum, tooth_force }))
     }
 
-    /// The greatest lead of the incoming tooth before E over the face, in m: the displacement by the
-    /// other pairs less its gap. Above 0 the tip touches before E.
+    /// The greatest lead of the incoming tooth before E over the face, in m: the displacement under the
+    /// loads after E and of the other pairs less its gap. Above 0 the tip touches before E. `until`
+    /// gives what ends the search for a balance with the incoming pair at a place.
     ///
     /// # Errors
     /// Those of [`Face::loads`].
-    pub fn lead_before_start(&self) -> Result<f64, Refusal> {
+    pub(super) fn greatest_lead(&self, until: &dyn Fn(f64) -> Until) -> Result<f64, Refusal> {
         let (mesh, step) = (&self.mesh, self.mesh.base_pitch / self.steps() as f64);
         let (from, to) = (mesh.ends().0 - self.reach, self.reach);
         let lead = |s: f64| -> Result<f64, Refusal> {
-            let loads = self.loads(s, mesh.error, Until::Force(mesh.force), Some(0))?;
-            let all = self.slices.iter().enumerate().filter(|(_, slice)| s + slice.ahead <= 0.0);
-            let leads = all.map(|(number, _)| loads.lead_at(0, number));
-            Ok(leads.fold(f64::NEG_INFINITY, f64::max).max(-mesh.length))
+            let mut position = self.position(s)?;
+            position.deviate(0, mesh.error);
+            position.keep_after_start(0);
+            let loads = position.loads(until(s), None)?;
+            Ok(self.lead_before_start(&loads).max(-mesh.length))
         };
         let count = ((to - from) / step).ceil() as usize;
         let places = (0..=count).map(|number| from + (to - from) * number as f64 / count as f64);
@@ -254,9 +266,22 @@ impl Face {
         Ok(greatest(&known, |s| lead(s).unwrap_or(f64::NEG_INFINITY)).1)
     }
 
+    /// The greatest lead of the incoming tooth before E at rest, in m.
+    ///
+    /// # Errors
+    /// Those of [`Face::loads`].
+    pub fn lead_at_rest(&self) -> Result<f64, Refusal> {
+        self.greatest_lead(&|_| Until::Force(self.mesh.force))
+    }
+
+    /// The greatest force of a tooth, in N.
+    pub(super) fn tooth_force(&self, loads: &Loads) -> f64 {
+        loads.pairs().map(|ahead| self.force(loads, ahead, Part::All)).fold(0.0, f64::max)
+    }
+
     /// The station of the incoming tooth. Gap, compliance and velocities are those of the slice with the
     /// least gap.
-    fn station(&self, loads: &Loads) -> Station {
+    fn station(&self, loads: &Loads, motion: Option<(f64, Option<f64>)>) -> Station {
         let mesh = &self.mesh;
         let kept = |slice: &Slice| mesh.zone_at(loads.s + slice.ahead);
         let gap = |slice: &Slice| {
@@ -280,88 +305,182 @@ impl Face {
             own: Own::Shared {
                 part: if total > 0.0 { force / total } else { 0.0 },
                 displacement: loads.displacement,
-                motion: None,
+                motion,
             },
         }
     }
 
-    /// The load of the incoming tooth from its first to its last contact.
+    /// Power of friction on the incoming tooth, in W.
+    pub(super) fn friction_power(&self, loads: &Loads) -> f64 {
+        let mesh = &self.mesh;
+        let of_slice = |number: usize| {
+            let (zone, place) = mesh.zone_at(self.path(loads, 0, number));
+            let sliding = mesh.sliding(mesh.values(zone, place)[3]).abs();
+            loads.at(0, number) * self.slices[number].width * sliding
+        };
+        let sum: f64 = (0..self.slices.len()).map(of_slice).sum();
+        mesh.friction() * self.inputs.oblique * sum
+    }
+
+    /// The load of the incoming tooth at rest from its first to its last contact.
     ///
     /// # Errors
     /// Those of [`Face::loads`].
-    #[expect(clippy::too_many_lines, reason = "one value after the other from the same samples")]
     pub fn static_load(
         &self,
         spacing: Spacing,
     ) -> Result<(StaticLoad, Option<Arc<FaceLoad>>), Refusal> {
-        /// Looks for the ends of the contact in a base pitch.
-        const LOOKS: f64 = 16.0;
-        let (mesh, error) = (&self.mesh, self.mesh.error);
-        let (from, to) = mesh.ends();
-        let (from, to) = (from - self.reach, to + self.reach);
-        let count = (LOOKS * (to - from) / mesh.base_pitch).ceil() as usize;
-        let place = |number: usize| from + (to - from) * number as f64 / count as f64;
-        let lead = |s: f64| -> Result<(f64, usize), Refusal> {
-            let loads = self.loads(s, error, Until::Force(mesh.force), Some(0))?;
-            Ok(loads.lead(0))
+        let passage = Passage { face: self, course: None, near: RefCell::default() };
+        let Some(passed) = passage.run(spacing)? else {
+            return Ok((StaticLoad::default(), None));
         };
-        let carries = |number: &usize| lead(place(*number)).is_ok_and(|(lead, _)| lead > 0.0);
-        let mut ends = [0, count];
-        for (end, is_first) in ends.iter_mut().zip([true, false]) {
-            let found =
-                if is_first { (0..=count).find(carries) } else { (0..=count).rev().find(carries) };
-            match found {
-                Some(number) => *end = number,
-                None => return Ok((StaticLoad::default(), None)),
-            }
-        }
-        let root = |carrying: usize, apart: usize| {
-            let of = |s: f64| {
-                lead(s).map_or(f64::NAN, |(lead, _)| lead.clamp(-mesh.length, mesh.length))
-            };
-            root::between(place(apart), place(carrying), of)
+        let Passed { stations, rough, ends, face, .. } = &passed;
+        let load = StaticLoad {
+            first_contact_angle: ends.0,
+            last_contact_angle: ends.1,
+            force_at_end: passed.force_at_end,
+            force_at_start: passed.force_at_start,
+            peak_force: passed.peak_force,
+            transmission_error: passed.transmission_error,
+            pitch_jump: None,
+            stations: stations.clone(),
+            rough: *rough,
         };
-        if ends[0] == 0 || ends[1] == count {
+        let least_gap = match ends.0 {
+            Some(_) => None,
+            None => Some(-self.lead_at_rest()?),
+        };
+        Ok((load, Some(Arc::new(FaceLoad { least_gap, ..face.clone() }))))
+    }
+}
+
+/// The passage of the incoming tooth, at rest or in motion.
+pub(super) struct Passage<'a> {
+    pub face: &'a Face,
+    /// The motion; `None` at rest.
+    pub course: Option<&'a Course>,
+    /// The balance computed last, whose slices are likely to touch again.
+    pub near: RefCell<Option<Loads>>,
+}
+
+/// The load of the incoming tooth in a passage.
+pub(super) struct Passed {
+    /// Driven gear's angle before E at the first contact and driver's angle after B at the last one,
+    /// in rad; `None` on the path of contact.
+    pub ends: (Option<f64>, Option<f64>),
+    pub force_at_start: f64,
+    pub force_at_end: f64,
+    pub peak_force: f64,
+    pub transmission_error: f64,
+    pub stations: Vec<Station>,
+    pub rough: Option<Refusal>,
+    pub face: FaceLoad,
+    /// The loads at places from the first to the last contact.
+    pub samples: Vec<Loads>,
+}
+
+impl Passage<'_> {
+    /// The loads with the incoming pair at `s`.
+    fn loads(&self, s: f64) -> Result<Loads, Refusal> {
+        let face = self.face;
+        let mut position = face.position(s)?;
+        position.deviate(0, face.mesh.error);
+        let until = match self.course {
+            Some(course) => Until::Displacement(course.at(s)[0]),
+            None => Until::Force(face.mesh.force),
+        };
+        let loads = position.loads(until, self.near.borrow().as_ref())?;
+        if !loads.displacement.is_finite() {
             return Err(Refusal::BeyondReach);
         }
-        let first = root(ends[0], ends[0] - 1);
-        let last = root(ends[1], ends[1] + 1);
-        let face_place = |s: f64| -> Result<FacePlace, Refusal> {
-            let (_, slice) = lead(s)?;
-            let Slice { z, ahead, .. } = self.slices[slice];
+        *self.near.borrow_mut() = Some(loads.clone());
+        Ok(loads)
+    }
+
+    /// Places between two places, at which the load is smooth enough to be sampled; `part` of them.
+    fn places(&self, from: f64, to: f64, part: usize) -> Vec<f64> {
+        /// Bounds the time of a slow motion.
+        const MOST: usize = 4096;
+        /// Of the steps of a motion, which are many more than an oscillation needs to be seen.
+        const EVERY: usize = 2;
+        let pitch = self.face.mesh.base_pitch / (self.face.steps() / 2) as f64;
+        let count = ((to - from) / (pitch * part as f64)).ceil().max(2.0);
+        let even = (0..=count as u32).map(|step| from + (to - from) * f64::from(step) / count);
+        let mut places: Vec<f64> = even.collect();
+        if let Some(course) = self.course {
+            let moments: Vec<f64> = course.places(from, to).collect();
+            let every = (EVERY * part).max(moments.len() / MOST);
+            if moments.len() / every > places.len() {
+                places = moments.into_iter().step_by(every).collect();
+                places.insert(0, from);
+                places.push(to);
+            }
+        }
+        places
+    }
+
+    /// The first and the last place with contact, in m. `None` without contact.
+    fn ends(&self) -> Result<Option<(f64, f64)>, Refusal> {
+        /// Of the places.
+        const LOOKS: usize = 2;
+        let (face, length) = (self.face, self.face.mesh.length);
+        let (from, to) = face.mesh.ends();
+        let looks = self.places(from - face.reach, to + face.reach, LOOKS);
+        let carries = |s: &f64| self.loads(*s).is_ok_and(|loads| loads.lead(0).0 > 0.0);
+        let Some(first) = looks.iter().position(carries) else {
+            return Ok(None);
+        };
+        let Some(last) = looks.iter().rposition(carries) else {
+            return Ok(None);
+        };
+        if first == 0 || last + 1 == looks.len() {
+            return Err(Refusal::BeyondReach);
+        }
+        let lead =
+            |s: f64| self.loads(s).map_or(f64::NAN, |loads| loads.lead(0).0.clamp(-length, length));
+        let root =
+            |apart: usize, carrying: usize| root::between(looks[apart], looks[carrying], lead);
+        Ok(Some((root(first - 1, first), root(last + 1, last))))
+    }
+
+    /// The load from the first to the last contact. `None` without contact.
+    pub(super) fn run(&self, spacing: Spacing) -> Result<Option<Passed>, Refusal> {
+        let (face, mesh) = (self.face, &self.face.mesh);
+        let Some((first, last)) = self.ends()? else {
+            return Ok(None);
+        };
+        let place = |s: f64| -> Result<FacePlace, Refusal> {
+            let (_, slice) = self.loads(s)?.lead(0);
+            let Slice { z, ahead, .. } = face.slices[slice];
             Ok(FacePlace { z, path: s + ahead })
         };
-        let (first_place, last_place) = (face_place(first)?, face_place(last)?);
-        let steps = (0.5 * self.steps() as f64 * (last - first) / mesh.base_pitch).ceil().max(2.0);
-        let place = |step: u32| first + (last - first) * f64::from(step) / steps;
-        let places: Vec<f64> = (0..=steps as u32).map(place).collect();
-        let all: Vec<Loads> =
-            places.iter().map(|&s| self.balance(s, error)).collect::<Result<_, _>>()?;
+        let (first_place, last_place) = (place(first)?, place(last)?);
+        let places = self.places(first, last, 1);
+        let samples: Vec<Loads> =
+            places.iter().map(|&s| self.loads(s)).collect::<Result<_, _>>()?;
         let extreme = |of: &dyn Fn(&Loads) -> f64| {
-            let known: Vec<_> = places.iter().zip(&all).map(|(&s, loads)| (s, of(loads))).collect();
-            let at = |s: f64| self.balance(s, error).map_or(f64::NEG_INFINITY, |loads| of(&loads));
+            let known: Vec<_> =
+                places.iter().zip(&samples).map(|(&s, loads)| (s, of(loads))).collect();
+            let at = |s: f64| self.loads(s).map_or(f64::NEG_INFINITY, |loads| of(&loads));
             greatest(&known, at)
         };
         let line_peak = |part: Part| {
-            let peak = |loads: &Loads| self.line_peak(loads, std::iter::once(0), part);
+            let peak = |loads: &Loads| face.line_peak(loads, std::iter::once(0), part);
             let (s, _) = extreme(&|loads| peak(loads).line_load);
-            self.balance(s, error)
-                .ok()
-                .map(|loads| peak(&loads))
-                .filter(|peak| peak.line_load > 0.0)
+            let found = self.loads(s).ok().map(|loads| peak(&loads));
+            found.filter(|peak| peak.line_load > 0.0)
         };
-        let peak_force = extreme(&|loads| self.force(loads, 0, Part::All)).1;
+        let peak_force = extreme(&|loads| face.force(loads, 0, Part::All)).1;
         let failed = Cell::new(None);
         let (stations, rough) = Station::through_start(first, last, |from, to| {
             spacing.stations(&[from, to], peak_force, STATIONS, |s| {
-                let station = self.balance(s, error).map(|loads| self.station(&loads));
-                match station {
-                    Ok(station) => (station.force, station),
-                    Err(refusal) => {
-                        failed.set(Some(refusal));
-                        (0.0, self.station(&all[0]))
-                    }
-                }
+                let motion = self.course.map(|course| (s / course.speed, Some(course.at(s)[1])));
+                let loads = self.loads(s).unwrap_or_else(|refusal| {
+                    failed.set(Some(refusal));
+                    samples[0].clone()
+                });
+                let station = face.station(&loads, motion);
+                (station.force, station)
             })
         });
         if let Some(refusal) = failed.into_inner() {
@@ -371,31 +490,47 @@ impl Face {
         let behind = |place: &FacePlace| (place.path - mesh.length) / mesh.base_radii.0;
         let before_start = line_peak(Part::BeforeStart);
         // Reliefs can let the tooth touch after E at its end and before E farther inside.
-        let (_, deepest) = extreme(&|loads| self.deepest(loads));
-        let strikes = before_start.is_some().then_some(deepest / mesh.base_radii.1);
-        let first_angle = Some(ahead(&first_place)).filter(|angle| *angle > 0.0).or(strikes);
-        let load = StaticLoad {
-            first_contact_angle: first_angle,
-            last_contact_angle: Some(behind(&last_place)).filter(|angle| *angle > 0.0),
-            force_at_end: extreme(&|loads| self.force(loads, 0, Part::AfterEnd)).1,
-            force_at_start: extreme(&|loads| self.force(loads, 0, Part::BeforeStart)).1,
+        let strikes = before_start.is_some().then(|| {
+            let (_, deepest) = extreme(&|loads| face.deepest(loads));
+            deepest / mesh.base_radii.1
+        });
+        let is_apart = |angle: &f64| *angle > 0.0;
+        let at_slices = |loads: &Loads| (0..face.slices.len()).map(|at| loads.at(0, at)).collect();
+        Ok(Some(Passed {
+            ends: (
+                Some(ahead(&first_place)).filter(is_apart).or(strikes),
+                Some(behind(&last_place)).filter(is_apart),
+            ),
+            force_at_start: extreme(&|loads| face.force(loads, 0, Part::BeforeStart)).1,
+            force_at_end: extreme(&|loads| face.force(loads, 0, Part::AfterEnd)).1,
             peak_force,
             transmission_error: extreme(&|loads| loads.displacement).1
                 + extreme(&|loads| -loads.displacement).1,
-            pitch_jump: None,
             stations,
             rough,
-        };
-        let at_slices = |loads: &Loads| (0..self.slices.len()).map(|at| loads.at(0, at)).collect();
-        let face = FaceLoad {
-            first: first_place,
-            last: last_place,
-            peak: line_peak(Part::All).ok_or(Refusal::BeyondReach)?,
-            before_start,
-            after_end: line_peak(Part::AfterEnd),
-            pattern: all.iter().map(at_slices).collect(),
-            paths: places,
-        };
-        Ok((load, Some(Arc::new(face))))
+            face: FaceLoad {
+                first: first_place,
+                last: last_place,
+                least_gap: None,
+                peak: line_peak(Part::All).ok_or(Refusal::BeyondReach)?,
+                before_start,
+                after_end: line_peak(Part::AfterEnd),
+                pattern: samples.iter().map(at_slices).collect(),
+                paths: places,
+            },
+            samples,
+        }))
+    }
+
+    /// The time from the first contact to the first minimum of the force after its first peak, or to the
+    /// last contact, in s. `None` at rest.
+    pub(super) fn first_minimum(&self, samples: &[Loads]) -> Option<f64> {
+        let speed = self.course?.speed;
+        let force: Vec<f64> =
+            samples.iter().map(|loads| self.face.force(loads, 0, Part::All)).collect();
+        let peak = (1..force.len()).find(|&at| force[at] < force[at - 1])?;
+        let least =
+            (peak..force.len()).find(|&at| force.get(at + 1).is_none_or(|next| *next > force[at]));
+        least.map(|at| (samples[at].s - samples[0].s) / speed)
     }
 }

@@ -1,0 +1,507 @@
+//! The motion of a pair over its face width: displacement of the driver with inertia and damping,
+//! against the balance of the slices.
+
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use super::Face;
+use super::balance::{Loads, Position, Until};
+use super::load::{FaceLoad, Passage, Passed};
+use crate::model::Refusal;
+use crate::model::dynamic::steady::{Start, Steady, periodic};
+use crate::model::dynamic::{Approach, Dynamic, Settings, State};
+use crate::model::static_load::Fourier;
+
+/// Greatest number of oscillations of the mesh during a motion: some ten seconds of computation.
+const OSCILLATIONS: f64 = 2e4;
+
+/// The force of the mesh at even places of a base pitch, for any displacement. A place keeps what was
+/// computed for it, since a motion returns to it in every base pitch.
+pub(in crate::model) struct Springs<'a> {
+    face: &'a Face,
+    /// The parts of a base pitch between borders of the mesh, with their number of steps.
+    parts: Vec<(f64, f64, u32)>,
+    places: RefCell<HashMap<u64, Place<'a>>>,
+    /// The loads computed last, whose slices are likely to touch again.
+    near: RefCell<Option<Loads>>,
+    solves: Cell<u64>,
+}
+
+/// A place of a base pitch.
+struct Place<'a> {
+    position: Position<'a>,
+    /// The known lines of the force over the displacement, by the pair that deviates.
+    lines: Vec<(Option<i32>, Line)>,
+}
+
+/// The force over the displacement while the same slices touch.
+#[derive(Debug, Clone, Copy)]
+struct Line {
+    alike: (f64, f64),
+    displacement: f64,
+    force: f64,
+    stiffness: f64,
+}
+
+/// What differs at the incoming pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Incoming {
+    /// It is like the others.
+    Alike,
+    /// It has this deviation, in m.
+    Deviates(f64),
+    /// It has the deviation, and touches only after E.
+    AfterStart(f64),
+}
+
+impl Incoming {
+    fn change(self, position: &mut Position<'_>, pair: i32) {
+        match self {
+            Incoming::Alike => {}
+            Incoming::Deviates(error) => position.deviate(pair, error),
+            Incoming::AfterStart(error) => {
+                position.deviate(pair, error);
+                position.keep_after_start(pair);
+            }
+        }
+    }
+}
+
+impl<'a> Springs<'a> {
+    /// The places for motions at this speed along the line of action and above.
+    pub(in crate::model) fn new(face: &'a Face, settings: &Settings, speed: f64) -> Springs<'a> {
+        /// Least number of steps in a base pitch.
+        const LEAST: f64 = 64.0;
+        /// Greatest stiffness over the mean.
+        const STIFFER: f64 = 1.5;
+        /// (ωh)⁴ of a step over the tolerance, and the greatest ωh: measured, the peak force then meets
+        /// the tolerance with a margin.
+        const SHARE: f64 = 800.0;
+        const COARSEST: f64 = 0.5;
+        /// Smaller errors of the steps are lost among those of the usual number of slices.
+        const OF_SLICES: f64 = 1e-4;
+        let mesh = &face.mesh;
+        let frequency = (STIFFER * mesh.mean_stiffness() / settings.mass).sqrt();
+        let least = if face.inputs.slices.is_none() { OF_SLICES } else { 0.0 };
+        let turn = (SHARE * settings.tolerance.max(least)).powf(0.25).min(COARSEST);
+        let step = turn / frequency * speed;
+        let step = step.min(mesh.base_pitch / LEAST);
+        let borders = mesh.borders(0.0, mesh.base_pitch);
+        let part = |ends: &[f64]| {
+            let steps = ((ends[1] - ends[0]) / step - 1e-9).ceil().max(1.0);
+            (ends[0], ends[1], steps as u32)
+        };
+        Springs {
+            face,
+            parts: borders.windows(2).map(part).collect(),
+            places: RefCell::default(),
+            near: RefCell::default(),
+            solves: Cell::default(),
+        }
+    }
+
+    /// Force and stiffness of the mesh with the incoming pair `pitches` base pitches after the place.
+    fn force(
+        &self,
+        place: f64,
+        (pitches, incoming): (i32, Incoming),
+        displacement: f64,
+    ) -> Result<[f64; 2], Refusal> {
+        /// Bounds the memory of slow motions.
+        const PLACES: usize = 4096;
+        let mut places = self.places.borrow_mut();
+        if places.len() >= PLACES && !places.contains_key(&place.to_bits()) {
+            places.clear();
+        }
+        let place = match places.entry(place.to_bits()) {
+            std::collections::hash_map::Entry::Occupied(known) => known.into_mut(),
+            std::collections::hash_map::Entry::Vacant(new) => {
+                new.insert(Place { position: self.face.position(place)?, lines: Vec::new() })
+            }
+        };
+        let is_alike = incoming == Incoming::Alike || !place.position.has(pitches);
+        let deviating = (!is_alike).then_some(pitches);
+        let serves = |(of, line): &&(Option<i32>, Line)| {
+            *of == deviating && displacement >= line.alike.0 && displacement <= line.alike.1
+        };
+        let line = match place.lines.iter().rev().find(serves) {
+            Some((_, line)) => *line,
+            None => {
+                self.solves.set(self.solves.get() + 1);
+                let mut near = self.near.borrow_mut();
+                let until = Until::Displacement(displacement);
+                let loads = match deviating {
+                    None => place.position.loads(until, near.as_ref())?,
+                    Some(pair) => {
+                        let mut position = place.position.clone();
+                        incoming.change(&mut position, pair);
+                        position.loads(until, near.as_ref())?
+                    }
+                };
+                let Loads { alike, displacement, force, stiffness, .. } = loads;
+                *near = Some(loads);
+                let line = Line { alike, displacement, force, stiffness };
+                place.lines.push((deviating, line));
+                line
+            }
+        };
+        Ok([line.force + line.stiffness * (displacement - line.displacement), line.stiffness])
+    }
+}
+
+/// A moment of a motion.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moment {
+    /// Path of the incoming pair since E in the middle of the face, in m.
+    pub s: f64,
+    /// Displacement, in m, and its rate, in m/s.
+    state: State,
+    /// Force that turns the driver, in N.
+    force: f64,
+    /// Whether any pair touches.
+    touches: bool,
+}
+
+/// The equation of motion.
+struct Motion<'a, 'b> {
+    springs: &'a Springs<'b>,
+    /// Speed along the line of action, in m/s.
+    speed: f64,
+    mass: f64,
+    damping: f64,
+    frequency: f64,
+    backlash: f64,
+    incoming: Incoming,
+}
+
+impl<'a, 'b> Motion<'a, 'b> {
+    fn new(springs: &'a Springs<'b>, settings: &Settings, speed: f64, incoming: Incoming) -> Self {
+        let frequency = (springs.face.mesh.mean_stiffness() / settings.mass).sqrt();
+        Motion {
+            springs,
+            speed,
+            mass: settings.mass,
+            damping: 2.0 * settings.damping_ratio * settings.mass * frequency,
+            frequency,
+            backlash: settings.backlash.unwrap_or(f64::INFINITY),
+            incoming,
+        }
+    }
+
+    /// Usual size of displacement and rate.
+    fn scale(&self) -> State {
+        let mesh = &self.springs.face.mesh;
+        let deflection = mesh.force / mesh.mean_stiffness();
+        State::new(deflection, deflection * self.frequency)
+    }
+
+    /// Refuses a motion with too many oscillations.
+    fn check_pace(&self, path: f64) -> Result<(), Refusal> {
+        let swings = path / self.speed * self.frequency / TAU;
+        if swings > OSCILLATIONS {
+            return Err(Refusal::TooSlow { swings, limit: OSCILLATIONS });
+        }
+        Ok(())
+    }
+
+    /// The rates of displacement and rate, and the stiffness.
+    fn rates(&self, place: f64, pitches: i32, state: State) -> Result<(State, [f64; 2]), Refusal> {
+        let of = self.springs.force(place, (pitches, self.incoming), state[0])?;
+        let damping = if of[1] > 0.0 { self.damping } else { 0.0 };
+        let rest = self.springs.face.mesh.force - of[0] - damping * state[1];
+        Ok((State::new(state[1], rest / self.mass), of))
+    }
+
+    /// The state at the end of a base pitch that begins with this state. `show` receives every moment.
+    fn pitch(
+        &self,
+        pitches: i32,
+        mut state: State,
+        show: &mut dyn FnMut(Moment),
+    ) -> Result<State, Refusal> {
+        for &(from, to, steps) in &self.springs.parts {
+            let place = |step: u32| from + (to - from) * f64::from(step) / f64::from(steps);
+            for step in 0..steps {
+                let ends = (place(step), place(step + 1));
+                state = self.step(pitches, (from, to), ends, (state, 0), show)?;
+            }
+        }
+        if state[0] < -self.backlash {
+            return Err(Refusal::BackFlanksOverFace);
+        }
+        Ok(state)
+    }
+
+    /// A step of fourth order; smaller steps where pairs gain or lose contact.
+    ///
+    /// # Source
+    /// The classical method of Runge and Kutta: Hairer, Nørsett & Wanner 1993, "Solving Ordinary
+    /// Differential Equations I", table II.1.2.
+    fn step(
+        &self,
+        pitches: i32,
+        part: (f64, f64),
+        (from, to): (f64, f64),
+        (state, halvings): (State, u32),
+        show: &mut dyn FnMut(Moment),
+    ) -> Result<State, Refusal> {
+        /// Change of the stiffness that smaller steps resolve, and the smallest of them.
+        const SUDDEN: f64 = 0.1;
+        const HALVINGS: u32 = 6;
+        /// The mesh jumps at a border. Of the length of the part.
+        const INSIDE: f64 = 1e-9;
+        let aside = INSIDE * (part.1 - part.0);
+        let inside = |place: f64| place.clamp(part.0 + aside, part.1 - aside);
+        let middle = f64::midpoint(from, to);
+        let time = (to - from) / self.speed;
+        let (first, before) = self.rates(inside(from), pitches, state)?;
+        let (second, _) = self.rates(middle, pitches, state + first * (0.5 * time))?;
+        let (third, _) = self.rates(middle, pitches, state + second * (0.5 * time))?;
+        let (fourth, _) = self.rates(inside(to), pitches, state + third * time)?;
+        let next = state + (first + (second + third) * 2.0 + fourth) * (time / 6.0);
+        let (_, after) = self.rates(inside(to), pitches, next)?;
+        let change = (after[1] - before[1]).abs();
+        if change > SUDDEN * before[1].max(after[1]) && halvings < HALVINGS {
+            let half = (state, halvings + 1);
+            let state = self.step(pitches, part, (from, middle), half, show)?;
+            return self.step(pitches, part, (middle, to), (state, halvings + 1), show);
+        }
+        let s = f64::from(pitches) * self.springs.face.mesh.base_pitch + to;
+        show(Moment { s, state: next, force: after[0], touches: after[1] > 0.0 });
+        Ok(next)
+    }
+
+    /// The static balance at the beginning of a base pitch.
+    fn at_rest(&self, pitches: i32) -> Result<State, Refusal> {
+        let face = self.springs.face;
+        let mut position = face.position(0.0)?;
+        self.incoming.change(&mut position, pitches);
+        let loads = position.loads(Until::Force(face.mesh.force), None)?;
+        if loads.displacement.is_finite() {
+            return Ok(State::new(loads.displacement, 0.0));
+        }
+        Err(Refusal::BeyondReach)
+    }
+
+    /// The motion of the passage of the incoming tooth, from static balance `warmup` base pitches before
+    /// the first slice comes to E. The rest of a warm-up that repeats is skipped.
+    fn passage(
+        &self,
+        settings: &Settings,
+        until: f64,
+        go_on: &dyn Fn(f64) -> bool,
+    ) -> Result<Course, Refusal> {
+        /// A change of the state that counts as none: rounding, and while it falls by half in every
+        /// base pitch, a part of the tolerance.
+        const ROUNDING: f64 = 1e-14;
+        const PART: f64 = 1e-3;
+        let (face, pitch) = (self.springs.face, self.springs.face.mesh.base_pitch);
+        let first = -(settings.warmup_cycles as i32) - (face.reach / pitch).round() as i32;
+        // The last base pitch without the incoming pair, and one more for a loss of contact.
+        let near = (face.mesh.ends().0.min(-pitch) - face.reach) / pitch;
+        let near = near.floor() as i32;
+        let last = (until / pitch).ceil() as i32;
+        self.check_pace(f64::from(last - first.max(near - 2)) * pitch)?;
+        let mut state = self.at_rest(first)?;
+        let start = Moment { s: f64::from(first) * pitch, state, force: 0.0, touches: true };
+        let mut moments = vec![start];
+        let (mut pitches, mut moved) = (first, f64::INFINITY);
+        while pitches < last {
+            if !go_on(f64::from(pitches - first) / f64::from(last - first)) {
+                return Err(Refusal::Stopped);
+            }
+            let before = state;
+            state = self.pitch(pitches, state, &mut |moment| moments.push(moment))?;
+            pitches += 1;
+            let change = (state - before).component_div(&self.scale()).amax();
+            let allowed = if change <= 0.5 * moved { PART * settings.tolerance } else { ROUNDING };
+            moved = change;
+            if pitches < near && change <= allowed.max(ROUNDING) {
+                pitches = near;
+                moments = vec![Moment {
+                    s: f64::from(near) * pitch,
+                    state,
+                    ..moments[moments.len() - 1]
+                }];
+            }
+        }
+        Ok(Course { moments, speed: self.speed })
+    }
+}
+
+/// The computed motion of a passage.
+pub(super) struct Course {
+    moments: Vec<Moment>,
+    pub(super) speed: f64,
+}
+
+impl Course {
+    /// The places of the computed moments between two places, in m.
+    pub(super) fn places(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
+        self.moments.iter().map(|moment| moment.s).filter(move |s| *s > from && *s < to)
+    }
+
+    /// Displacement and rate at a place, by cubics with the computed values and rates.
+    ///
+    /// # Source
+    /// Hermite interpolation: Hairer, Nørsett & Wanner 1993, eq. II.6.7.
+    pub(super) fn at(&self, s: f64) -> State {
+        let after = self.moments.partition_point(|moment| moment.s < s);
+        let after = after.clamp(1, self.moments.len() - 1);
+        let [one, other] = [self.moments[after - 1], self.moments[after]];
+        let way = other.s - one.s;
+        let part = ((s - one.s) / way).clamp(0.0, 1.0);
+        let time = way / self.speed;
+        let rise = other.state[0] - one.state[0];
+        let [begin, end] = [one, other].map(|moment| moment.state[1] * time - rise);
+        let bend = part * (1.0 - part);
+        let displacement = one.state[0] + part * rise + bend * ((1.0 - part) * begin - part * end);
+        let slope =
+            rise + (1.0 - part) * (1.0 - 3.0 * part) * begin - part * (2.0 - 3.0 * part) * end;
+        State::new(displacement, slope / time)
+    }
+
+    /// Whether at any time from `from` to `to` no pair is in contact.
+    fn loses_contact(&self, from: f64, to: f64) -> bool {
+        let mut between = self.moments.iter().filter(|moment| moment.s >= from && moment.s <= to);
+        between.any(|moment| !moment.touches)
+    }
+}
+
+/// The load of the incoming tooth over the face width with inertia, and where it acts.
+///
+/// # Formula
+/// ```text
+/// me x'' + c x' + ∫ Σ w_k p_k(x, s) dz = F0,   s' = ω1 rb1,   1/me = rb1²/J1 + rb2²/J2
+/// c = 2 ζ √(k me) while a pair is in contact, otherwise 0;   k the mean stiffness of the mesh
+/// ```
+/// p_k(x, s) are the line loads of [`Position::loads`] at a given displacement: the slices have no mass
+/// of their own.
+///
+/// # Source
+/// The oscillator of [`dynamic`](crate::model::dynamic::dynamic).
+///
+/// # Errors
+/// [`Refusal::TooSlow`] if the mesh oscillates too often during the motion,
+/// [`Refusal::BackFlanksOverFace`] if the back flanks would touch, [`Refusal::BeyondReach`] if pairs
+/// beyond the computed gaps may touch, [`Refusal::Stopped`] if `go_on` returns false.
+pub(in crate::model) fn dynamic(
+    face: &Face,
+    settings: &Settings,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<(Dynamic, Option<Arc<FaceLoad>>), Refusal> {
+    let mesh = &face.mesh;
+    let springs = Springs::new(face, settings, mesh.speed);
+    let motion = Motion::new(&springs, settings, mesh.speed, Incoming::Deviates(mesh.error));
+    let course = motion.passage(settings, mesh.ends().1 + face.reach, go_on)?;
+    let passage = Passage { face, course: Some(&course), near: RefCell::default() };
+    let passed = passage.run(settings.spacing)?.ok_or(Refusal::BeyondReach)?;
+    let Passed { ends, stations, rough, samples, .. } = passed;
+    let strikes = ends.0.is_some();
+    let until = |s: f64| Until::Displacement(course.at(s)[0]);
+    let least_gap = if strikes { None } else { Some(-face.greatest_lead(&until)?) };
+    let last = samples.last().map_or(mesh.length, |loads| loads.s);
+    let time = |pair: &[Loads]| (pair[1].s - pair[0].s) / mesh.speed;
+    let power = |pair: &[Loads]| {
+        let [one, other] = [&pair[0], &pair[1]].map(|loads| face.friction_power(loads));
+        f64::midpoint(one, other) * time(pair)
+    };
+    let work = || samples.windows(2).map(power).sum();
+    let found = Dynamic {
+        first_contact_angle: ends.0,
+        last_contact_angle: ends.1,
+        peak_approach_force: passed.force_at_start,
+        peak_force: passed.peak_force,
+        impact_duration: strikes.then(|| passage.first_minimum(&samples)).flatten(),
+        least_gap,
+        contact_lost: course.loses_contact(-mesh.base_pitch - face.reach, last),
+        rattle: None,
+        friction_work: (mesh.friction() > 0.0).then(work),
+        approach: Vec::new(),
+        stations,
+        rough,
+        evaluations: springs.solves.get(),
+        work: springs.solves.get(),
+    };
+    Ok((found, Some(Arc::new(passed.face))))
+}
+
+/// The approach of the incoming tooth to E in the motion without its contact.
+///
+/// # Errors
+/// Those of [`dynamic`].
+pub(in crate::model) fn approach(
+    face: &Face,
+    settings: &Settings,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Approach, Refusal> {
+    let mesh = &face.mesh;
+    let springs = Springs::new(face, settings, mesh.speed);
+    let motion = Motion::new(&springs, settings, mesh.speed, Incoming::AfterStart(mesh.error));
+    let course = motion.passage(settings, face.reach, go_on)?;
+    let lead = face.greatest_lead(&|s| Until::Displacement(course.at(s)[0]))?;
+    let contact_lost = course.loses_contact(-mesh.base_pitch - face.reach, face.reach);
+    Ok(Approach { lead, contact_lost })
+}
+
+/// The steady motion of a pair without deviations at a speed along the line of action, in m/s, from
+/// rest or from the steady motion at another speed.
+///
+/// # Errors
+/// Those of [`dynamic`], and [`Refusal::NoSteadyMotion`] if the motion does not repeat.
+pub(in crate::model) fn steady(
+    springs: &Springs<'_>,
+    settings: &Settings,
+    speed: f64,
+    from: Option<&Start>,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Steady, Refusal> {
+    /// Steps in an interval of the Fourier integral.
+    const STEPS: usize = 8;
+    let motion = Motion::new(springs, settings, speed, Incoming::Alike);
+    let (face, pitch) = (springs.face, springs.face.mesh.base_pitch);
+    motion.check_pace(pitch)?;
+    let start = match from {
+        Some(start) => start.clone(),
+        None => Start::of_state(motion.at_rest(0)?),
+    };
+    let lap = |start: &Start| {
+        motion.pitch(0, start.state, &mut |_| ()).map(|state| Some(Start::of_state(state)))
+    };
+    let found = periodic(start, motion.scale(), go_on, lap)?;
+    let (start, periods) = found.ok_or(Refusal::BeyondReach)?;
+    let mut moments = vec![Moment { s: 0.0, state: start.state, force: 0.0, touches: true }];
+    for lap in 0..periods {
+        let state = moments[moments.len() - 1].state;
+        let before = f64::from(lap) * pitch;
+        motion.pitch(0, state, &mut |moment| {
+            moments.push(Moment { s: before + moment.s, ..moment });
+        })?;
+    }
+    let course = Course { moments, speed };
+    let mut fourier = Fourier::new();
+    let last = course.moments.len() - 1;
+    for first in (0..last).step_by(STEPS) {
+        let [from, to] = [first, (first + STEPS).min(last)].map(|at| course.moments[at].s);
+        fourier.add((from / pitch, to / pitch), |part| course.at(from + part * (to - from))[0]);
+    }
+    for moment in &course.moments {
+        fourier.include(moment.state[0]);
+    }
+    let mut tooth_force = 0.0_f64;
+    for moment in &course.moments[1..] {
+        let loads = face.loads(moment.s % pitch, 0.0, Until::Displacement(moment.state[0]))?;
+        tooth_force = face.tooth_force(&loads).max(tooth_force);
+    }
+    Ok(Steady {
+        spectrum: fourier.spectrum(periods),
+        mesh_force: course.moments.iter().map(|moment| moment.force).fold(0.0, f64::max),
+        tooth_force,
+        contact_lost: course.moments.iter().any(|moment| !moment.touches),
+        rattle: None,
+        periods,
+        start,
+    })
+}
