@@ -72,16 +72,21 @@ pub enum Reason {
 /// mesh with the period T_n: the response of an oscillator to a ramp.
 /// `Reason::static_error_bounds` gives the least and the most part of this oscillation that `static`
 /// can miss, measured over 300 pairs. Between both bounds a trial motion decides. Without contact
-/// by the closed form, which has no force then, a trial motion always decides.
+/// by the closed form, which has no force then, and for a pair in slices, a trial motion always
+/// decides.
 ///
 /// The choice depends on the pair alone, not on the limits and the selected quantities.
 pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
-    let Ok(solution) = closed_form else {
-        return Choice { method: Method::Dynamic, reason: Reason::Refused, inertia: None };
-    };
-    match solution.outcome {
-        Outcome::NoCornerContact => sharing(inputs, Reason::NoContact, 1.0),
-        Outcome::CornerContact => with_contact(inputs, solution),
+    match closed_form {
+        Err(Refusal::NotOverFace { .. }) => {
+            let inertia = Some(Inertia::Between(0.0, f64::INFINITY));
+            Choice { method: Method::Dynamic, reason: Reason::OverFace, inertia }
+        }
+        Err(_) => Choice { method: Method::Dynamic, reason: Reason::Refused, inertia: None },
+        Ok(solution) => match solution.outcome {
+            Outcome::NoCornerContact => sharing(inputs, Reason::NoContact, 1.0),
+            Outcome::CornerContact => with_contact(inputs, solution),
+        },
     }
 }
 
@@ -181,13 +186,16 @@ pub fn taken(inputs: &Inputs, method: Method) -> Inputs {
 }
 
 /// The relative difference between motion and static balance: the greatest difference of first
-/// contact, peaks and force from the first contact to E, relative to the motion. `None` if the
-/// mesh, the motion or the static balance is absent.
-pub(super) fn added_by_inertia(moved: &Solution) -> Option<f64> {
+/// contact, peaks and force from the first contact to E, relative to the motion; of a pair in slices,
+/// whose balance is known, of first contact and peaks. `None` if the mesh, the motion or the static
+/// balance is absent.
+pub(super) fn added_by_inertia(moved: &Solution, still: Option<&Solution>) -> Option<f64> {
     let (mesh, motion) = (moved.mesh.as_deref()?, moved.dynamic.as_ref()?);
-    // These values need no stations.
-    let still = static_load(mesh, Spacing::Even(1)).ok()?;
-    Some(difference(mesh, &still, motion))
+    match still {
+        Some(still) => Some(difference(mesh, still.static_load.as_ref()?, motion)),
+        // These values need no stations.
+        None => Some(difference(mesh, &static_load(mesh, Spacing::Even(1)).ok()?, motion)),
+    }
 }
 
 fn difference(mesh: &Mesh, still: &StaticLoad, moved: &Dynamic) -> f64 {

@@ -502,22 +502,19 @@ impl Auto<'_> {
 
     /// Solves by the chosen method. Uses static balance if the speed is too low for a motion.
     fn chosen(&self, wanted: Stages) -> Result<Solution, Refusal> {
-        if self.inputs.face().is_some() {
-            let solution = self.solve(Method::Static, wanted, None)?;
-            let reason = Reason::OverFace;
-            let choice = Choice { method: Method::Static, reason, inertia: None };
-            return Ok(Solution { choice: Some(choice), ..solution });
-        }
         let exact = auto::taken(self.inputs, Method::Exact);
         let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
-        let closed_form = solve_by_method(&exact, read, None, &|_| true);
+        let closed_form = match self.inputs.face() {
+            Some(_) => Err(Refusal::NotOverFace { method: Method::Exact }),
+            None => solve_by_method(&exact, read, None, &|_| true),
+        };
         let choice = auto::choose(self.inputs, &closed_form);
         let still = || self.solve(Method::Static, wanted, None);
         let (solution, choice) = match (choice.method, &closed_form) {
             (Method::Exact, Ok(known)) => (self.solve(Method::Exact, wanted, Some(known))?, choice),
             (Method::Static, _) => (still()?, choice),
             _ => match self.solve(Method::Dynamic, wanted, None) {
-                Err(Refusal::TooSlow { .. }) => (still()?, choice),
+                Err(Refusal::TooSlow { .. } | Refusal::BackFlanksOverFace) => (still()?, choice),
                 // The slower the pair turns, the longer its motion.
                 Err(Refusal::MotionTooLong { .. } | Refusal::MotionTooLarge { .. })
                     if choice.reason == Reason::NoContact =>
@@ -538,13 +535,15 @@ impl Auto<'_> {
         moved: Solution,
         wanted: Stages,
     ) -> Result<(Solution, Choice), Refusal> {
-        let adds = auto::added_by_inertia(&moved);
+        let known = Solution { method: Method::Static, ..moved.clone() };
+        let at_rest = || self.solve(Method::Static, wanted, Some(&known));
+        let still = moved.face_motion.as_ref().map(|_| at_rest()).transpose()?;
+        let adds = auto::added_by_inertia(&moved, still.as_ref());
         let choice = adds.map_or(choice, |adds| choice.tried(self.inputs, adds));
         if choice.method == Method::Dynamic {
             return Ok((moved, choice));
         }
-        let known = Solution { method: Method::Static, ..moved.clone() };
-        let found = self.solve(Method::Static, wanted, Some(&known))?;
+        let found = still.map_or_else(at_rest, Ok)?;
         Ok((Solution { beside: Some(Ok(Box::new(moved))), ..found }, choice))
     }
 }

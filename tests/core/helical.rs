@@ -111,7 +111,15 @@ fn first_contact_and_loads_agree_with_an_independent_solution() {
         within("first z", face.first.z, &passage["first_z"]);
         within("last z", face.last.z, &passage["last_z"]);
         within("mean x", cycle.mean_displacement, &answers["cycle"]["x_mean"]);
-        for (peak, key) in cycle.peaks.iter().zip(["peak", "peak_before_E", "peak_after_B"]) {
+        inputs.base_pitch_deviation = 0.0;
+        let even = solve(&inputs, Stages::of(Stage::Static)).expect(name);
+        let even = even.face_load.expect(name);
+        let peaks = [
+            (Some(even.peak), "peak"),
+            (even.before_start, "peak_before_E"),
+            (even.after_end, "peak_after_B"),
+        ];
+        for (peak, key) in peaks {
             match peak {
                 Some(peak) => within(key, peak.line_load, &answers[key]["line_load"]),
                 None => assert!(answers[key].is_null(), "{name}: {key}"),
@@ -199,6 +207,77 @@ fn a_corner_contact_is_found_and_relief_removes_it() {
     relieved.driven.tip_relief += 1.001 * more;
     let outcome = solve(&relieved, STATIC).expect("a load").outcome;
     assert_eq!(outcome, Outcome::NoCornerContact);
+}
+
+const MOVING: Stages = Stages::of(Stage::Dynamic).with(Stage::SteadyMotion);
+
+/// Results of the motion.
+fn moved(inputs: &Inputs) -> [f64; 8] {
+    let solution = solve(inputs, MOVING).expect("a motion");
+    let motion = solution.dynamic.expect("a motion");
+    let steady = solution.steady.expect("a motion").expect("a steady motion");
+    [
+        motion.first_contact_angle.unwrap_or(0.0),
+        motion.peak_approach_force,
+        motion.peak_force,
+        motion.last_contact_angle.unwrap_or(0.0),
+        motion.friction_work.unwrap_or(0.0),
+        steady.spectrum.peak_to_peak,
+        steady.spectrum.amplitudes[0],
+        steady.tooth_force,
+    ]
+}
+
+/// The motion of a spur pair is computed by power series, that of slices in steps.
+#[test]
+fn a_small_helix_angle_does_not_change_the_motion() {
+    let spur = Inputs {
+        method: Method::Dynamic,
+        friction_coefficient: Some(0.05),
+        tolerance: 1e-8,
+        slices: Some(9),
+        speed: 150.0,
+        ..standard_pair(20, 35, 3e-3)
+    };
+    let spur = Inputs { base_pitch_deviation: 8e-6, ..spur };
+    assert!(spur.face().is_none());
+    let helical = Inputs { helix_angle: 1e-6_f64.to_radians(), ..spur.clone() };
+    for (at, (one, other)) in moved(&spur).into_iter().zip(moved(&helical)).enumerate() {
+        let off = (other / one - 1.0).abs();
+        // The friction work is a sum over samples.
+        let tolerance = if at == 4 { 1e-4 } else { 1e-6 };
+        assert!(off <= tolerance, "{at}: {other:e} for {one:e}, off by {off:.1e}");
+    }
+}
+
+#[test]
+fn a_slow_motion_has_the_load_at_rest_and_a_smaller_tolerance_the_same_motion() {
+    let pair = Inputs { method: Method::Dynamic, ..helical() };
+    let still = solve(&Inputs { method: Method::Static, ..pair.clone() }, STATIC).expect("a load");
+    let slow = solve(&Inputs { speed: 2.0, ..pair.clone() }, MOVING).expect("a motion");
+    let [peak, slow_peak] =
+        [still.static_load.unwrap().peak_force, slow.dynamic.unwrap().peak_force];
+    assert!((slow_peak / peak - 1.0).abs() < 2e-3, "{slow_peak} for {peak}");
+    let [at_rest, line_load] =
+        [still.face_load.unwrap(), slow.face_motion.unwrap()].map(|face| face.peak.line_load);
+    assert!((line_load / at_rest - 1.0).abs() < 2e-3, "{line_load} for {at_rest}");
+    let with = |tolerance: f64| Inputs { tolerance, slices: Some(33), ..pair.clone() };
+    for (one, other) in moved(&with(1e-4)).into_iter().zip(moved(&with(1e-7))) {
+        assert!((one - other).abs() <= 1e-3 * other.abs(), "{one:e} for {other:e}");
+    }
+}
+
+#[test]
+fn the_relief_that_clears_the_motion_clears_it() {
+    let pair = Inputs { method: Method::Dynamic, ..helical() };
+    let solution = solve(&pair, MOVING.with(Stage::Clearing)).expect("a motion");
+    let more = solution.clearing.expect("a relief").relief.expect("a relief");
+    for (part, strikes) in [(0.99, true), (1.01, false)] {
+        let mut relieved = pair.clone();
+        relieved.driven.tip_relief += part * more;
+        let found = solve(&relieved, Stages::of(Stage::Dynamic)).expect("a motion");
+        assert_eq!(found.outcome == Outcome::CornerContact, strikes, "{part}");
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::{Need, PLAIN, Quantity, checks};
 use crate::model::Solution;
-use crate::model::Stage::{Geometry, Load, Static, StaticSpectrum};
+use crate::model::Stage::{Dynamic, Geometry, Load, Static, StaticSpectrum};
 use crate::model::explanation::Formula::{Found, Made, Text};
 use crate::model::explanation::{Check, Context};
 use crate::model::helix::Helix;
@@ -41,6 +41,16 @@ const AT_REST: Quantity = Quantity {
     ..PLAIN
 };
 
+/// A result over the face width in motion.
+const MOVING: Quantity = Quantity {
+    equation: "m x'' + ΣF = F0",
+    stage: Dynamic,
+    source: "The oscillator of Özgüven & Houser 1988 with the line loads in slices: the model of this \
+            program. Decay along the tooth and ends by own finite elements in three \
+            dimensions.",
+    ..AT_REST
+};
+
 const LOAD: super::Formula =
     Found("line load of the balance ∫ Σ p dz = F_0 in slices, x - gap = displacement", &["F_0"]);
 
@@ -51,6 +61,13 @@ fn helix(solution: &Solution) -> Option<&Helix> {
 fn load(solution: &Solution) -> Option<&FaceLoad> {
     solution.face_load.as_deref()
 }
+
+fn moving(solution: &Solution) -> Option<&FaceLoad> {
+    solution.face_motion.as_deref()
+}
+
+const IN_MOTION: super::Formula =
+    Found("line load in motion, x - gap = displacement in slices", &["F_0", "f_n"]);
 
 fn cycle(solution: &Solution) -> Option<&FaceCycle> {
     solution.face_cycle.as_ref()
@@ -190,6 +207,48 @@ pub(super) const TABLE: &[Quantity] = &[
         |s| load(s)?.after_end.map(line_load),
         "The greatest force per width of the driver's tip after B.",
         LOAD,
+    ),
+    MOVING
+        .row(
+            ["dynamic_first_contact_z", "z_dyn", "dynamic: first contact at z"],
+            ("m", "mm", 4),
+            |s| Some(moving(s)?.first.z),
+            "The place of the first contact of the incoming tooth along the axis, from \
+            the middle of the common face.",
+            IN_MOTION,
+        )
+        .signed(),
+    MOVING.row(
+        ["dynamic_peak_line_load", "w_dyn,max", "dynamic: peak line load"],
+        ("N/m", "N/mm", 5),
+        |s| Some(line_load(moving(s)?.peak)),
+        "The greatest force per width of the incoming tooth.",
+        IN_MOTION,
+    ),
+    MOVING
+        .row(
+            ["dynamic_peak_line_load_z", "z_dyn,max", "dynamic: peak line load at z"],
+            ("m", "mm", 4),
+            |s| Some(moving(s)?.peak.place.z),
+            "Where the greatest line load acts, along the axis from the middle of the \
+            common face.",
+            IN_MOTION,
+        )
+        .signed(),
+    MOVING.row(
+        ["dynamic_peak_line_load_before_start", "w_dyn,DE", "dynamic: peak line load before E"],
+        ("N/m", "N/mm", 5),
+        |s| moving(s)?.before_start.map(line_load),
+        "The greatest force per width of the driven tip before E: that of the \
+            corner contact.",
+        IN_MOTION,
+    ),
+    MOVING.row(
+        ["dynamic_peak_line_load_after_end", "w_dyn,B", "dynamic: peak line load after B"],
+        ("N/m", "N/mm", 5),
+        |s| moving(s)?.after_end.map(line_load),
+        "The greatest force per width of the driver's tip after B.",
+        IN_MOTION,
     ),
     AT_REST
         .row(

@@ -529,8 +529,15 @@ impl Passage<'_> {
         let force: Vec<f64> =
             samples.iter().map(|loads| self.face.force(loads, 0, Part::All)).collect();
         let peak = (1..force.len()).find(|&at| force[at] < force[at - 1])?;
-        let least =
-            (peak..force.len()).find(|&at| force.get(at + 1).is_none_or(|next| *next > force[at]));
-        least.map(|at| (samples[at].s - samples[0].s) / speed)
+        let rises = |at: &usize| force.get(at + 1).is_none_or(|next| *next > force[*at]);
+        let least = (peak..force.len()).find(rises)?;
+        let known: Vec<_> = samples[..=(least + 1).min(force.len() - 1)][least - 1..]
+            .iter()
+            .map(|loads| (loads.s, -self.face.force(loads, 0, Part::All)))
+            .collect();
+        let at = |s: f64| {
+            self.loads(s).map_or(f64::NEG_INFINITY, |loads| -self.face.force(&loads, 0, Part::All))
+        };
+        Some((greatest(&known, at).0 - samples[0].s) / speed)
     }
 }
