@@ -181,6 +181,18 @@ pub struct Solution {
 }
 
 impl Solution {
+    /// Whether the load of the incoming tooth varies over the face width.
+    pub fn has_slices(&self) -> bool {
+        self.face_load.is_some() || self.face_motion.is_some()
+    }
+
+    /// The stations of the load sharing: those of the motion, otherwise those at rest.
+    pub fn shared_stations(&self) -> Option<&[Station]> {
+        let moving = self.dynamic.as_ref().map(|load| &load.stations);
+        let stations = moving.or(self.static_load.as_ref().map(|load| &load.stations))?;
+        Some(stations)
+    }
+
     /// The results of geometry, load, masses and deviation.
     fn new(method: Method, geometry: Geometry, mesh_force: f64, kept: Kept) -> Solution {
         let deviation = kept.deviation.rounded();

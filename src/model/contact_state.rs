@@ -258,6 +258,7 @@ impl Interpolated {
     /// static:        as at a station
     /// dynamic:       F of the load shared at x,
     ///                x by the cubic with x and x' of both neighbouring stations
+    /// in slices:     linear between both neighbouring stations
     /// ```
     ///
     /// # Valid for
@@ -265,6 +266,9 @@ impl Interpolated {
     /// 64 stations of `dynamic` the error of the force is at most 5e-3 of the peak.
     pub fn at(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Interpolated> {
         let exact = |station| Interpolated { station, is_between: false };
+        if solution.has_slices() {
+            return over_face(solution.shared_stations()?, roll_angle);
+        }
         match (&solution.dynamic, &solution.static_load) {
             (Some(dynamic), _) => moving(solution.mesh.as_deref()?, &dynamic.stations, roll_angle),
             (None, Some(load)) => {
@@ -285,6 +289,19 @@ fn struck(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Stati
     let teeth = Teeth::of(&inputs.elasticity(), geometry).ok()?;
     let station = stations::station(inputs, &teeth, &masses, angle).ok()?;
     station.force.is_finite().then_some(station)
+}
+
+/// The results of a pair in slices, between its stations.
+fn over_face(stations: &[Station], roll_angle: f64) -> Option<Interpolated> {
+    let next = stations.partition_point(|station| station.roll_angle_driver > roll_angle);
+    let to = stations.get(next)?;
+    if (to.roll_angle_driver..=to.roll_angle_driver).contains(&roll_angle) {
+        return Some(Interpolated { station: *to, is_between: false });
+    }
+    let from = stations.get(next.checked_sub(1)?)?;
+    let way = from.roll_angle_driver - to.roll_angle_driver;
+    let station = from.towards(to, (from.roll_angle_driver - roll_angle) / way);
+    Some(Interpolated { station, is_between: true })
 }
 
 /// The balance from the first contact to the last.

@@ -327,7 +327,7 @@ impl Solution {
     /// on the flank before E and after B. `None` at a sharp edge, where no pressure is finite.
     pub fn pressure(&self, station: &Station) -> Option<f64> {
         // The force of a station does not say where on the face it acts.
-        if self.face_load.is_some() || self.face_motion.is_some() {
+        if self.has_slices() {
             return None;
         }
         let (geometry, hertz) = (&self.geometry, &self.kept.hertz);

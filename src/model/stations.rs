@@ -103,6 +103,29 @@ impl Station {
         if let Own::Shared { motion, .. } = self.own { motion } else { None }
     }
 
+    /// The linear interpolation towards another station with the same load sharing.
+    pub(super) fn towards(&self, other: &Station, part: f64) -> Station {
+        let mix = |one: f64, other: f64| one + part * (other - one);
+        let both = |of: fn(&Station) -> Option<f64>| Some(mix(of(self)?, of(other)?));
+        let own = match both(Station::load_share).zip(both(Station::transmission_error)) {
+            Some((part, displacement)) => {
+                let motion = both(Station::time).map(|time| (time, both(Station::rate)));
+                Own::Shared { part, displacement, motion }
+            }
+            None => self.own,
+        };
+        Station {
+            roll_angle_driver: mix(self.roll_angle_driver, other.roll_angle_driver),
+            roll_angle_driven: mix(self.roll_angle_driven, other.roll_angle_driven),
+            force: mix(self.force, other.force),
+            normal_velocity: mix(self.normal_velocity, other.normal_velocity),
+            sliding_velocity: mix(self.sliding_velocity, other.sliding_velocity),
+            gap: mix(self.gap, other.gap),
+            pair_compliance: both(|station| station.pair_compliance),
+            own,
+        }
+    }
+
     /// Stations from `first` to E, which is at 0, and from E to `last`. Without contact before E,
     /// only from `first` to `last`.
     pub(super) fn through_start(

@@ -59,7 +59,7 @@ impl Absence {
         };
         let has_friction = || solution.mesh.as_ref().is_some_and(|mesh| mesh.friction() > 0.0);
         match (stage, quantity.needs) {
-            (_, Need::Slices) if solution.helix.is_none() && solution.face_load.is_none() => {
+            (_, Need::Slices) if solution.helix.is_none() && !solution.has_slices() => {
                 Absence::Because("only a helical, misaligned or crowned pair has this quantity")
             }
             _ if is_shared && quantity.key.contains("last_contact") => Absence::NoExit,

@@ -13,6 +13,7 @@ use crate::model::Refusal;
 use crate::model::dynamic::steady::{Start, Steady, periodic};
 use crate::model::dynamic::{Approach, Dynamic, Settings, State};
 use crate::model::static_load::Fourier;
+use crate::numeric::root::greatest;
 
 /// Greatest number of oscillations of the mesh during a motion: some ten seconds of computation.
 const OSCILLATIONS: f64 = 2e4;
@@ -487,14 +488,16 @@ pub(in crate::model) fn steady(
         let [from, to] = [first, (first + STEPS).min(last)].map(|at| course.moments[at].s);
         fourier.add((from / pitch, to / pitch), |part| course.at(from + part * (to - from))[0]);
     }
-    for moment in &course.moments {
-        fourier.include(moment.state[0]);
-    }
-    let mut tooth_force = 0.0_f64;
-    for moment in &course.moments[1..] {
-        let loads = face.loads(moment.s % pitch, 0.0, Until::Displacement(moment.state[0]))?;
-        tooth_force = face.tooth_force(&loads).max(tooth_force);
-    }
+    let extreme = |of: &dyn Fn(f64) -> f64| {
+        let known: Vec<_> = course.moments.iter().map(|one| (one.s, of(one.s))).collect();
+        greatest(&known, of).1
+    };
+    fourier.include(extreme(&|s| course.at(s)[0]));
+    fourier.include(-extreme(&|s| -course.at(s)[0]));
+    let tooth_force = extreme(&|s| {
+        let loads = face.loads(s % pitch, 0.0, Until::Displacement(course.at(s)[0]));
+        loads.map_or(0.0, |loads| face.tooth_force(&loads))
+    });
     Ok(Steady {
         spectrum: fourier.spectrum(periods),
         mesh_force: course.moments.iter().map(|moment| moment.force).fold(0.0, f64::max),
