@@ -277,12 +277,12 @@ fn in_plane(mesh: &Mesh, s: f64, inside: f64) -> [f64; VALUES] {
 fn over_face(face: &Face, widths: &[f64], mesh: &Mesh, s: f64) -> Result<[f64; VALUES], Refusal> {
     /// Of the displacement.
     const STEP: f64 = 1e-5;
-    let loads = face.loads(s, mesh.error, Until::Force(mesh.force), None)?;
+    let loads = face.loads(s, mesh.error, Until::Force(mesh.force))?;
     let force = |loads: &Loads, ahead: i32| -> f64 {
         widths.iter().enumerate().map(|(slice, width)| width * loads.at(ahead, slice)).sum()
     };
     let x = loads.displacement;
-    let further = face.loads(s, mesh.error, Until::Displacement(x * (1.0 + STEP)), None)?;
+    let further = face.loads(s, mesh.error, Until::Displacement(x * (1.0 + STEP)))?;
     let tooth = force(&loads, 0);
     let mut values = [0.0; VALUES];
     values[STIFFNESS] = loads.stiffness;
