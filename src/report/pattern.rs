@@ -128,11 +128,12 @@ impl<'a> Pattern<'a> {
         };
         let peaks =
             Series { name: "peaks".to_owned(), pieces: vec![peaks], kind: Kind::Marks(None) };
+        let is_drawn = |series: &Series| !series.pieces.is_empty();
         Chart {
             title: "Contact pattern: line load of the incoming tooth".to_owned(),
             across: Axis::new("driver roll angle after E in each plane", "deg"),
             up: Axis::new("z", unit),
-            series: vec![lines(false), lines(true), peaks],
+            series: [lines(false), lines(true), peaks].into_iter().filter(is_drawn).collect(),
             marks: vec![(0.0, "E"), (degrees(self.length), "B")],
             map: Some(Map {
                 value: Axis::new("Line load", system.unit("N/mm")),
