@@ -21,6 +21,8 @@ const LINES: [&str; 2] = ["contact lines", "outside E to B"];
 #[derive(Debug, Clone)]
 pub struct Pattern<'a> {
     load: &'a FaceLoad,
+    /// Whether it is the load in motion, not at rest.
+    is_moving: bool,
     face: FaceInputs,
     /// Length of the path of contact and base pitch, in m.
     length: f64,
@@ -35,12 +37,14 @@ impl<'a> Pattern<'a> {
     /// The pattern of a solution that has slices.
     #[must_use]
     pub fn of(inputs: &Inputs, solution: &'a Solution) -> Option<Pattern<'a>> {
-        let (load, face) = (solution.face_load.as_deref()?, inputs.face()?);
+        let motion = solution.face_motion.as_deref();
+        let (load, face) = (motion.or(solution.face_load.as_deref())?, inputs.face()?);
         let geometry = &solution.geometry;
         let places = face.places(face.count(geometry.base_pitch));
         let is_whole = load.pattern.iter().all(|row| row.len() == places.len());
         is_whole.then(|| Pattern {
             load,
+            is_moving: motion.is_some(),
             face,
             length: geometry.end - geometry.start,
             base_pitch: geometry.base_pitch,
@@ -128,15 +132,16 @@ impl<'a> Pattern<'a> {
         };
         let peaks =
             Series { name: "peaks".to_owned(), pieces: vec![peaks], kind: Kind::Marks(None) };
+        let state = if self.is_moving { "in motion" } else { "at rest" };
         let is_drawn = |series: &Series| !series.pieces.is_empty();
         Chart {
-            title: "Contact pattern: line load of the incoming tooth".to_owned(),
+            title: format!("Contact pattern: line load of the tooth {state}"),
             across: Axis::new("driver roll angle after E in each plane", "deg"),
             up: Axis::new("z", unit),
             series: [lines(false), lines(true), peaks].into_iter().filter(is_drawn).collect(),
             marks: vec![(0.0, "E"), (degrees(self.length), "B")],
             map: Some(Map {
-                value: Axis::new("Line load", system.unit("N/mm")),
+                value: Axis::new(format!("Line load {state}"), system.unit("N/mm")),
                 places: [across, self.places.iter().map(|z| height(*z)).collect()],
                 cells,
                 ends: Some(ends),

@@ -881,7 +881,7 @@ fn a_pair_without_slices_has_no_contact_pattern() {
     let mut desk = at_method(SMALL, "static");
     desk.fill("deviations.misalignment", "20 um");
     desk.keys(&["Esc", "3", "k"]);
-    desk.assert_shows("Line load in N/mm over");
+    desk.assert_shows("Line load at rest in N/mm over");
 }
 
 #[test]
