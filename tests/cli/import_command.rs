@@ -247,7 +247,6 @@ fn stages_that_are_no_external_cylindrical_pair_are_refused_by_name() {
             "is 15 deg, helix_angle_reference_diameter of cylindrical_gear 16 \"Wheel\" is 16 deg",
         ),
         ("15.0", "the hand of the driver by"),
-        ("-50.0", "is -50 deg, more than 45 deg"),
     ] {
         let wheel = wheel_of(&format!(
             "reference_diameter\", \"unit\": \"deg\", \"floating_point\": {angle}"
@@ -255,6 +254,12 @@ fn stages_that_are_no_external_cylindrical_pair_are_refused_by_name() {
         let message = refusal_of(&helical(&wheel, 2000.0));
         assert!(message.contains(reason), "{message}");
     }
+    let steep = edited(
+        "spur-2.0.rexsj",
+        "\"deg\", \"floating_point\": 0.0",
+        "\"deg\", \"floating_point\": 50.0",
+    );
+    assert!(refusal_of(&steep).contains("is 50 deg, more than 45 deg"));
     let bevel = edited("two-stages-1.0.rexs", "\"cylindrical_stage\"", "\"bevel_stage\"");
     assert!(refusal_of(&bevel).contains("is a bevel stage"));
     let ring = edited(

@@ -49,7 +49,7 @@ struct Source {
     convert: Option<Convert>,
 }
 
-type Convert = fn(&Pair, usize, Reading) -> Read;
+type Convert = fn(&Pair, usize, &Reading) -> Option<Reading>;
 
 const fn from(attribute: &'static str, unit: &'static str) -> Source {
     both(attribute, "", unit)
@@ -183,6 +183,8 @@ const SPEED: Source = from("rotational_speed", "rpm");
 const TORQUE_OF_GEAR: Source = from("torque", "N m");
 const TORQUE_OF_LOAD: Source = from("torque_around_u_axis", "N m");
 const POWER_OF_LOAD: Source = from("power", "kW");
+/// Greatest helix angle of a case, in rad.
+const MOST_HELIX: f64 = std::f64::consts::FRAC_PI_4;
 const TORQUE: &str = "operation.torque";
 const POWER: &str = "operation.power";
 
@@ -211,6 +213,13 @@ impl Values {
                 let name = pair.named_by_side(gear, row.field);
                 self.row(row, &format!("{table}.{name}"), &[gear], pair);
             }
+        }
+        let angle = self.fields.iter().find(|(key, _)| *key == "pair.helix_angle");
+        if let Some((_, Ok(angle))) = angle
+            && angle.value > MOST_HELIX
+        {
+            let Reading { source, text, .. } = angle;
+            self.refusals.push(format!("{source} is {text}, more than 45 deg"));
         }
         if let Some(offset) = pair.offset() {
             self.fields.push(("pair.face_offset", Ok(offset)));
@@ -412,10 +421,10 @@ impl<'m> Pair<'m> {
             let also = Source { attribute: source.also, also: "", ..source };
             agreed(reading, self.read(gear, also)?)?
         };
-        match (source.convert, reading) {
-            (Some(convert), Some(reading)) => convert(self, gear, reading),
-            (_, reading) => Ok(reading),
-        }
+        Ok(match source.convert {
+            Some(convert) => reading.and_then(|reading| convert(self, gear, &reading)),
+            None => reading,
+        })
     }
 
     /// The value of a gear or a flank and of the components that describe it, which must agree.
@@ -657,70 +666,63 @@ impl<'m> Pair<'m> {
 }
 
 /// The size of a helix angle. A model can have a rounded zero.
-fn magnitude(_: &Pair, _: usize, angle: Reading) -> Read {
-    /// Greatest helix angle of a case, in rad.
-    const MOST: f64 = std::f64::consts::FRAC_PI_4;
+fn magnitude(_: &Pair, _: usize, angle: &Reading) -> Option<Reading> {
     const NONE: f64 = 1e-8;
-    let (value, text) = (angle.value.abs(), angle.text.trim_start_matches(['-', '+']).to_owned());
-    if value > MOST {
-        return Err(format!("{} is {}, more than 45 deg", angle.source, angle.text).into());
-    }
-    let (value, text) = if value > NONE { (value, text) } else { (0.0, "0 deg".to_owned()) };
-    Ok(Some(Reading { text, value, ..angle }))
+    let size = angle.value.abs();
+    let text = angle.text.trim_start_matches(['-', '+']);
+    let (value, text) = if size > NONE { (size, text) } else { (0.0, "0 deg") };
+    let source = angle.source.clone();
+    size.is_finite().then(|| Reading { text: text.to_owned(), value, source })
 }
 
 /// The helix angle at the reference diameter from that at the base diameter:
 /// sin β_b = sin β cos α_n (ISO 21771).
-fn at_reference_diameter(pair: &Pair, gear: usize, base: Reading) -> Read {
-    let Some(angle) = pair.number(&[0, 1], &[ANGLE]) else { return Ok(None) };
+fn at_reference_diameter(pair: &Pair, gear: usize, base: &Reading) -> Option<Reading> {
+    let angle = pair.number(&[0, 1], &[ANGLE])?;
     let value = (base.value.sin() / angle.cos()).asin();
-    let own = base.derived(value / base.value, "deg", "");
-    magnitude(pair, gear, if base.value == 0.0 { base } else { own })
+    if base.value == 0.0 {
+        return magnitude(pair, gear, base);
+    }
+    magnitude(pair, gear, &base.derived(value / base.value, "deg", ""))
 }
 
 /// The hand of the driver from the sign of a helix angle, above 0 for a right hand (ISO 21771).
 /// The other gear has the other hand.
-fn hand(_: &Pair, gear: usize, angle: Reading) -> Read {
+fn hand(_: &Pair, gear: usize, angle: &Reading) -> Option<Reading> {
     const NONE: f64 = 1e-8;
     let is_right = (angle.value > 0.0) == (gear == 0);
     let (text, value) = if is_right { ("right", 1.0) } else { ("left", -1.0) };
     let source = format!("the hand of the driver by {} = {}", angle.source, angle.text);
-    let reading = Reading { text: text.to_owned(), value, source };
-    Ok(Some(reading).filter(|_| angle.value.abs() > NONE))
+    (angle.value.abs() > NONE).then(|| Reading { text: text.to_owned(), value, source })
 }
 
 /// The greater value of both gears.
-fn greater(pair: &Pair, gear: usize, own: Reading) -> Read {
-    let other = pair.read(1 - gear, BASE_PITCH)?;
-    Ok(other.filter(|other| other.value > own.value).or(Some(own)))
+fn greater(pair: &Pair, gear: usize, own: &Reading) -> Option<Reading> {
+    let other = pair.read(1 - gear, BASE_PITCH).ok().flatten();
+    other.filter(|other| other.value > own.value).or_else(|| Some(own.clone()))
 }
 
 /// The profile shift coefficient from the shift.
-fn coefficient(pair: &Pair, _: usize, shift: Reading) -> Read {
-    let Some(module) = pair.number(&[0, 1], &[MODULE]) else { return Ok(None) };
-    let own = shift.derived(1.0 / module, "", "");
-    Ok(Some(Reading { source: format!("the module and {}", own.source), ..own }))
+fn coefficient(pair: &Pair, _: usize, shift: &Reading) -> Option<Reading> {
+    let own = shift.derived(1.0 / pair.number(&[0, 1], &[MODULE])?, "", "");
+    Some(Reading { source: format!("the module and {}", own.source), ..own })
 }
 
 /// The length of a tip relief along the path of contact from its start diameter.
-fn length_from_diameter(pair: &Pair, gear: usize, start: Reading) -> Read {
+fn length_from_diameter(pair: &Pair, gear: usize, start: &Reading) -> Option<Reading> {
     let both = |source| pair.number(&[0, 1], &[source]);
     let own = |source| pair.number(&[gear], &[source]);
-    let (Some(module), Some(angle), Some(teeth), Some(tip)) =
-        (both(MODULE), both(ANGLE), own(TEETH), own(TIP))
-    else {
-        return Ok(None);
-    };
     let helix = pair.number(&[0, 1], &HELIX).unwrap_or_default().cos();
-    let base = module * teeth / helix * (angle.tan() / helix).atan().cos();
+    let angle = (both(ANGLE)?.tan() / helix).atan();
+    let base = both(MODULE)? * own(TEETH)? / helix * angle.cos();
     let roll = |diameter: f64| (diameter * diameter - base * base).max(0.0).sqrt() / 2.0;
-    let value = roll(tip) - roll(start.value);
+    let value = roll(own(TIP)?) - roll(start.value);
     let micrometres = (value * 1e9).round() / 1e3;
-    Ok(Some(Reading {
+    Some(Reading {
         text: format!("{} mm", units::text(micrometres / 1e3, "")),
         value,
         source: format!("{} = {}", start.source, start.text),
-    }))
+    })
 }
 
 impl Reading {
