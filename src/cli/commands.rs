@@ -49,13 +49,14 @@ pub enum Command {
     ///
     /// The mesh at rest over one base pitch of equal pairs (part `period`), as Fourier series, and
     /// over the passage of the incoming tooth with its deviation (part `passage`), contact before E
-    /// and after B included. The equation of motion is m x'' + c x' + k(t) (x - e(t)) = F0 with x =
-    /// rb1 phi1 - rb2 phi2, positive where the driver is ahead: mesh_stiffness k,
-    /// displacement_excitation e, damping c, reduced_mass m and mesh_force F0. For a solver with
-    /// constant stiffness exciting_force is the mean stiffness times the deviation of the loaded
-    /// transmission error from its mean. The force of the incoming tooth is tooth_force +
-    /// tooth_stiffness (x - transmission_error). CSV has one row per place, JSON is one object with
-    /// the constants and the series; all in SI units.
+    /// and after B included. The equation of motion is m x'' + c x' + sum of k_j max(0, x - g_j) = F0
+    /// with x = rb1 phi1 - rb2 phi2, positive where the driver is ahead: gap_ and stiffness_ of each
+    /// pair in reach, reduced_mass m, damping c and mesh_force F0; tooth_stiffness_ gives the force of
+    /// the incoming tooth in the same way. For a linear solver it is m x'' + c x' + k(t) (x - e(t)) =
+    /// F0 with mesh_stiffness k and displacement_excitation e, whose pairs gain and lose contact where
+    /// they do at rest; for constant stiffness exciting_force is the mean stiffness times
+    /// transmission_error less its mean. CSV has one row per place, JSON is one object with the
+    /// constants and the series; all in SI units.
     Excitation(studies::Excitation),
     /// Solve a case over a range of one or more fields, as a table
     ///

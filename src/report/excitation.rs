@@ -50,13 +50,14 @@ impl ExcitationReport<'_> {
         let speed = self.0.speed;
         let base = self.0.base_radii[0];
         let mean = self.0.harmonics[0].map(|[mean, _]| mean);
-        let row = |Sample { way, values }: &Sample| {
+        let row = |Sample { way, values, springs }: &Sample| {
             let place = [way / (speed * base), way / base, *way];
             let exciting = self.0.stiffness * (values[1] - mean[1]);
             let torsional = values[STIFFNESS] * base * base;
             let numbers = place.into_iter().chain(*values).chain([exciting, torsional]);
-            let damping = numbers.chain([self.0.damping]).map(Cell::Number);
-            std::iter::once(part.into()).chain(damping).collect()
+            let numbers = numbers.chain([self.0.damping]);
+            let numbers = numbers.chain(springs.as_flattened().iter().copied());
+            std::iter::once(part.into()).chain(numbers.map(Cell::Number)).collect()
         };
         let place = [("time", "s"), ("angle_driver", "rad"), ("way", "m")];
         let values = COLUMNS.map(|(key, unit, ..)| (key, unit));
@@ -64,7 +65,17 @@ impl ExcitationReport<'_> {
             [("exciting_force", "N"), ("torsional_stiffness", "N m/rad"), ("damping", "N s/m")];
         let numbers = place.into_iter().chain(values).chain(more);
         let numbers = numbers.map(|(key, unit)| Column::si(key, unit));
-        let columns = std::iter::once(Column::text("part", "")).chain(numbers).collect();
+        let springs = self.0.pairs.iter().flat_map(|&pair| {
+            let of = match pair {
+                0 => "incoming".to_owned(),
+                behind if behind < 0 => format!("behind_{}", -behind),
+                ahead => format!("ahead_{ahead}"),
+            };
+            [("gap", "m"), ("stiffness", "N/m"), ("tooth_stiffness", "N/m")]
+                .map(|(key, unit)| Column::si(format!("{key}_{of}"), unit))
+        });
+        let columns =
+            std::iter::once(Column::text("part", "")).chain(numbers).chain(springs).collect();
         Table::new("", columns).with(samples.iter().map(row))
     }
 
@@ -96,8 +107,9 @@ impl Results for ExcitationReport<'_> {
         const OF_TEXT: [usize; 7] = [0, 1, 2, 3, 4, 5, 6];
         let mut lines = case.headings("excitation for other solvers, by static");
         let notes = [
-            "m x'' + c x' + k(t) (x - e(t)) = F_0; x = rb1 phi1 - rb2 phi2 is positive where the \
-             driver is ahead, the force F = c x' + k (x - e) pushes the driven gear forwards and \
+            "m x'' + c x' + sum of k_j max(0, x - g_j) = F_0, or linear about the balance at rest \
+             m x'' + c x' + k(t) (x - e(t)) = F_0; x = rb1 phi1 - rb2 phi2 is positive where the \
+             driver is ahead, the force of the mesh pushes the driven gear forwards and \
              brakes the driver.",
             "Both angles count in the direction of rotation of their gear; t = 0 where a tooth \
              pair is at E.",

@@ -1,6 +1,7 @@
 //! The mesh as the excitation of another solver: stiffness, transmission error and forces at rest over
 //! one base pitch, as Fourier series, and over the passage of the incoming tooth.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -35,7 +36,7 @@ pub const ORDERS: usize = 20;
 /// k = d(Σ w_k F_k)/dx,   e = x − F0/k,   Σ w_k F_k ≈ k (x − e) near the balance
 /// k_0 = dF_0/dx,         F_0 ≈ F_0 + k_0 (x − x_rest) of the incoming tooth
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Sample {
     /// Path of the incoming pair since E along the line of action, in m.
     pub way: f64,
@@ -43,26 +44,37 @@ pub struct Sample {
     /// transmission error), in m; displacement excitation e, in m; sum of the forces of all pairs,
     /// in N; stiffness k_0, in N/m, and force F_0, in N, of the incoming tooth.
     pub values: [f64; VALUES],
+    /// Of each pair of [`Excitation::pairs`] the displacement at which it begins to carry, in m, and
+    /// the stiffness that it adds to the mesh and to the incoming tooth from there on, in N/m.
+    pub springs: Vec<Spring>,
 }
+
+/// Gap in m, and stiffness for the mesh and for the incoming tooth, in N/m.
+pub type Spring = [f64; 3];
 
 /// The mesh at rest as an excitation, with all that an equation of motion needs.
 ///
 /// # Formula
 /// ```text
-/// m x'' + c x' + k(t) (x − e(t)) = F0,   x = rb1 φ1 − rb2 φ2,   1/m = rb1²/J1 + rb2²/J2
-/// J1 φ1'' = T1 − rb1 F,   J2 φ2'' = rb2 F − T2,   F = c x' + k (x − e),   c = 2 ζ √(k_m m)
+/// m x'' + c x' + Σ_j k_j(t) max(0, x − g_j(t)) = F0,   x = rb1 φ1 − rb2 φ2
+/// m x'' + c x' + k(t) (x − e(t)) = F0 linear about the balance at rest
+/// J1 φ1'' = T1 − rb1 F,   J2 φ2'' = rb2 F − T2,   1/m = rb1²/J1 + rb2²/J2,   c = 2 ζ √(k_m m)
 /// ```
 /// Both angles count in the direction of rotation of their gear.
 ///
 /// # Source
-/// The balance of [`static_load`](crate::model::static_load::static_load), linear about the balance;
-/// the oscillator of [`dynamic`](crate::model::dynamic::dynamic).
+/// The balance of [`static_load`](crate::model::static_load::static_load); the oscillator of
+/// [`dynamic`](crate::model::dynamic::dynamic). The force is linear between the displacements at
+/// which pairs begin to carry, also if a force displaces the other pairs.
 ///
 /// # Valid for
-/// A motion in which the pairs do not lose contact. Pairs gain and lose contact where they do at
-/// rest.
+/// Displacements up to four times the greatest one at rest, within the range of the mesh that
+/// `dynamic` needs. In the linear equation pairs gain and lose contact where they do at rest.
 #[derive(Debug, Clone)]
 pub struct Excitation {
+    /// The pairs with springs, as base pitches ahead of the incoming pair. A pair in slices has one
+    /// spring for the whole mesh, linear about the balance at rest.
+    pub pairs: Vec<i32>,
     /// One base pitch of equal pairs, from E on.
     pub period: Vec<Sample>,
     /// Whole base pitches around the passage of the incoming tooth, which alone deviates.
@@ -104,7 +116,7 @@ impl Excitation {
         if let Some(Err(refusal)) = solution.static_spectrum {
             return Err(refusal);
         }
-        let Some(mesh) = solution.mesh.clone() else { return Err(Refusal::BeyondReach) };
+        let Some(mesh) = mesh(&inputs, &solution) else { return Err(Refusal::BeyondReach) };
         let pair = At::of(&inputs, &solution.geometry, mesh)?;
         let pitch = pair.mesh.base_pitch;
         let (first, last) = pitches(&solution, pitch);
@@ -115,12 +127,13 @@ impl Excitation {
                 return Err(Refusal::Stopped);
             }
             let way = pitch * (from + step as f64 / points as f64);
-            Ok(Sample { way, values: pair.at(way, deviates)? })
+            Ok(Sample { way, values: pair.at(way, deviates)?, springs: Vec::new() })
         };
         let period = (0..points).map(|step| sample(step, 0.0, step, false));
-        let period = period.collect::<Result<_, _>>()?;
+        let mut period = period.collect::<Result<Vec<Sample>, Refusal>>()?;
         let passage = (0..=of_passage).map(|step| sample(points + step, first, step, true));
-        let passage = passage.collect::<Result<_, _>>()?;
+        let mut passage = passage.collect::<Result<Vec<Sample>, Refusal>>()?;
+        let pairs = pair.add_springs(&mut period, &mut passage);
         let Geometry { driver, driven, .. } = &solution.geometry;
         let inertias = [
             Inertia::of(&inputs, GearSide::Driver, driver)?.moment,
@@ -129,6 +142,7 @@ impl Excitation {
         let settings = Settings::of(&inputs, solution.reduced_mass);
         let stiffness = pair.mesh.mean_stiffness();
         Ok(Excitation {
+            pairs,
             period,
             passage,
             harmonics: pair.harmonics()?,
@@ -161,6 +175,14 @@ fn pitches(solution: &Solution, pitch: f64) -> (f64, f64) {
     ((first / pitch).floor().min(-1.0), (last / pitch).ceil())
 }
 
+/// The mesh in the range that the motion needs, otherwise that of the load at rest.
+fn mesh(inputs: &Inputs, at_rest: &Solution) -> Option<Arc<Mesh>> {
+    let inputs = Inputs { method: Method::Dynamic, ..inputs.clone() };
+    let is_spur = inputs.face().is_none();
+    let moving = is_spur.then(|| solve(&inputs, Stages::of(Stage::Dynamic)).ok()).flatten();
+    moving.and_then(|solution| solution.mesh).or_else(|| at_rest.mesh.clone())
+}
+
 /// The pair at any place.
 struct At {
     mesh: Arc<Mesh>,
@@ -185,18 +207,56 @@ impl At {
         Ok(At { equal: mesh.without_error(), mesh, face })
     }
 
+    /// A place slightly behind another one, on the next side of a border.
+    fn beside(&self, s: f64) -> f64 {
+        const BESIDE: f64 = 1e-9;
+        s + BESIDE * self.mesh.base_pitch
+    }
+
     /// The values with the incoming pair at a place, on the side behind it.
     fn at(&self, s: f64, deviates: bool) -> Result<[f64; VALUES], Refusal> {
-        /// On the next side of a border.
-        const BESIDE: f64 = 1e-9;
         let mesh = if deviates { &self.mesh } else { &self.equal };
         let mut values = match &self.face {
             Some((face, widths)) => over_face(face, widths, mesh, s)?,
-            None => in_plane(mesh, s, s + BESIDE * mesh.base_pitch),
+            None => in_plane(mesh, s, self.beside(s)),
         };
         values[DISPLACEMENT] = values[ERROR] - mesh.force / values[STIFFNESS];
         let is_finite = values.iter().all(|value| value.is_finite());
         if is_finite { Ok(values) } else { Err(Refusal::BeyondReach) }
+    }
+
+    /// Adds the springs to the samples. Returns their pairs.
+    fn add_springs(&self, period: &mut [Sample], passage: &mut [Sample]) -> Vec<i32> {
+        /// Displacements that a motion may reach, in greatest displacements at rest.
+        const TIMES: f64 = 4.0;
+        if self.face.is_some() {
+            for sample in period.iter_mut().chain(passage) {
+                let [stiffness, _, gap, _, _, tooth] = sample.values;
+                let part = tooth / self.mesh.force;
+                sample.springs = vec![[gap, stiffness, stiffness * part]];
+            }
+            return vec![0];
+        }
+        let displacements = period.iter().chain(&*passage).map(|sample| sample.values[ERROR]);
+        let most = TIMES * displacements.fold(0.0, f64::max);
+        let parts = [(&self.equal, &*period), (&*self.mesh, &*passage)];
+        let of = |(mesh, samples): (&Mesh, &[Sample])| {
+            let samples = samples.iter().map(|sample| sample.way);
+            samples.map(|s| springs(mesh, s, self.beside(s), most)).collect::<Vec<_>>()
+        };
+        let found = parts.map(of);
+        let pairs: BTreeSet<i32> =
+            found.iter().flatten().flatten().map(|(ahead, _)| *ahead).collect();
+        for (samples, found) in [period, passage].into_iter().zip(found) {
+            for (sample, found) in samples.iter_mut().zip(found) {
+                let of_pair = |pair: &i32| {
+                    let own = found.iter().find(|(ahead, _)| ahead == pair);
+                    own.map_or([most, 0.0, 0.0], |(_, spring)| *spring)
+                };
+                sample.springs = pairs.iter().map(of_pair).collect();
+            }
+        }
+        pairs.into_iter().collect()
     }
 
     /// The places between which the same pairs carry, over a base pitch of equal pairs.
@@ -271,6 +331,42 @@ fn in_plane(mesh: &Mesh, s: f64, inside: f64) -> [f64; VALUES] {
         }
     }
     values
+}
+
+/// The springs of the pairs that begin to carry up to the displacement `most`, each by its pair.
+fn springs(mesh: &Mesh, s: f64, inside: f64, most: f64) -> Vec<(i32, Spring)> {
+    let pairs = mesh.pair_set(s, inside);
+    // Slope and value at 0 of the lead of each pair over the displacement.
+    let leads = |touching: Touching| -> Vec<[f64; 2]> {
+        if touching.is_none() {
+            return pairs.pairs().iter().map(|pair| [1.0, 0.0 - pair.gap]).collect();
+        }
+        let [held, moved] = [0.0, 1.0].map(|x| pairs.leads(touching, x));
+        held.into_iter().zip(moved).map(|(held, moved)| [moved - held, held]).collect()
+    };
+    let (mut touching, mut before, mut found) = (Touching::NONE, [0.0; 2], Vec::new());
+    loop {
+        let known = leads(touching);
+        let apart = (0..known.len()).filter(|&at| !touching.has(at));
+        let gaps = apart.map(|at| (0.0 - known[at][1] / known[at][0], at));
+        let next =
+            gaps.filter(|(gap, _)| *gap <= most).min_by(|one, other| one.0.total_cmp(&other.0));
+        let Some((gap, at)) = next else { return found };
+        touching = touching.with(at);
+        let known = leads(touching);
+        let mut now = [0.0; 2];
+        for (index, pair) in pairs.pairs().iter().enumerate() {
+            if touching.has(index) {
+                let slope = known[index][0] * pair.stiffness;
+                now[0] += pair.weight * slope;
+                if pair.ahead == 0 {
+                    now[1] = slope;
+                }
+            }
+        }
+        found.push((pairs.pairs()[at].ahead, [gap, now[0] - before[0], now[1] - before[1]]));
+        before = now;
+    }
 }
 
 /// The values of a pair in slices.
