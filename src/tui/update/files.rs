@@ -8,7 +8,7 @@ use crate::case::file::Saved;
 use crate::case::{Case, Document, EXAMPLES, Example, rexs};
 use crate::model::Stages;
 use crate::tui::app::App;
-use crate::tui::app::actions::{Choice, Effect, Slot, Work};
+use crate::tui::app::actions::{Choice, Effect, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::page::Page;
 use crate::tui::app::dialogs::picker::{Item, Picker};
@@ -190,38 +190,32 @@ pub(super) fn saved(
     next: Next,
     result: Result<Box<Written>, SaveFault>,
 ) {
-    let asked = app.tab.saving.take();
-    match result {
-        Ok(written) => {
-            let Written { document, saved } = *written;
-            app.close_titled(SAVE_AS);
-            app.tab.saved = document.case.clone();
-            // Later edits are not saved and remain.
-            let is_as_asked = asked.is_none_or(|asked| asked == app.tab.case);
-            if is_as_asked && app.tab.case != document.case {
-                app.tab.case = document.case.clone();
-                app.focus_on(app.tab.form.focus);
-            }
-            app.tab.read_line_anew();
-            (app.tab.document, app.tab.is_outdated) = (document, false);
-            (app.tab.in_place_of, app.tab.origin) = (None, Origin::Given);
-            let how = if saved == Saved::Recreated {
-                ": the file was deleted, and this save created it again"
-            } else {
-                ""
-            };
-            let missing = match app.tab.problems.len() {
-                0 => String::new(),
-                1 => "; 1 required value is missing".to_owned(),
-                count => format!("; {count} required values are missing"),
-            };
-            app.say(format!("saved {}{how}{missing}", path.display()));
-            app.tab.path = Some(path.clone());
-            app.want(Effect::Remember(path));
-            go(app, next);
-        }
-        Err(fault) => ask_refused(app, &path, fault, &next),
+    let Written { document, saved } = match result {
+        Ok(written) => *written,
+        Err(fault) => return ask_refused(app, &path, fault, &next),
+    };
+    app.close_titled(SAVE_AS);
+    app.tab.saved = document.case.clone();
+    if app.tab.case != document.case {
+        app.tab.case = document.case.clone();
+        app.focus_on(app.tab.form.focus);
     }
+    app.tab.read_line_anew();
+    (app.tab.document, app.tab.is_outdated) = (document, false);
+    (app.tab.in_place_of, app.tab.origin) = (None, Origin::Given);
+    let how = match saved {
+        Saved::Written => "",
+        Saved::Recreated => ": the file was deleted, and this save created it again",
+    };
+    let missing = match app.tab.problems.len() {
+        0 => String::new(),
+        1 => "; 1 required value is missing".to_owned(),
+        count => format!("; {count} required values are missing"),
+    };
+    app.say(format!("saved {}{how}{missing}", path.display()));
+    app.tab.path = Some(path.clone());
+    app.want(Effect::Remember(path));
+    go(app, next);
 }
 
 /// Opens a file. If the case is already open, goes to its tab with its unsaved edits.
@@ -236,11 +230,8 @@ pub(super) fn open(app: &mut App, path: PathBuf) {
         let path = store::at_home(&path);
         let own = path.clone();
         // The heaviest model takes longer than a frame.
-        app.start(Work::new(
-            Slot::Model,
-            move |_| Some(store::load(&path)),
-            move |app, result| loaded(app, own, result),
-        ));
+        let load = move |_: &Running<'_>| Some(store::load(&path));
+        app.start(Work::new(Slot::Model, load, move |app, result| loaded(app, own, result)));
     } else {
         app.want(Effect::Load(path));
     }
@@ -486,7 +477,6 @@ fn refuse_faulty(app: &mut App) -> bool {
 
 fn write(app: &mut App, path: PathBuf, over: Over, next: Next) {
     let document = app.tab.as_edited();
-    app.tab.saving = Some(app.tab.case.clone());
     app.want(Effect::Save(Box::new(Saving { document, path, over }), next));
 }
 
