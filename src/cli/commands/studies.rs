@@ -428,7 +428,7 @@ pub struct Relief {
 
 /// The loads of a spectrum with their shares; one argument has all of them.
 #[derive(Debug, Clone)]
-pub struct Spectrum(Vec<(f64, f64)>);
+struct Spectrum(Vec<(f64, f64)>);
 
 impl Spectrum {
     fn parse(text: &str) -> Result<Spectrum, String> {
