@@ -458,9 +458,7 @@ impl App {
 
     /// Marks work as ended.
     pub(super) fn end_work(&mut self, slot: Slot, number: u64) {
-        if self.runs(slot, number) {
-            self.running.remove(&slot);
-        }
+        self.running.retain(|own, running| *own != slot || *running != number);
     }
 
     /// Whether the work with this number is the running work of its slot.

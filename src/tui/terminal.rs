@@ -266,11 +266,6 @@ pub(super) fn listen(
     Ok(())
 }
 
-/// Marks that a signal will end the process soon.
-fn expect_end() {
-    IS_ENDING.store(true, Ordering::Relaxed);
-}
-
 /// Whether the process ends without a terminal: the `kill` of a shell sends a signal to a stopped
 /// job and continues it in the background. Entering the terminal would stop it again.
 fn ends_in_background() -> bool {
@@ -312,7 +307,8 @@ type LastWords = Arc<dyn Fn() + Send + Sync>;
 // The main loop ends by itself, unless it is blocked, such as in a write to a terminal that accepts
 // no more bytes.
 fn end(last_words: &LastWords, sender: &SyncSender<Event>, signal: Option<i32>) -> ! {
-    expect_end();
+    // A signal ends the process soon.
+    IS_ENDING.store(true, Ordering::Relaxed);
     last_words();
     drop(sender.try_send(signal.map_or(Event::Lost, Event::Signal)));
     thread::sleep(GRACE);

@@ -119,7 +119,9 @@ impl<R: std::marker::Send + 'static> Worker<R> {
                 theirs.begun.store(number, SeqCst);
                 if is_wanted() {
                     // Without a receiver the workbench has ended, and its process ends soon.
-                    work(request, &is_wanted, &|action| drop(send(action)));
+                    work(request, &is_wanted, &|action| {
+                        send(action);
+                    });
                 }
             }
         };
