@@ -78,7 +78,7 @@ pub(super) fn search(
         let [one, other] = pair.grid.most_amounts;
         let steps = [one, other, pair.grid.most_length, pair.grid.most_length];
         let most = pair.grid.reliefs(ReliefShape::Linear, steps);
-        let overlap = -pair.worst(&most)?.gap;
+        let overlap = (-pair.worst(&most)?.gap).max(0.0);
         return Err(NoRelief::Beyond { most: AMOUNT_STEP * f64::from(one.max(other)), overlap });
     }
     Ok((found, tries))
