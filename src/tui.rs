@@ -16,7 +16,6 @@ mod session;
 mod settings;
 mod solver;
 mod store;
-mod study;
 mod tab;
 mod terminal;
 #[doc(hidden)]

@@ -92,7 +92,7 @@ pub mod store {
 }
 
 pub mod study {
-    pub use crate::tui::study::{End, StudyParameters};
+    pub use crate::tui::panes::study::{End, StudyParameters};
 }
 
 pub mod tab {

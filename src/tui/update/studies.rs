@@ -29,15 +29,14 @@ use crate::tui::app::dialogs::picker::Picker;
 use crate::tui::app::dialogs::question::PathDialog;
 use crate::tui::layout::{Pane, is_too_small};
 use crate::tui::panes::study::range::{self, MOST_ZOOM, RangeOf, Steps};
-use crate::tui::panes::study::{self, CURVE_POINTS, map_points};
+use crate::tui::panes::study::{
+    self, CURVE_POINTS, End, GridParameters, Layer, LayerFound, SAMPLES, StudyParameters,
+    StudyRequest, StudyResults, ToleranceParameters, map_points,
+};
 use crate::tui::panes::trade::{Traded, nearest, stepped};
 use crate::tui::rows::{self, Row};
 use crate::tui::session::Next;
 use crate::tui::solver::{Baseline, Variants};
-use crate::tui::study::{
-    End, GridParameters, Layer, LayerFound, SAMPLES, StudyParameters, StudyRequest, StudyResults,
-    ToleranceParameters,
-};
 use crate::tui::text::Line;
 
 /// The title and the instruction of the dialog for a range.

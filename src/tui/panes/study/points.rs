@@ -17,7 +17,7 @@ use crate::study::batch::PointOutcome;
 use crate::tui::panes;
 use crate::tui::panes::chart::curves::sign_of;
 use crate::tui::panes::plot::{Look, NO_CONTACT, REFUSED, TerminalChart};
-use crate::tui::study::{GridParameters, StudyParameters, StudyResults};
+use crate::tui::panes::study::{GridParameters, StudyParameters, StudyResults};
 use crate::tui::text::symbol;
 
 /// Least width of the labels beside a map.
