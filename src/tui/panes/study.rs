@@ -13,6 +13,7 @@ use super::Title;
 use super::plot::{NO_CONTACT, REFUSED};
 use crate::case::units::System;
 use crate::case::{Case, FIELDS};
+use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity};
 use crate::report::{common_unit, shown_in, shown_with};
 use crate::study::axis::Axis as StudyAxis;
