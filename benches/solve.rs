@@ -4,6 +4,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use tipstrike::case::Case;
+use tipstrike::case::file::Document;
 use tipstrike::model::compliance::{ContactPlace, Teeth};
 use tipstrike::model::geometry::geometry;
 use tipstrike::model::inputs::{ContactCompliance, Method, ToothCompliance};
@@ -67,6 +68,25 @@ fn shared_load(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// A helical pair with the usual number of slices, and the growth of the time with their number.
+fn face_width(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("face width");
+    let text = include_str!("../cases/helical-20-35.toml");
+    let case =
+        Document::parse("helical-20-35.toml", text).ok().and_then(|it| it.case.inputs().ok());
+    let pair = case.unwrap_or_else(|| unreachable!("a case of the collection is valid"));
+    for (method, stage) in [(Method::Static, Stage::Static), (Method::Dynamic, Stage::Dynamic)] {
+        for slices in [None, Some(9), Some(33), Some(129), Some(513), Some(1025)] {
+            let inputs = Inputs { method, slices, ..pair.clone() };
+            let number = slices.map_or("usual".to_owned(), |slices| slices.to_string());
+            group.bench_function(format!("{}, {number} slices", method.name()), |bencher| {
+                bencher.iter(|| solve(black_box(&inputs), Stages::of(stage)));
+            });
+        }
+    }
+    group.finish();
+}
+
 fn compliance(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("pair compliance");
     for model in ToothCompliance::ALL {
@@ -94,6 +114,6 @@ fn compliance(criterion: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = Criterion::default().warm_up_time(std::time::Duration::from_millis(300)).measurement_time(std::time::Duration::from_secs(2));
-    targets = closed_form, stations, shared_load, compliance
+    targets = closed_form, stations, shared_load, face_width, compliance
 }
 criterion_main!(benches);

@@ -46,8 +46,8 @@ pub(crate) struct Figure {
     ours: fn(&Inputs) -> Option<f64>,
     /// Whether it depends on the tooth compliance.
     by_model: bool,
-    /// The value with the elastic field and independent teeth.
-    alone: Option<fn(&Inputs) -> Option<f64>>,
+    /// The value with the finite elements and without a coupling, which has this name.
+    without: Option<(&'static str, fn(&Inputs) -> Option<f64>)>,
     /// Whether the comparison is fair, and the reason for the deviation.
     fair: &'static str,
 }
@@ -60,7 +60,7 @@ const fn figure(
     ours: fn(&Inputs) -> Option<f64>,
     fair: &'static str,
 ) -> Figure {
-    Figure { name, unit, published, ours, by_model: true, alone: None, fair }
+    Figure { name, unit, published, ours, by_model: true, without: None, fair }
 }
 
 impl Figure {
@@ -68,8 +68,8 @@ impl Figure {
         Figure { by_model: false, ..self }
     }
 
-    const fn alone(self, alone: fn(&Inputs) -> Option<f64>) -> Figure {
-        Figure { alone: Some(alone), ..self }
+    const fn without(self, name: &'static str, ours: fn(&Inputs) -> Option<f64>) -> Figure {
+        Figure { without: Some((name, ours)), ..self }
     }
 }
 
@@ -99,9 +99,9 @@ fn rows(figure: &Figure, inputs: &Inputs) -> String {
         let published = if at == 0 { published.as_str() } else { " | " };
         text += &row(figure, published, model.name(), ours);
     }
-    if let Some(alone) = figure.alone {
-        let ours = alone(&with_model(inputs, ToothCompliance::FINITE_ELEMENT));
-        text += &row(figure, " | ", "finite-element, independent teeth", ours);
+    if let Some((name, ours)) = figure.without {
+        let ours = ours(&with_model(inputs, ToothCompliance::FINITE_ELEMENT));
+        text += &row(figure, " | ", &format!("finite-element, {name}"), ours);
     }
     text
 }
