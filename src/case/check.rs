@@ -241,8 +241,6 @@ fn choice(known: &Field, text: &str, names: &'static [&'static str]) -> Result<u
     Err(Problem::new(known.key, format!("unknown choice {}", quoted(name)), fix))
 }
 
-/// Limit of the ratio of tooth numbers and of its reciprocal.
-const MOST_RATIO: f64 = 50.0;
 
 /// The first rule between fields that these inputs violate.
 #[must_use]
