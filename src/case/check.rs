@@ -241,7 +241,6 @@ fn choice(known: &Field, text: &str, names: &'static [&'static str]) -> Result<u
     Err(Problem::new(known.key, format!("unknown choice {}", quoted(name)), fix))
 }
 
-
 /// The first rule between fields that these inputs violate.
 #[must_use]
 pub fn violated_rule(inputs: &Inputs) -> Option<Problem> {
