@@ -123,15 +123,17 @@ impl<'a> Pattern<'a> {
         let degrees = |path: f64| (path / self.radius).to_degrees();
         let peak = |peak: LinePeak| (degrees(peak.place.path), height(peak.place.z));
         let peaks = [Some(self.load.peak), self.load.before_start, self.load.after_end];
-        let peaks: Vec<Point> = peaks.into_iter().flatten().map(peak).collect();
+        let mut peaks: Vec<Point> = peaks.into_iter().flatten().map(peak).collect();
+        peaks.dedup();
         let lines = |is_outside: bool| {
             let lines = self.lines(angle * self.radius, is_outside);
             let line = |line: [Point; 2]| line.map(|(path, z)| (degrees(path), height(z))).to_vec();
             let (name, kind) = (LINES[usize::from(is_outside)].to_owned(), Kind::Curve);
             Series { name, pieces: lines.into_iter().map(line).collect(), kind }
         };
-        let peaks =
-            Series { name: "peaks".to_owned(), pieces: vec![peaks], kind: Kind::Marks(None) };
+        // No line joins the peaks.
+        let pieces = peaks.into_iter().map(|peak| vec![peak]).collect();
+        let peaks = Series { name: "peaks".to_owned(), pieces, kind: Kind::Marks(None) };
         let state = if self.is_moving { "in motion" } else { "at rest" };
         let is_drawn = |series: &Series| !series.pieces.is_empty();
         Chart {
