@@ -95,7 +95,12 @@ static EXPLAINED: LazyLock<Vec<Explained>> = LazyLock::new(|| {
             case.set("model.tooth_compliance", "beam").unwrap();
         }
         let variants = VARIANTS.iter().enumerate().filter(|(variant, _)| is_wanted(at, *variant));
-        let pages = variants.filter_map(|(_, settings)| explained(name, &case, settings, |_| true));
+        let pages = variants.filter_map(|(_, settings)| {
+            // What slices compute takes a hundred times as long.
+            let is_helical = settings.iter().any(|(key, _)| *key == "pair.helix_angle");
+            let is_quick = |quantity: &Quantity| Stages::CLOSED_FORM.has(quantity.stage);
+            explained(name, &case, settings, |quantity| !is_helical || is_quick(quantity))
+        });
         pages.collect::<Vec<_>>()
     };
     let half = |first: usize| {

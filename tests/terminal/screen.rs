@@ -5,7 +5,9 @@ use crate::tty;
 use std::fs;
 use std::time::{Duration, Instant};
 
-use tty::{Launch, PATIENCE, TABLE_1, Tty, cells, has_faults_on_demand, is_there, journals};
+use tty::{
+    Launch, PATIENCE, TABLE_1, Tty, cells, has_faults_on_demand, is_there, journals, number_after,
+};
 
 /// The output is complete if nothing arrives for this time.
 const QUIET: Duration = Duration::from_millis(150);
@@ -181,7 +183,7 @@ fn a_slow_line_is_not_flooded_and_the_way_out_stays_open() {
     const PACE: usize = 6000;
     const KEYS: usize = 3000;
     let mut tty = opened(Launch::on_table_1().size(40, 120));
-    let before = resident(tty.id());
+    let before = tty.resident();
     tty.written = Some(Vec::new());
     tty.set_pace(PACE);
     // More frames than the queue of the system holds, each key separate.
@@ -190,7 +192,7 @@ fn a_slow_line_is_not_flooded_and_the_way_out_stays_open() {
         tty.type_in(key);
         tty.take_output(Duration::from_micros(500));
     }
-    let grown = resident(tty.id()).saturating_sub(before);
+    let grown = tty.resident().saturating_sub(before);
     let start = Instant::now();
     tty.type_in("\x11");
     while !tty.has_ended() {
@@ -371,7 +373,7 @@ fn the_largest_terminal_costs_little_memory() {
         tty.resize(rows, columns);
         tty.wait_for("Corner contact");
         tty.settle(QUIET);
-        let resident = resident(tty.id());
+        let resident = tty.resident();
         println!("{columns}x{rows}: {resident} KiB");
         assert!(resident <= 150 << 10, "{columns}x{rows}: {resident} KiB");
         let outside = tty.screen().rows(1000, 200).any(|row| !row.is_empty());
@@ -410,7 +412,7 @@ fn an_idle_workbench_sleeps_and_is_small() {
     assert!(before > 0, "/proc reports wake-ups");
     assert_eq!(tty.take_output(IDLE), 0, "it writes while idle");
     assert_eq!(wake_ups(tty.id()) - before, 0, "it wakes while idle");
-    let resident = resident(tty.id());
+    let resident = tty.resident();
     println!("{resident} KiB resident");
     assert!(resident <= 30 << 10, "{resident} KiB");
     tty.quit();
@@ -424,15 +426,6 @@ fn wake_ups(process: u32) -> u64 {
             + number_after(&text, "nonvoluntary_ctxt_switches:")
     };
     tasks.filter_map(|task| fs::read_to_string(task.path().join("status")).ok()).map(switches).sum()
-}
-
-fn resident(process: u32) -> u64 {
-    number_after(&fs::read_to_string(format!("/proc/{process}/status")).expect("it runs"), "VmRSS:")
-}
-
-fn number_after(text: &str, name: &str) -> u64 {
-    let rest = text.split_once(name).map_or("", |(_, rest)| rest);
-    rest.split_whitespace().next().and_then(|number| number.parse().ok()).unwrap_or(0)
 }
 
 #[test]

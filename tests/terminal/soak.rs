@@ -153,7 +153,7 @@ impl Soak {
             );
             self.looks += 1;
         }
-        resident(&self.tty)
+        self.tty.resident()
     }
 
     /// Saves the form, copies every value of it to the clipboard, and compares these with the
@@ -316,12 +316,6 @@ fn decoded(text: Option<&str>) -> String {
     String::from_utf8(bytes).expect("words in UTF-8")
 }
 
-fn resident(tty: &Tty) -> u64 {
-    let text = fs::read_to_string(format!("/proc/{}/status", tty.id())).expect("it runs");
-    let rest = text.split_once("VmRSS:").map_or("", |(_, rest)| rest);
-    rest.split_whitespace().next().and_then(|number| number.parse().ok()).unwrap_or(0)
-}
-
 #[test]
 fn a_long_session_loses_nothing_and_does_not_grow() {
     let count =
@@ -344,7 +338,7 @@ fn a_long_session_loses_nothing_and_does_not_grow() {
         tabs: 1,
         most_tabs: 1,
     };
-    let (begun, start) = (Instant::now(), resident(&soak.tty));
+    let (begun, start) = (Instant::now(), soak.tty.resident());
     let (mut early, mut most, mut end) = (0, 0, start);
     for step in 1..=count {
         soak.step();

@@ -416,6 +416,12 @@ impl Tty {
         assert_ne!(self.modes(), self.before);
     }
 
+    /// The resident memory of the program, in KiB.
+    pub(crate) fn resident(&self) -> u64 {
+        let status = fs::read_to_string(format!("/proc/{}/status", self.id())).expect("it runs");
+        number_after(&status, "VmRSS:")
+    }
+
     /// The state of the process: `T` if it is stopped.
     pub(crate) fn state(&self) -> Option<char> {
         stat(self.id())?.first()?.chars().next()
@@ -435,6 +441,12 @@ impl Drop for Tty {
 pub(crate) fn stat(process: u32) -> Option<Vec<String>> {
     let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     Some(text.rsplit_once(')')?.1.split_whitespace().map(str::to_owned).collect())
+}
+
+/// The number after a name in a file of `/proc`.
+pub(crate) fn number_after(text: &str, name: &str) -> u64 {
+    let rest = text.split_once(name).map_or("", |(_, rest)| rest);
+    rest.split_whitespace().next().and_then(|number| number.parse().ok()).unwrap_or(0)
 }
 
 /// The journals of unsaved edits in a state folder.

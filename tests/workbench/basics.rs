@@ -242,15 +242,6 @@ fn every_command_of_the_palette_works_on_every_screen() {
 }
 
 #[test]
-fn a_field_is_found_by_its_name_or_symbol() {
-    let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "/", "speed", "Enter"]);
-    assert!(desk.shows("n1 speed, "));
-    desk.keys(&["/", "ca2", "Enter", "i", "Ctrl-U", "3 um"]);
-    assert_eq!(desk.app.tab.case.text(desk.app.tab.form.focus), Some("3 um"));
-}
-
-#[test]
 fn cases_are_in_tabs_each_with_its_own_results_and_history() {
     let mut desk = three_cases(LARGE);
     assert_eq!(desk.app.tabs().count(), 3);

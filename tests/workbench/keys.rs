@@ -1,8 +1,6 @@
 //! Keys in, screen and files out: editing, saving, opening, quitting.
 use crate::harness;
 
-use std::fs;
-
 use harness::{Desk, LARGE, SMALL, TABLE_1, name};
 use tipstrike::model::Stages;
 use tipstrike::tui::testing::actions::Action;
@@ -22,31 +20,6 @@ fn every_keystroke_that_leaves_a_valid_value_changes_the_results() {
     assert!(!slower.contains("2191"), "{slower}");
     desk.keys(&["Backspace", "2"]);
     assert!(force(&desk).contains("2191"));
-}
-
-#[test]
-fn an_invalid_value_keeps_the_last_valid_results_and_marks_them() {
-    let mut desk = Desk::new(SMALL);
-    desk.fill("operation.speed", "2000 rpx");
-    assert!(desk.shows("LAST VALID"));
-    assert!(desk.shows("2191"));
-    assert!(desk.shows("! "));
-    desk.keys(&["Backspace", "m"]);
-    assert!(!desk.shows("LAST VALID"));
-}
-
-#[test]
-fn the_method_is_a_field_and_a_key() {
-    let mut desk = Desk::new(SMALL);
-    assert!(desk.shows(" by exact"));
-    desk.go_to("model.method").keys(&["Left"]);
-    assert!(desk.shows(" by paper"));
-    assert!(desk.shows("‹ paper ›"));
-    desk.keys(&["Space"]);
-    assert!(desk.shows(" by exact"));
-    desk.go_to("pair.module").keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
-    assert!(desk.shows(" by paper"));
-    assert!(desk.shows("5 mm"));
 }
 
 #[test]
@@ -130,17 +103,6 @@ fn an_empty_field_shows_its_default() {
 }
 
 #[test]
-fn a_save_keeps_comments_and_order_and_clears_the_mark() {
-    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    desk.fill("operation.speed", "1500 rpm");
-    assert!(desk.shows("*unsaved*"));
-    desk.keys(&["Ctrl-S"]);
-    assert!(!desk.shows("*unsaved*"));
-    assert!(desk.shows("saved "));
-    assert_eq!(desk.read("case.toml"), TABLE_1.replace("2000 rpm", "1500 rpm"));
-}
-
-#[test]
 fn saving_the_built_in_case_asks_for_a_name_and_about_an_existing_file() {
     let mut desk = Desk::new(SMALL);
     let taken = desk.write("taken.toml", "not yours");
@@ -186,47 +148,6 @@ fn an_invalid_form_is_never_marked_as_saved() {
         .keys(&["Ctrl-Q", "s"]);
     desk.assert(!desk.has_quit && desk.shows("not saved: fix") && desk.shows("[2 other.toml*]"));
     assert!(desk.read("case.toml").contains("1500 rpm") && desk.read("other.toml") == TABLE_1);
-}
-
-#[test]
-fn a_file_that_cannot_be_written_is_reported_and_nothing_is_lost() {
-    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    desk.fill("operation.speed", "1500 rpm");
-    fs::remove_file(desk.path("case.toml")).expect("it was there");
-    fs::create_dir(desk.path("case.toml")).expect("a folder in its place");
-    desk.keys(&["Ctrl-S"]);
-    assert!(desk.shows("not saved"));
-    assert!(desk.shows("*unsaved*"));
-}
-
-#[test]
-fn opening_lists_the_folder_filters_as_you_type_and_opens() {
-    let mut desk = Desk::on(SMALL, "one.toml", TABLE_1);
-    desk.write("two.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
-    desk.write("note.txt", "no case");
-    desk.keys(&["Ctrl-O"]);
-    assert!(desk.shows("two.toml") && desk.shows("▸ one.toml") && !desk.shows("note.txt"));
-    desk.keys(&["tw"]);
-    assert!(desk.shows("▸ two.toml"));
-    desk.keys(&["Enter"]);
-    assert!(desk.shows("opened "));
-    assert!(desk.go_to("operation.speed").shows("900 rpm"));
-}
-
-#[test]
-fn an_invalid_file_shows_every_fault_at_its_place_and_no_edit_is_lost() {
-    let mut desk = Desk::on(LARGE, "good.toml", TABLE_1);
-    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
-    desk.write(
-        "bad.toml",
-        &TABLE_1.replace("5 mm", "5 kg").replace("poisson = 0.3", "poison = 0.3"),
-    );
-    desk.keys(&["Ctrl-O", "bad", "Enter"]);
-    assert!(desk.shows("bad.toml cannot be opened"));
-    assert!(desk.shows("pair.module") && desk.shows("poison"));
-    desk.keys(&["Esc", "Esc"]);
-    assert!(desk.go_to("operation.speed").shows("1500 rpm"));
-    assert!(desk.shows("good.toml"));
 }
 
 #[test]
