@@ -87,7 +87,9 @@ fn explained(
 
 /// Every case as it is, and the variants in every second case by turns; computed by two threads.
 static EXPLAINED: LazyLock<Vec<Explained>> = LazyLock::new(|| {
-    let cases = cases();
+    // Each page of a pair in slices takes a hundred times as long.
+    let is_spur = |(_, case): &(String, Case)| case.inputs().unwrap().helix_angle == 0.0;
+    let cases: Vec<_> = cases().into_iter().filter(is_spur).collect();
     let is_wanted = |at: usize, variant: usize| variant == 0 || (at + variant) % 2 == 0;
     let closed = |at: usize, (name, case): &(String, Case)| {
         let mut case = case.clone();
@@ -96,7 +98,6 @@ static EXPLAINED: LazyLock<Vec<Explained>> = LazyLock::new(|| {
         }
         let variants = VARIANTS.iter().enumerate().filter(|(variant, _)| is_wanted(at, *variant));
         let pages = variants.filter_map(|(_, settings)| {
-            // What slices compute takes a hundred times as long.
             let is_helical = settings.iter().any(|(key, _)| *key == "pair.helix_angle");
             let is_quick = |quantity: &Quantity| Stages::CLOSED_FORM.has(quantity.stage);
             explained(name, &case, settings, |quantity| !is_helical || is_quick(quantity))
