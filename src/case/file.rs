@@ -399,17 +399,21 @@ impl fmt::Display for Fault {
 
 impl std::error::Error for Fault {}
 
+/// The first byte after a byte order mark.
+fn first_byte(text: &str) -> usize {
+    const MARK: &str = "\u{feff}";
+    if text.starts_with(MARK) { MARK.len() } else { 0 }
+}
+
 /// The start of the line of a byte, after a byte order mark.
 fn line_start(text: &str, at: usize) -> usize {
-    const MARK: &str = "\u{feff}";
-    let start = if text.starts_with(MARK) { MARK.len() } else { 0 };
-    text[..at].rfind('\n').map_or(start, |end| end + 1)
+    text[..at].rfind('\n').map_or_else(|| first_byte(text), |end| end + 1)
 }
 
 /// Line and column of a byte, both from 1, the column in characters.
 fn place(text: &str, at: usize) -> (usize, usize) {
     let ends = || text.match_indices('\n').map(|(end, _)| end).take_while(|&end| end < at);
-    let start = ends().last().map_or(0, |end| end + 1);
+    let start = ends().last().map_or_else(|| first_byte(text), |end| end + 1);
     let column = text[start..].char_indices().take_while(|&(offset, _)| start + offset < at);
     (ends().count() + 1, column.count() + 1)
 }

@@ -66,8 +66,12 @@ fn agree(one: &Values, other: &Values, place: &str) -> usize {
 fn of_commands(number: u64, table: &[&'static Quantity]) -> Option<(Values, usize)> {
     const SELECTIONS: usize = 2;
     let case = drawn(number);
-    let (method, outcome, whole) = solved(&case, table)?;
     let inputs = case.inputs().expect("a valid case");
+    // A pair in slices takes a hundred times as long.
+    if inputs.face().is_some() && !number.is_multiple_of(4) {
+        return None;
+    }
+    let (method, outcome, whole) = solved(&case, table)?;
     let (mut random, mut compared) = (Random::new(77 + number), 0);
     for _ in 0..SELECTIONS {
         let only: Vec<&Quantity> = (0..3).map(|_| random.one_of(table)).collect();
