@@ -86,7 +86,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 3 j j", "k", "", "▸ 3 Gap S in um over roll angle"),
     ("Esc 3", "+", "", " 1.2           1.0           0.8 "),
     ("Esc 3 + +", "-", "", " 1.2           1.0           0.8 "),
-    ("Esc 3 + +", "0", "", " 0.2        0 "),
+    ("Esc 3 + +", "0", "", " 0.5                       0 "),
     ("Esc 3", "v", "", "the charts show the strike"),
     ("Esc 3", "t", "", "Force F_S in N over time after E in us"),
     ("Esc 4", "+", "", "┤ 5 mm"),
