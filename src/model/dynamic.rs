@@ -3,7 +3,6 @@
 
 mod motion;
 mod side;
-pub mod speeds;
 pub mod steady;
 #[cfg(test)]
 mod tests;

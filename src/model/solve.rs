@@ -5,7 +5,7 @@ use super::budget::{MOTION_WORK, Meter};
 use super::clearing::clearing;
 use super::compliance::{ContactPlace, Teeth};
 use super::deviation::{deflected, deflected_over_face, deviation};
-use super::dynamic::speeds::{SPEEDS, over_speed};
+use super::speeds::{SPEEDS, over_speed};
 use super::dynamic::steady::steady;
 use super::dynamic::{Settings, dynamic};
 use super::face::{FaceInputs, check_face};

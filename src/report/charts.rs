@@ -10,7 +10,7 @@ use super::stiffness::no_field;
 use super::{Report, shown};
 use crate::case::units;
 use crate::model::compliance::model_of;
-use crate::model::dynamic::speeds::{AtSpeed, SpeedCurve};
+use crate::model::speeds::{AtSpeed, SpeedCurve};
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::static_load::Spectrum;
 use crate::model::stations::Spacing;

@@ -5,7 +5,7 @@ use super::digest::{Digest, STAGES};
 use super::{Report, Selection, verdict};
 use crate::case::units::System;
 use crate::case::{Case, Evaluator, Problem};
-use crate::model::dynamic::speeds::{SPEEDS, SpeedCurve};
+use crate::model::speeds::{SPEEDS, SpeedCurve};
 use crate::model::inputs::Method;
 use crate::model::solve::speeds;
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Stage, Stages};

@@ -338,7 +338,7 @@ fn slices_of_a_helical_pair_are_compared_coupled_and_independent() {
         [Subject::FirstContact, Subject::LineLoad, Subject::TransmissionError].map(of)
     };
     let (few, many) = (off(9, true), off(129, true));
-    assert!(many.iter().zip(few).all(|(many, few)| *many <= few), "{few:?} {many:?}");
+    assert!(many[0] <= few[0] && many[1] <= few[1] && many[2] < 1e-3, "{few:?} {many:?}");
     assert!(many[1] < 0.02 && off(129, false)[1] > 0.05, "{many:?} {:?}", off(129, false));
     let (text, json) = (text(&trade), json(&trade));
     assert!(text.contains("independent") && text.lines().all(|line| line.chars().count() <= 80));

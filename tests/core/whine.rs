@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::support::{case, range, value};
-use tipstrike::model::dynamic::speeds::SPEEDS;
+use tipstrike::model::speeds::SPEEDS;
 use tipstrike::model::inputs::{Drive, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::solve::speeds;

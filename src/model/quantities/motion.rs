@@ -3,7 +3,7 @@
 use super::{Need, PLAIN, Quantity, Variant, checks, conditions, of_driver};
 use crate::model::Solution;
 use crate::model::Stage::{Dynamic, Resonance, SpeedRun};
-use crate::model::dynamic::speeds::SpeedCurve;
+use crate::model::speeds::SpeedCurve;
 use crate::model::explanation::Formula::{Found, Text};
 use crate::model::explanation::{Check, Context, Finding, Formula, Step, four, step};
 

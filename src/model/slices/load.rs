@@ -399,8 +399,8 @@ impl Passage<'_> {
 
     /// Places between two places, at which the load is smooth enough to be sampled; `part` of them.
     fn places(&self, from: f64, to: f64, part: usize) -> Vec<f64> {
-        /// Bounds the time of a slow motion.
-        const MOST: usize = 4096;
+        /// Bounds time and memory of a slow motion: pairs at slices in all samples.
+        const MOST: usize = 400_000;
         /// Of the steps of a motion, which are many more than an oscillation needs to be seen.
         const EVERY: usize = 2;
         let pitch = self.face.mesh.base_pitch / (self.face.steps() / 2) as f64;
@@ -409,7 +409,7 @@ impl Passage<'_> {
         let mut places: Vec<f64> = even.collect();
         if let Some(course) = self.course {
             let moments: Vec<f64> = course.places(from, to).collect();
-            let every = (EVERY * part).max(moments.len() / MOST);
+            let every = (EVERY * part).max(moments.len() * 4 * self.face.slices.len() / MOST);
             if moments.len() / every > places.len() {
                 places = moments.into_iter().step_by(every).collect();
                 places.insert(0, from);

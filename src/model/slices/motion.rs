@@ -15,8 +15,8 @@ use crate::model::dynamic::{Approach, Dynamic, Settings, State};
 use crate::model::static_load::Fourier;
 use crate::numeric::root::greatest;
 
-/// Greatest number of oscillations of the mesh during a motion: some ten seconds of computation.
-const OSCILLATIONS: f64 = 2e4;
+/// Steps of a motion times slices: some ten seconds of computation.
+const MOST_WORK: f64 = 4e6;
 
 /// The force of the mesh at even places of a base pitch, for any displacement. A place keeps what was
 /// computed for it, since a motion returns to it in every base pitch.
@@ -56,6 +56,9 @@ enum Incoming {
     /// It has the deviation, and touches only after E.
     AfterStart(f64),
 }
+
+/// Memory of a pair at a slice of a known place, in bytes.
+const PER_CONTACT: usize = 48;
 
 impl Incoming {
     fn change(self, position: &mut Position<'_>, pair: i32) {
@@ -110,10 +113,11 @@ impl<'a> Springs<'a> {
         (pitches, incoming): (i32, Incoming),
         displacement: f64,
     ) -> Result<[f64; 2], Refusal> {
-        /// Bounds the memory of slow motions.
-        const PLACES: usize = 4096;
+        /// Bounds the memory of slow motions and of many slices, in bytes.
+        const MOST: usize = 12 << 20;
         let mut places = self.places.borrow_mut();
-        if places.len() >= PLACES && !places.contains_key(&place.to_bits()) {
+        let of_place = self.near.borrow().as_ref().map_or(0, |near| near.leads.len() * PER_CONTACT);
+        if places.len() * of_place >= MOST && !places.contains_key(&place.to_bits()) {
             places.clear();
         }
         let place = match places.entry(place.to_bits()) {
@@ -198,11 +202,14 @@ impl<'a, 'b> Motion<'a, 'b> {
         State::new(deflection, deflection * self.frequency)
     }
 
-    /// Refuses a motion with too many oscillations.
+    /// Refuses a motion with too many oscillations for the number of slices.
     fn check_pace(&self, path: f64) -> Result<(), Refusal> {
+        let face = self.springs.face;
         let swings = path / self.speed * self.frequency / TAU;
-        if swings > OSCILLATIONS {
-            return Err(Refusal::TooSlow { swings, limit: OSCILLATIONS });
+        let steps = self.springs.parts.iter().map(|(_, _, steps)| f64::from(*steps)).sum::<f64>();
+        let work = steps * path / face.mesh.base_pitch * face.slices.len() as f64;
+        if work > MOST_WORK {
+            return Err(Refusal::TooSlow { swings, limit: swings * MOST_WORK / work });
         }
         Ok(())
     }

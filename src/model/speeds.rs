@@ -2,15 +2,15 @@
 
 use std::sync::Arc;
 
-use super::Settings;
-use super::steady::{Start, steady};
-use crate::model::budget::Meter;
-use crate::model::inputs::Drive;
-use crate::model::mesh::Mesh;
-use crate::model::slices::Face;
-use crate::model::slices::motion::{self, Springs};
-use crate::model::static_load::static_spectrum;
-use crate::model::{Inputs, Refusal, Resonance, Solution};
+use super::dynamic::Settings;
+use super::dynamic::steady::{Start, steady};
+use super::budget::Meter;
+use super::inputs::Drive;
+use super::mesh::Mesh;
+use super::slices::Face;
+use super::slices::motion::{self, Springs};
+use super::static_load::static_spectrum;
+use super::{Inputs, Refusal, Resonance, Solution};
 
 /// Number of speeds of a run.
 pub const SPEEDS: usize = 121;
