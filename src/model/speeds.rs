@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use super::budget::Meter;
 use super::dynamic::Settings;
 use super::dynamic::steady::{Start, steady};
-use super::budget::Meter;
 use super::inputs::Drive;
 use super::mesh::Mesh;
 use super::slices::Face;

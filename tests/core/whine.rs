@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use crate::support::{case, range, value};
-use tipstrike::model::speeds::SPEEDS;
 use tipstrike::model::inputs::{Drive, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::solve::speeds;
+use tipstrike::model::speeds::SPEEDS;
 use tipstrike::model::static_load::HARMONICS;
 use tipstrike::model::static_load::balance;
 use tipstrike::model::{Inputs, Note, Refusal, Solution, Stages, Steady, notes, solve};

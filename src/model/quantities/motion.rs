@@ -3,9 +3,9 @@
 use super::{Need, PLAIN, Quantity, Variant, checks, conditions, of_driver};
 use crate::model::Solution;
 use crate::model::Stage::{Dynamic, Resonance, SpeedRun};
-use crate::model::speeds::SpeedCurve;
 use crate::model::explanation::Formula::{Found, Text};
 use crate::model::explanation::{Check, Context, Finding, Formula, Step, four, step};
+use crate::model::speeds::SpeedCurve;
 
 const OSCILLATOR_ALONE: &str = "One mass m_red moves on the springs and gaps of all pairs, with damping \
             while a pair is in contact. Shafts are rigid, and the load is steady. Only \
