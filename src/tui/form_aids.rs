@@ -209,7 +209,8 @@ impl Problem {
 fn for_form(sentence: &str) -> String {
     // A key inside typed text, between two quotes, does not change.
     let parts = sentence.split(TYPED).enumerate().map(|(at, part)| {
-        let keys = KEYS.iter().filter(|key| at % 2 == 0 && part.contains(**key));
+        let may_have_key = at % 2 == 0 && part.contains('.');
+        let keys = KEYS.iter().filter(|key| may_have_key && part.contains(**key));
         keys.fold(part.to_owned(), |text, key| text.replace(key, &called(key)))
     });
     parts.collect::<String>().replace(MARKS, "")

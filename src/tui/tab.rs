@@ -30,6 +30,8 @@ pub struct Tab {
     pub case: Case,
     /// The case in the file.
     pub saved: Case,
+    /// The case at the time of a save that is still running.
+    pub(crate) saving: Option<Case>,
     /// Whether the file may be written.
     pub(crate) access: Access,
     /// Whether another program changed the file after it was read.
@@ -97,6 +99,7 @@ impl Tab {
             access: Access::of(&document),
             form: FormState::at(&case, focus),
             saved: case.clone(),
+            saving: None,
             inputs_so_far: case.read().0,
             case,
             document,

@@ -5,12 +5,12 @@ use super::conditions::{
     shared_load,
 };
 use super::{PLAIN, Quantity, Variant, checks};
-use crate::model::Context;
 use crate::model::Stage::{Clearing, Deviation};
 use crate::model::compliance::{ContactPlace, Teeth, TeethCompliance};
 use crate::model::explanation::Formula::{Cases, Difference, Found, Given, Made, Text, Words};
 use crate::model::explanation::{Step, step};
 use crate::model::inputs::{Combination, Method};
+use crate::model::{Context, Inputs};
 
 /// A distance along the line of action.
 const DEVIATION: Quantity = Quantity {
@@ -97,7 +97,11 @@ pub(super) const TABLE: &[Quantity] = &[
             |s| Some(s.deviation.combined_deflection),
             "The deflection along the line of action of the pairs that carry the load when the \
                 incoming pair is at E",
-            Cases(&[(deflection_used, Given("model.deflection")), (always, Made(deflection))]),
+            Cases(&[
+                (deflection_used, Given("model.deflection")),
+                (over_face, Found(OVER_FACE, &["F_0"])),
+                (always, Made(deflection)),
+            ]),
         )
         .equation("Eq. 3")
         .source(
@@ -251,6 +255,13 @@ fn ahead_alone(k: &Context) -> String {
     } else {
         shared(k)
     }
+}
+
+const OVER_FACE: &str = "F_0/b over the mean of Σ 1/q of the pairs in contact over the face width, less \
+    the displacement of the incoming pair by them";
+
+fn over_face(inputs: &Inputs) -> bool {
+    inputs.face().is_some()
 }
 
 /// The displacement of the incoming pair by the pairs ahead.

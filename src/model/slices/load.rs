@@ -2,7 +2,7 @@
 //! incoming tooth.
 
 use super::balance::{Loads, Until};
-use super::motion::Course;
+use super::course::Course;
 use super::{Face, Slice};
 use crate::model::Refusal;
 use crate::model::budget::STATIONS;

@@ -190,13 +190,16 @@ pub(super) fn saved(
     next: Next,
     result: Result<Box<Written>, SaveFault>,
 ) {
+    let asked = app.tab.saving.take();
     let Written { document, saved } = match result {
         Ok(written) => *written,
         Err(fault) => return ask_refused(app, &path, fault, &next),
     };
     app.close_titled(SAVE_AS);
     app.tab.saved = document.case.clone();
-    if app.tab.case != document.case {
+    // Later edits are not saved and remain.
+    let is_as_asked = asked.is_none_or(|asked| asked == app.tab.case);
+    if is_as_asked && app.tab.case != document.case {
         app.tab.case = document.case.clone();
         app.focus_on(app.tab.form.focus);
     }
@@ -477,6 +480,7 @@ fn refuse_faulty(app: &mut App) -> bool {
 
 fn write(app: &mut App, path: PathBuf, over: Over, next: Next) {
     let document = app.tab.as_edited();
+    app.tab.saving = Some(app.tab.case.clone());
     app.want(Effect::Save(Box::new(Saving { document, path, over }), next));
 }
 

@@ -115,7 +115,8 @@ impl Reader<'_> {
 
     /// The longest unit at the start of the text.
     fn unit(&mut self, text: &str) -> f64 {
-        let plain = text.replace(GLUE, " ");
+        let own = text.split(' ').next().unwrap_or(text);
+        let plain = own.replace(GLUE, " ");
         let ends = plain.char_indices().map(|(at, c)| at + c.len_utf8());
         let mut known = ends.filter_map(|end| Some((end, factor(&plain[..end])?)));
         let (end, factor) =
