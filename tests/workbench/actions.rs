@@ -279,6 +279,8 @@ fn every_key_has_the_effect_of_its_line() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    // The contact pattern needs a helical pair; `charts` tests its keys.
+    covered.extend(BINDINGS.iter().position(|binding| binding.name == "slice"));
     let missing: Vec<String> = (0..BINDINGS.len())
         .filter(|at| !covered.contains(at) && !BINDINGS[*at].sentence.is_empty())
         .map(|at| {
