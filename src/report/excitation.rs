@@ -23,7 +23,7 @@ pub struct ExcitationReport<'a>(pub &'a Excitation);
 
 impl ExcitationReport<'_> {
     /// The values of the equation of motion: name, unit and value.
-    fn constants(&self) -> [(&'static str, &'static str, f64); 14] {
+    fn constants(self) -> [(&'static str, &'static str, f64); 14] {
         let Excitation { base_radii, inertias, mass, damping, stiffness, force, speed, .. } =
             *self.0;
         let period = self.0.mesh_period();
@@ -46,7 +46,7 @@ impl ExcitationReport<'_> {
     }
 
     /// Time and driver angle since E, and the values at each place of a part.
-    fn samples(&self, part: &'static str, samples: &[Sample]) -> Table {
+    fn samples(self, part: &'static str, samples: &[Sample]) -> Table {
         let speed = self.0.speed;
         let base = self.0.base_radii[0];
         let mean = self.0.harmonics[0].map(|[mean, _]| mean);
@@ -80,7 +80,7 @@ impl ExcitationReport<'_> {
     }
 
     /// Mean, and coefficients of cosine and sine of each order.
-    fn harmonics(&self) -> Table {
+    fn harmonics(self) -> Table {
         let mut columns = vec![Column::number("order", "n", "", ("1", 0)).wide(0, 3)];
         for (key, unit, title, shown, digits) in COLUMNS {
             for (of, sign) in [("cosine", "cos"), ("sine", "sin")] {

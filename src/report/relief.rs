@@ -255,11 +255,11 @@ impl ReliefReport<'_> {
 
     /// The figures with the relief of the case, with a choice, and at the limits of its tolerances.
     fn before_and_after(&self, at: usize) -> Table {
+        type Value<'v> = &'v dyn Fn(&Figures) -> Option<f64>;
         let Specification { choices, mesh_force, is_over_face, .. } = self.found;
         let (case, own) = (&choices[0], &choices[at]);
         let error = format!("{} TE over the loads, um", self.figure());
         let gap = if *is_over_face { "gap before E at rest, um" } else { BOTH_GAPS };
-        type Value<'v> = &'v dyn Fn(&Figures) -> Option<f64>;
         let rows: [(&str, usize, Value); 7] = [
             (&error, 3, &|found| Some(found.error * 1e6)),
             ("force before E, N", 4, &|found| Some(found.entry)),

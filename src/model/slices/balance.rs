@@ -263,7 +263,7 @@ impl Face {
 impl Position<'_> {
     /// Whether a pair is within the computed range.
     pub(super) fn has(&self, ahead: i32) -> bool {
-        (0..self.pairs as i32).contains(&(ahead - self.first))
+        usize::try_from(ahead - self.first).is_ok_and(|index| index < self.pairs)
     }
 
     /// Advances the flanks of a pair by a deviation, in m.
@@ -353,7 +353,10 @@ impl Position<'_> {
         };
         if let Some(near) = near {
             let carried = touching(&|at| {
-                near.at(self.first + (at % self.pairs) as i32, at / self.pairs) > 0.0
+                near.at(
+                    self.first.saturating_add_unsigned((at % self.pairs) as u32),
+                    at / self.pairs,
+                ) > 0.0
             });
             match until {
                 Until::Displacement(displacement) => return (carried, displacement),

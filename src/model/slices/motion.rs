@@ -132,26 +132,24 @@ impl<'a> Springs<'a> {
         let serves = |(of, line): &&(Option<i32>, Line)| {
             *of == deviating && displacement >= line.alike.0 && displacement <= line.alike.1
         };
-        let line = match place.lines.iter().rev().find(serves) {
-            Some((_, line)) => *line,
-            None => {
-                self.solves.set(self.solves.get() + 1);
-                let mut near = self.near.borrow_mut();
-                let until = Until::Displacement(displacement);
-                let loads = match deviating {
-                    None => place.position.loads(until, near.as_ref())?,
-                    Some(pair) => {
-                        let mut position = place.position.clone();
-                        incoming.change(&mut position, pair);
-                        position.loads(until, near.as_ref())?
-                    }
-                };
-                let Loads { alike, displacement, force, stiffness, .. } = loads;
-                *near = Some(loads);
-                let line = Line { alike, displacement, force, stiffness };
-                place.lines.push((deviating, line));
-                line
-            }
+        let line = if let Some((_, line)) = place.lines.iter().rev().find(serves) {
+            *line
+        } else {
+            self.solves.set(self.solves.get() + 1);
+            let mut near = self.near.borrow_mut();
+            let until = Until::Displacement(displacement);
+            let loads = if let Some(pair) = deviating {
+                let mut position = place.position.clone();
+                incoming.change(&mut position, pair);
+                position.loads(until, near.as_ref())?
+            } else {
+                place.position.loads(until, near.as_ref())?
+            };
+            let Loads { alike, displacement, force, stiffness, .. } = loads;
+            *near = Some(loads);
+            let line = Line { alike, displacement, force, stiffness };
+            place.lines.push((deviating, line));
+            line
         };
         Ok([line.force + line.stiffness * (displacement - line.displacement), line.stiffness])
     }
@@ -294,7 +292,7 @@ impl<'a, 'b> Motion<'a, 'b> {
         const ROUNDING: f64 = 1e-14;
         const PART: f64 = 1e-3;
         let (face, pitch) = (self.springs.face, self.springs.face.mesh.base_pitch);
-        let first = -(settings.warmup_cycles as i32) - (face.reach / pitch).round() as i32;
+        let first = -settings.warmup_cycles.cast_signed() - (face.reach / pitch).round() as i32;
         // The last base pitch without the incoming pair, and one more for a loss of contact.
         let near = (face.mesh.ends().0.min(-pitch) - face.reach) / pitch;
         let near = near.floor() as i32;
