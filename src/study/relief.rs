@@ -627,10 +627,10 @@ impl WholeSolves<'_> {
         }
         let mut limits = self.smallest().into_iter();
         limits.try_fold(true, |clears, (off, misalignment)| {
-            let found = match clears {
-                true => self.figures_at(&reliefs.off(off), misalignment, times, false),
-                false => return Ok(false),
-            };
+            if !clears {
+                return Ok(false);
+            }
+            let found = self.figures_at(&reliefs.off(off), misalignment, times, false);
             match found {
                 Err(NoRelief::Refused(refusal)) if refusal != Refusal::Stopped => Ok(false),
                 found => Ok(!found?.strikes),
@@ -685,12 +685,11 @@ impl WholeSolves<'_> {
                 lengths: reliefs.lengths.map(|length| scale * length),
                 ..*reliefs
             };
-            let (error, margin) = match self.bench {
-                Some(bench) => (bench.error(&reliefs), -bench.worst_overlap(&reliefs)),
-                None => {
-                    let errors = self.errors(&reliefs, self.inputs.misalignment)?;
-                    (self.demand.figure(errors.into_iter()), self.figures(&reliefs, false)?.gap)
-                }
+            let (error, margin) = if let Some(bench) = self.bench {
+                (bench.error(&reliefs), -bench.worst_overlap(&reliefs))
+            } else {
+                let errors = self.errors(&reliefs, self.inputs.misalignment)?;
+                (self.demand.figure(errors.into_iter()), self.figures(&reliefs, false)?.gap)
             };
             Ok(MapPoint { reliefs, error, margin })
         };

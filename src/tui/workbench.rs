@@ -107,7 +107,9 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
         }
         // A journal that cannot be deleted is offered again at the next start.
         Effect::Forget(journals) => {
-            journals.iter().for_each(|journal| drop(fs::remove_file(journal)));
+            for journal in &journals {
+                drop(fs::remove_file(journal));
+            }
         }
         Effect::Journals => return Some(Action::Journals(autosave.ended_sessions())),
         _ => {}

@@ -90,7 +90,7 @@ static EXPLAINED: LazyLock<Vec<Explained>> = LazyLock::new(|| {
     // Each page of a pair in slices takes a hundred times as long.
     let is_spur = |(_, case): &(String, Case)| case.inputs().unwrap().helix_angle == 0.0;
     let cases: Vec<_> = cases().into_iter().filter(is_spur).collect();
-    let is_wanted = |at: usize, variant: usize| variant == 0 || (at + variant) % 2 == 0;
+    let is_wanted = |at: usize, variant: usize| variant == 0 || (at + variant).is_multiple_of(2);
     let closed = |at: usize, (name, case): &(String, Case)| {
         let mut case = case.clone();
         if case.inputs().unwrap().tooth_compliance.is_none() {

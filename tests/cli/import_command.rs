@@ -172,7 +172,7 @@ fn helical(wheel: &str, speed: f64) -> Vec<u8> {
         ("end_relief_datum_face", "\"end_relief_depth_datum_face\", \"floating_point\": 0.02"),
         ("profile_crowning", "\"profile_crowning_amount\", \"floating_point\": 0.001"),
     ];
-    let components: String = (70..)
+    let components: Vec<String> = (70..)
         .zip(parts)
         .map(|(id, (kind, attribute))| {
             format!(
@@ -180,7 +180,8 @@ fn helical(wheel: &str, speed: f64) -> Vec<u8> {
             )
         })
         .collect();
-    let references: String = (70..74)
+    let components = components.concat();
+    let references: Vec<String> = (70..74)
         .map(|id| {
             format!(
                 "{{\"id\": {id}, \"type\": \"reference\", \"refs\": [{{\"id\": 15, \"role\": \"origin\"}}, \
@@ -188,6 +189,7 @@ fn helical(wheel: &str, speed: f64) -> Vec<u8> {
             )
         })
         .collect();
+    let references = references.concat();
     let text = fs::read_to_string(model("spur-2.0.rexsj")).unwrap();
     let angle = "\"helix_angle_reference_diameter\", \"unit\": \"deg\", \"floating_point\": ";
     let pinion_side = "{\"id\": \"support_vector\", \"unit\": \"mm\", \"floating_point_array\": [3.0, 0.0, 0.0]}, \

@@ -38,6 +38,9 @@ pub(crate) struct Source {
     figures: &'static [Figure],
 }
 
+/// A value of the program.
+type Ours = fn(&Inputs) -> Option<f64>;
+
 /// A published figure.
 pub(crate) struct Figure {
     name: &'static str,
@@ -47,7 +50,7 @@ pub(crate) struct Figure {
     /// Whether it depends on the tooth compliance.
     by_model: bool,
     /// The value with the finite elements and without a coupling, which has this name.
-    without: Option<(&'static str, fn(&Inputs) -> Option<f64>)>,
+    without: Option<(&'static str, Ours)>,
     /// Whether the comparison is fair, and the reason for the deviation.
     fair: &'static str,
 }

@@ -55,14 +55,15 @@ struct Search<'a> {
     least: Option<Place>,
 }
 
+/// Reliefs with their names.
+type Named = Vec<(&'static str, TipReliefs)>;
+
 /// The best relief of each shape with its crowning, then the one with the least amounts; and the
 /// number of evaluated reliefs.
 ///
 /// # Errors
 /// [`NoRelief::Beyond`] if no relief prevents corner contact, [`Refusal::Stopped`] if the user stops.
-pub(super) fn search(
-    pair: &WholeSolves<'_>,
-) -> Result<(Vec<(&'static str, TipReliefs)>, u64), NoRelief> {
+pub(super) fn search(pair: &WholeSolves<'_>) -> Result<(Named, u64), NoRelief> {
     let (mut found, mut least, mut tries) = (Vec::new(), None, 0);
     pair.part.set(0.0);
     for (shape, [_, name]) in KINDS {

@@ -79,10 +79,12 @@ impl TerminalChart<'_> {
         let plot = Plot::new(area, margin, spans);
         if !plot.cells.is_empty() {
             plot.draw_axes(across, up, self.theme, buffer);
-            map.iter().for_each(|map| plot.draw_map(map, self.theme, buffer));
+            if let Some(map) = map {
+                plot.draw_map(map, self.theme, buffer);
+            }
             for column in marks.iter().filter_map(|mark| plot.column(mark.0)) {
                 let line = Rect { x: column, width: 1, ..plot.cells };
-                line.positions().filter(|_| map.is_some()).for_each(|at| _ = buffer[at].reset());
+                line.positions().filter(|_| map.is_some()).for_each(|at| buffer[at].reset());
             }
             self.draw_series(&plot, buffer);
             // The 0 of logarithms means nothing.

@@ -313,7 +313,9 @@ impl<'a> Painter<'a> {
         let contacts = scene.contacts.iter().filter(|at| self.window.sees(**at));
         layers[7].0.extend(contacts.flat_map(|at| cross(*at)));
         if self.picture.is_stale {
-            layers.iter_mut().for_each(|(_, style)| *style = style.patch(theme.faint));
+            for (_, style) in &mut layers {
+                *style = style.patch(theme.faint);
+            }
         }
         layers
     }

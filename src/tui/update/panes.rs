@@ -231,6 +231,7 @@ pub(super) fn ask_cursor(app: &mut App) {
 }
 
 /// Moves the cursor to the typed angle. Shows the chart if neither charts nor teeth are visible.
+#[expect(clippy::needless_pass_by_value, reason = "what a dialog runs takes what was typed")]
 fn move_cursor(app: &mut App, typed: Result<f64, String>) {
     if typed.is_ok() {
         app.prompts.pop();
