@@ -116,7 +116,7 @@ impl Face {
     /// `error`, in m.
     ///
     /// # Errors
-    /// Those of [`Position::loads`].
+    /// Those of `Position::loads`.
     pub fn loads(&self, s: f64, error: f64, until: Until) -> Result<Loads, Refusal> {
         let mut position = self.position(s)?;
         position.deviate(0, error);
