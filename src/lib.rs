@@ -31,6 +31,7 @@
 //! | [`report`] | results as text, JSON, CSV and explanations |
 //! | [`cli`] | the commands |
 //! | [`tui`] | the workbench; the only module that uses a terminal |
+//! | `python` | the Python module, with the feature `python` |
 //!
 //! The computation builds without the command line and the workbench (`--no-default-features`). All
 //! units are SI.
@@ -44,11 +45,15 @@
 //!
 //! [`Solution`]: model::Solution
 
+#![cfg_attr(not(feature = "python"), forbid(unsafe_code))]
+
 pub mod case;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod model;
 pub mod numeric;
+#[cfg(feature = "python")]
+mod python;
 pub mod report;
 pub mod study;
 pub mod system;

@@ -1,5 +1,7 @@
 //! The program: the workbench in the terminal, and commands for scripts.
 
+#![forbid(unsafe_code)]
+
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -17,7 +19,7 @@ fn main() -> ExitCode {
 
 #[cfg(unix)]
 fn workbench(case: Option<PathBuf>, _: &mut Streams) -> ExitCode {
-    tipstrike::tui::run(case)
+    tipstrike::tui::run(case).into()
 }
 
 #[cfg(not(unix))]

@@ -30,7 +30,6 @@ mod worker;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::sync::Arc;
 
 use crate::system::terminal::{die_of, hold};
@@ -45,14 +44,14 @@ const NO_TERMINAL: u8 = 2;
 const PANICKED: u8 = 101;
 
 /// Runs the workbench on a case, otherwise on the last case, otherwise on the built-in case, until
-/// the user quits.
+/// the user quits. Returns the exit code.
 #[must_use]
-pub fn run(case: Option<PathBuf>) -> ExitCode {
+pub fn run(case: Option<PathBuf>) -> u8 {
     if let Some(reason) = terminal::missing(|name| std::env::var_os(name)) {
         tell(&format!(
             "no terminal for the workbench ({reason}); without one: tipstrike solve CASE"
         ));
-        return ExitCode::from(NO_TERMINAL);
+        return NO_TERMINAL;
     }
     terminal::hold_panics();
     // The screen buffer is allocated before any thread starts: it adapts its size to the free
@@ -70,12 +69,12 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
     };
     let ended = catch_unwind(AssertUnwindSafe(|| session(case, events, screen, &journal_writer)));
     if matches!(ended, Ok(Ok(End::Left))) {
-        return ExitCode::SUCCESS;
+        return 0;
     }
     keep_what_is_left(&journal_writer);
     match ended {
         Ok(Ok(End::Signal(signal))) => die_of(signal),
-        Ok(Ok(End::Left | End::Lost)) => ExitCode::from(TERMINAL_LOST),
+        Ok(Ok(End::Left | End::Lost)) => TERMINAL_LOST,
         Ok(Err(error)) => no_answer(&error),
         Err(_) => fail(
             PANICKED,
@@ -110,13 +109,13 @@ fn keep_what_is_left(journal_writer: &JournalWriter) {
     }
 }
 
-fn no_answer(error: &io::Error) -> ExitCode {
+fn no_answer(error: &io::Error) -> u8 {
     fail(TERMINAL_LOST, &format!("the terminal does not answer: {error}"))
 }
 
-fn fail(code: u8, words: &str) -> ExitCode {
+fn fail(code: u8, words: &str) -> u8 {
     tell(words);
-    ExitCode::from(code)
+    code
 }
 
 // Errors of a closed terminal or pipe are ignored.

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each folder of `src` and the folders that it may import.
-const FOLDERS: [(&str, &[&str]); 8] = [
+const FOLDERS: [(&str, &[&str]); 9] = [
     ("system", &[]),
     ("numeric", &[]),
     ("model", &["numeric"]),
@@ -15,6 +15,8 @@ const FOLDERS: [(&str, &[&str]); 8] = [
     ("report", &["numeric", "model", "case", "study"]),
     ("cli", &["system", "numeric", "model", "case", "study", "report"]),
     ("tui", &["system", "numeric", "model", "case", "study", "report"]),
+    // The command and the workbench of the wheel are `main` alone.
+    ("python", &["system", "numeric", "model", "case", "study", "report", "cli", "tui"]),
 ];
 
 /// Crates that use a terminal.

@@ -1,0 +1,696 @@
+//! The native half of the Python package `python/tipstrike`: cases, solves and studies, with results as
+//! columns of bytes, JSON and text.
+#![allow(unsafe_code, reason = "the macros of PyO3 generate the interface of C")]
+#![allow(missing_docs, reason = "python/tipstrike/__init__.pyi documents the package")]
+
+use std::ffi::OsString;
+use std::fmt::Display;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
+
+use pyo3::exceptions::{PyFileNotFoundError, PyKeyError, PyOSError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyByteArray, PyFloat, PyList};
+
+use crate::case::fields::{FIELDS, Kind, index_of};
+use crate::case::file::{Document, MOST_MODEL_BYTES, ReadError, read_bytes};
+use crate::case::{Case as Fields, Problem, rexs, unknown_quantity};
+use crate::cli::{self, Arguments, Streams};
+use crate::model::slices::Face;
+use crate::model::{Inputs, Quantity, Refusal};
+use crate::report::compare::{ComparedCase, Comparison};
+use crate::report::excitation::ExcitationReport;
+use crate::report::export::{format_of, render};
+use crate::report::pictures::{NoPicture, find, pictures};
+use crate::report::relief::ReliefReport;
+use crate::report::results::{Named, Results};
+use crate::report::seek::SeekReport;
+use crate::report::solve::{Unsolved, compared};
+use crate::report::stations::columns;
+use crate::report::stiffness::StiffnessReport;
+use crate::report::table::{Cell, Table};
+use crate::report::tolerance::ToleranceReport;
+use crate::report::{Report, Selection, data, page, text};
+use crate::study::axis::{AxisRange, Sampling};
+use crate::study::batch::{Batch, Control, Points, Refusals, Row, solve_all};
+use crate::study::condition::{Condition, distinct, headline};
+use crate::study::excitation::{Excitation, POINTS};
+use crate::study::relief::{Criterion, Demand, NoRelief, demand, specify};
+use crate::study::seek::seek;
+use crate::study::shard::Format;
+use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare_flanks, compare_path};
+use crate::study::sweep::Grid;
+use crate::study::tolerance::{MOST_SAMPLES, Samples, Size, Tolerance};
+
+pyo3::import_exception!(tipstrike, CaseError);
+
+/// A column: name, unit, and an array of f64 in bytes or a list of texts.
+type Column = (String, String, Py<PyAny>);
+
+/// The results of a study: columns, JSON, text and warnings.
+type Found = (Vec<Column>, String, String, Vec<String>);
+
+/// Time between two looks for Ctrl-C and two reports of the progress.
+const TICK: Duration = Duration::from_millis(50);
+
+/// Runs long work without the lock of the interpreter; Ctrl-C and an exception of `progress` end it.
+fn run<T: Send>(
+    py: Python<'_>,
+    progress: Option<Py<PyAny>>,
+    work: impl Send + FnOnce(&dyn Fn(usize, usize) -> bool) -> T,
+) -> PyResult<T> {
+    let state = Mutex::new((Instant::now(), None));
+    let found = py.detach(|| {
+        work(&|done, of| {
+            let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
+            if state.1.is_some() || state.0.elapsed() < TICK {
+                return state.1.is_none();
+            }
+            let looked = Python::attach(|py| {
+                py.check_signals()?;
+                progress.as_ref().map_or(Ok(()), |call| call.call1(py, (done, of)).map(drop))
+            });
+            *state = (Instant::now(), looked.err());
+            state.1.is_none()
+        })
+    });
+    state.into_inner().unwrap_or_else(PoisonError::into_inner).1.map_or(Ok(found), Err)
+}
+
+fn wrong(error: impl Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// An argument that is no value of a case.
+fn misused(argument: &str, Problem { cause, fix, .. }: &Problem) -> PyErr {
+    wrong(format!("{argument}: {cause}: {fix}"))
+}
+
+fn within(argument: &str, count: usize, least: usize, most: usize) -> PyResult<()> {
+    let is_within = (least..=most).contains(&count);
+    is_within.then_some(()).ok_or_else(|| {
+        wrong(format!("{argument} = {count}: write a number from {least} to {most}"))
+    })
+}
+
+/// Place, field, cause and fix of problems.
+fn bad_case(problems: Vec<(String, Problem)>) -> PyErr {
+    let parts = problems
+        .into_iter()
+        .map(|(place, problem)| (place, problem.field, problem.cause, problem.fix.to_string()));
+    CaseError::new_err((parts.collect::<Vec<_>>(),))
+}
+
+fn unread(error: ReadError) -> PyErr {
+    let faults = match error {
+        ReadError::Bad(faults) => faults,
+        ReadError::NewerFormat(fault) => vec![*fault],
+        ReadError::NotFound(_) => return PyFileNotFoundError::new_err(error.to_string()),
+        _ => return PyOSError::new_err(error.to_string()),
+    };
+    let placed = faults.into_iter();
+    bad_case(
+        placed.map(|at| (format!("{}:{}:{}", at.file, at.line, at.column), at.problem)).collect(),
+    )
+}
+
+fn quantities(names: &[String]) -> PyResult<Vec<&'static Quantity>> {
+    let named = names.iter().map(|name| {
+        Quantity::named(name).ok_or_else(|| misused("only", &unknown_quantity("", name)))
+    });
+    Ok(distinct(named.collect::<PyResult<Vec<_>>>()?))
+}
+
+fn numbers(py: Python<'_>, values: impl Iterator<Item = f64>) -> Py<PyAny> {
+    let bytes: Vec<u8> = values.flat_map(f64::to_ne_bytes).collect();
+    PyByteArray::new(py, &bytes).into_any().unbind()
+}
+
+fn words<T: AsRef<str>>(py: Python<'_>, texts: impl Iterator<Item = T>) -> PyResult<Py<PyAny>> {
+    let texts: Vec<String> = texts.map(|text| text.as_ref().to_owned()).collect();
+    Ok(PyList::new(py, texts)?.into_any().unbind())
+}
+
+/// The columns of a table; an absent number is NaN.
+fn table_columns(py: Python<'_>, table: &Table) -> PyResult<Vec<Column>> {
+    let column = |(at, column): (usize, &crate::report::table::Column)| {
+        let cells = || table.rows.iter().map(move |row| &row[at]);
+        let is_text = cells().any(|cell| matches!(cell, Cell::Text(_) | Cell::Default(_)));
+        let values = if is_text {
+            words(py, cells().map(Cell::text))?
+        } else {
+            numbers(
+                py,
+                cells().map(|cell| match cell {
+                    Cell::Number(value) | Cell::Shown(value, _) => *value,
+                    _ => f64::NAN,
+                }),
+            )
+        };
+        Ok((column.key.to_string(), column.unit.to_string(), values))
+    };
+    table.columns.iter().enumerate().map(column).collect()
+}
+
+/// The columns of the rows of a study: its points, the quantities in SI and the outcome.
+fn row_columns(
+    py: Python<'_>,
+    points: &dyn Points,
+    quantities: &[&Quantity],
+    rows: &[Row],
+) -> PyResult<Vec<Column>> {
+    let cells: Vec<Vec<String>> = (0..rows.len()).map(|index| points.cells(index)).collect();
+    let mut all = Vec::new();
+    for (at, (key, unit)) in points.columns().into_iter().enumerate() {
+        let texts = || cells.iter().map(move |row| row[at].as_str());
+        let read: Option<Vec<f64>> = texts()
+            .map(|text| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() })
+            .collect();
+        let values = match read {
+            Some(values) => numbers(py, values.into_iter()),
+            None => words(py, texts())?,
+        };
+        all.push((key, unit.to_owned(), values));
+    }
+    for (at, quantity) in quantities.iter().enumerate() {
+        let values = numbers(py, rows.iter().map(|row| row.values[at].unwrap_or(f64::NAN)));
+        all.push((quantity.key.to_owned(), quantity.unit.to_owned(), values));
+    }
+    let outcomes = words(py, rows.iter().map(|row| row.outcome.name()))?;
+    all.push(("outcome".to_owned(), String::new(), outcomes));
+    Ok(all)
+}
+
+/// A writer's output as text.
+fn written(write: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) -> PyResult<String> {
+    let mut bytes = Vec::new();
+    write(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// A case that does not change.
+#[pyclass(frozen, module = "tipstrike")]
+struct Case {
+    /// The file with the variant.
+    #[pyo3(get)]
+    name: String,
+    #[pyo3(get)]
+    variant: Option<String>,
+    document: Document,
+    /// The changes of a call, for the place of an error.
+    changes: Vec<(String, String)>,
+    inputs: OnceLock<Inputs>,
+}
+
+impl Case {
+    fn of(name: String, document: Document, changes: Vec<(String, String)>) -> Case {
+        Case { name, variant: None, document, changes, inputs: OnceLock::new() }
+    }
+
+    fn inputs(&self) -> PyResult<&Inputs> {
+        if let Some(inputs) = self.inputs.get() {
+            return Ok(inputs);
+        }
+        let found = self.document.case.inputs().map_err(|mut problems| {
+            problems.sort_by_key(|problem| self.document.place(&problem.field));
+            self.faulty(problems)
+        })?;
+        Ok(self.inputs.get_or_init(|| found))
+    }
+
+    /// Problems at the change that causes them, otherwise in the text.
+    fn faulty(&self, problems: Vec<Problem>) -> PyErr {
+        let placed = problems.into_iter().map(|problem| {
+            let mut changes = self.changes.iter().rev();
+            let place = match changes.find(|(key, _)| *key == problem.field) {
+                Some((key, value)) => format!("{}, {key}={value}", self.name),
+                None => {
+                    let (line, column) = self.document.place(&problem.field);
+                    format!("{}:{line}:{column}", self.name)
+                }
+            };
+            (place, problem)
+        });
+        bad_case(placed.collect())
+    }
+
+    fn refused(&self, refusal: &Refusal) -> PyErr {
+        self.faulty(vec![Problem::from(refusal).at_given(&self.document.case)])
+    }
+
+    /// Why a study of the case has no result.
+    fn failed(&self, reason: &impl Display) -> PyErr {
+        self.faulty(vec![Problem::new("case", reason.to_string(), "change the case")])
+    }
+
+    fn named(&self) -> Named<'_> {
+        Named { name: &self.name, title: self.document.case.title() }
+    }
+
+    fn unsolved(&self) -> PyResult<Unsolved<'_>> {
+        Ok(Unsolved { name: &self.name, case: &self.document.case, inputs: self.inputs()? })
+    }
+
+    fn found(&self, py: Python<'_>, results: &dyn Results) -> PyResult<Found> {
+        let write = |format| written(|out| self.named().write(results, format, out));
+        let columns = table_columns(py, &results.table())?;
+        Ok((columns, write(Format::Json)?, write(Format::Text)?, Vec::new()))
+    }
+
+    /// The case with a value for a field that a study varies and that the case lacks.
+    fn with_varied(&self, key: &str, value: &str) -> Case {
+        let mut document = self.document.clone();
+        if index_of(key).is_some_and(|field| document.case.effective(field).is_none()) {
+            // An invalid value is reported with its point.
+            drop(document.case.set(key, value));
+        }
+        Case::of(self.name.clone(), document, self.changes.clone())
+    }
+}
+
+#[pymethods]
+impl Case {
+    /// Reads a case file, or the only spur stage of a REXS model.
+    #[staticmethod]
+    fn read(path: PathBuf) -> PyResult<Case> {
+        let name = path.display().to_string();
+        let document = if rexs::is_model(&path) {
+            let bytes = read_bytes(&path, MOST_MODEL_BYTES).map_err(unread)?;
+            rexs::import(&path, &bytes, None).map_err(wrong)?.document
+        } else {
+            Document::read_draft(&path).map_err(unread)?
+        };
+        Ok(Case::of(name, document, Vec::new()))
+    }
+
+    /// Parses the text of a case file.
+    #[staticmethod]
+    fn parse(name: String, text: &str) -> PyResult<Case> {
+        let parsed = Document::parse_draft(&name, text).map_err(ReadError::Bad);
+        Ok(Case::of(name, parsed.map_err(unread)?, Vec::new()))
+    }
+
+    /// The case with a variant and with other values.
+    fn changed(&self, changes: Vec<(String, String)>, variant: Option<&str>) -> PyResult<Case> {
+        let (mut name, mut document) = (self.name.clone(), self.document.clone());
+        if let Some(variant) = variant {
+            let known = document.case.variant(variant).cloned();
+            let known = known.map_err(|problem| misused("variant", &problem))?;
+            document.case = document.case.with(&known);
+            name = format!("{name}:{variant}");
+        }
+        for (at, (key, value)) in changes.iter().enumerate() {
+            if let Some((other, _)) =
+                changes[..at].iter().find(|(other, _)| Fields::are_exclusive(other, key))
+            {
+                return Err(wrong(format!(
+                    "{key}: {other} excludes this field: leave one of them out"
+                )));
+            }
+            document
+                .case
+                .set(key, value)
+                .map_err(|problem| bad_case(vec![(format!("{name}, {key}={value}"), problem)]))?;
+        }
+        let changes = self.changes.iter().cloned().chain(changes).collect();
+        let variant = variant.map(str::to_owned).or_else(|| self.variant.clone());
+        Ok(Case { variant, ..Case::of(name, document, changes) })
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        self.document.case.title()
+    }
+
+    #[getter]
+    fn variants(&self) -> Vec<&str> {
+        self.document.case.variants.iter().map(|variant| variant.name.as_str()).collect()
+    }
+
+    /// The text of the case file with the changes.
+    fn text(&self) -> String {
+        self.document.render()
+    }
+
+    /// The text of a field, given or by default.
+    fn get(&self, key: &str) -> PyResult<Option<&str>> {
+        let field = index_of(key).ok_or_else(|| PyKeyError::new_err(key.to_owned()))?;
+        Ok(self.document.case.effective(field))
+    }
+
+    fn solve(&self, py: Python<'_>, only: Vec<String>, stations: bool) -> PyResult<Solved> {
+        let only = quantities(&only)?;
+        let selection = Selection { stations: stations || only.is_empty(), only };
+        let wanted = selection.only.len();
+        let (name, case, inputs) =
+            (self.name.clone(), self.document.case.clone(), self.inputs()?.clone());
+        let report = py.detach(|| Report::solve(name, case, inputs, selection));
+        let report = report.map_err(|refusal| self.refused(&refusal))?;
+        match report.solution.withheld {
+            Some(refusal) if report.values().count() < wanted => Err(self.refused(&refusal)),
+            _ => Ok(Solved { report }),
+        }
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the options of the command")]
+    fn sweep(
+        &self,
+        py: Python<'_>,
+        vary: Vec<String>,
+        points: Vec<usize>,
+        log: bool,
+        only: Vec<String>,
+        jobs: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(Vec<Column>, Vec<String>)> {
+        let grid = Grid::parse(&vary, &points, log);
+        let grid = grid
+            .map_err(|(text, problem)| misused(text.split('=').next().unwrap_or(text), &problem))?;
+        let first = |case: Case, axis: &crate::study::axis::Axis| {
+            case.with_varied(axis.key(), &axis.with_unit(0))
+        };
+        let empty = self.with_varied("", "");
+        let case = grid.axes.iter().fold(empty, first);
+        let mut quantities = quantities(&only)?;
+        let stages = quantities.iter().map(|quantity| quantity.stage);
+        let inputs = case.inputs()?.clone().needing(stages);
+        if quantities.is_empty() {
+            quantities = headline(&case.document.case, &grid.methods(&inputs));
+        }
+        let batch = Batch { inputs: &inputs, points: &grid, quantities: &quantities };
+        let mut rows = Vec::with_capacity(grid.count());
+        drop(run(py, progress, |go_on| {
+            let control = Control { jobs, go_on };
+            solve_all(&batch, 0..grid.count(), &control, &mut |_, solved| {
+                rows.extend_from_slice(solved);
+                true
+            })
+        })?);
+        let mut refusals = Refusals::default();
+        refusals.count(0, &rows);
+        let notes = refusals.0.iter().map(|refused| refused.sentence(&grid)).collect();
+        Ok((row_columns(py, &grid, &quantities, &rows)?, notes))
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the options of the command")]
+    fn tolerance(
+        &self,
+        py: Python<'_>,
+        samples: usize,
+        seed: u64,
+        ranking: Option<usize>,
+        only: Vec<String>,
+        jobs: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Found> {
+        within("samples", samples, 2, MOST_SAMPLES)?;
+        let only = quantities(&only)?;
+        let stages = only.iter().map(|quantity| quantity.stage);
+        let inputs = self.inputs()?.clone().needing(stages);
+        let size = Size { samples, seed, ranked: ranking };
+        let study = Tolerance::of(&self.document.case, &inputs, &only, size);
+        let study = study.map_err(|problem| self.faulty(vec![problem]))?;
+        let (mut rows, mut found) = (Vec::new(), Samples::of(&study));
+        let (points, quantities) = (&study.design, &study.quantities);
+        let batch = Batch { inputs: &inputs, points, quantities };
+        drop(run(py, progress, |go_on| {
+            let control = Control { jobs, go_on };
+            solve_all(&batch, 0..points.count(), &control, &mut |first, solved| {
+                found.add(first, solved);
+                rows.extend_from_slice(solved);
+                true
+            })
+        })?);
+        let case = &self.document.case;
+        let report =
+            ToleranceReport { case, method: inputs.method, study: &study, samples: &found };
+        let (_, json, text, _) = self.found(py, &report)?;
+        let notes = found.refusals.0.iter().map(|refused| refused.sentence(points)).collect();
+        Ok((row_columns(py, points, quantities, &rows)?, json, text, notes))
+    }
+
+    fn seek(
+        &self,
+        py: Python<'_>,
+        vary: &str,
+        until: &str,
+        points: usize,
+        jobs: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Found> {
+        let bad_range = |problem| misused("vary", &problem);
+        let bad_condition = |problem| misused("until", &problem);
+        let range = AxisRange::parse(vary).map_err(bad_range)?;
+        let condition = Condition::parse(until).map_err(bad_condition)?;
+        let scan =
+            range.axis(Sampling { points: Some(points), is_log: false }).map_err(bad_range)?;
+        let case = self.with_varied(FIELDS[range.field].key, &scan.with_unit(0));
+        let stages = condition.quantity().map(|quantity| quantity.stage);
+        let inputs = case.inputs()?.clone().needing(stages);
+        condition.check(inputs.method).map_err(bad_condition)?;
+        let found = run(py, progress, |go_on| {
+            seek(&inputs, &range, &condition, scan, &Control { jobs, go_on })
+        })?;
+        let found = found.map_err(|_| wrong("the study was stopped"))?;
+        let method = inputs.method.name();
+        self.found(py, &SeekReport { method, range: &range, condition: &condition, found: &found })
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the options of the command")]
+    fn relief(
+        &self,
+        py: Python<'_>,
+        load: &str,
+        spectrum: Option<&str>,
+        tolerance: &str,
+        tolerance_length: Option<&str>,
+        minimise: &str,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Found> {
+        let criteria = [Criterion::Te, Criterion::Peak, Criterion::Entry];
+        let minimise = criteria.into_iter().find(|known| known.name() == minimise);
+        let demand = Demand {
+            loads: demand::loads(load).map_err(wrong)?,
+            spectrum: spectrum.map_or(Ok(Vec::new()), demand::spectrum).map_err(wrong)?,
+            tolerance: demand::tolerance(tolerance).map_err(wrong)?,
+            tolerance_length: tolerance_length.map(demand::tolerance).transpose().map_err(wrong)?,
+            minimise: minimise.ok_or_else(|| wrong("minimise: write te, peak or entry"))?,
+        };
+        let inputs = self.inputs()?;
+        let found = run(py, progress, |go_on| {
+            specify(inputs, &demand, &|part| go_on((100.0 * part) as usize, 100))
+        })?;
+        let found = found.map_err(|none| match none {
+            NoRelief::Refused(refusal) => self.refused(&refusal),
+            none => self.failed(&none),
+        })?;
+        self.found(py, &ReliefReport { method: inputs.method, found: &found })
+    }
+
+    fn stiffness(&self, py: Python<'_>, points: usize) -> PyResult<Found> {
+        let inputs = self.inputs()?;
+        within("points", points, LEAST_POINTS, MOST_POINTS)?;
+        let found = py.detach(|| {
+            Ok::<_, Refusal>((compare_flanks(inputs, points)?, compare_path(inputs, points)?))
+        });
+        let (flanks, path) = found.map_err(|refusal| self.refused(&refusal))?;
+        self.found(py, &StiffnessReport { flanks: &flanks, path: &path })
+    }
+
+    fn excitation(
+        &self,
+        py: Python<'_>,
+        points: usize,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Found> {
+        let inputs = self.inputs()?;
+        within("points", points, POINTS[0], POINTS[2])?;
+        let found = run(py, progress, |go_on| Excitation::of(inputs, points, go_on))?;
+        let found = found.map_err(|refusal| self.refused(&refusal))?;
+        self.found(py, &ExcitationReport(&found))
+    }
+
+    /// A chart as SVG.
+    fn plot(&self, py: Python<'_>, chart: &str, progress: Option<Py<PyAny>>) -> PyResult<String> {
+        let picture = find(chart).ok_or_else(|| {
+            let names: Vec<&str> = pictures().map(|picture| picture.key).collect();
+            wrong(format!("{chart}: there is no such chart: write one of {}", names.join(", ")))
+        })?;
+        let source = self.unsolved()?;
+        let drawn = run(py, progress, |go_on| picture.of_case(source, go_on))?;
+        drawn.map_err(|reason| match reason {
+            NoPicture::Refused(refusal) => self.refused(&refusal),
+            NoPicture::Absent(reason) => self.failed(&reason),
+        })
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Case {:?}: {}>", self.name, self.title())
+    }
+}
+
+/// The results of a solve.
+#[pyclass(frozen, module = "tipstrike")]
+struct Solved {
+    report: Report,
+}
+
+#[pymethods]
+impl Solved {
+    /// The value of a quantity, by name or symbol, and its unit.
+    fn get<'py>(&self, py: Python<'py>, name: &str) -> Option<(Bound<'py, PyAny>, &'static str)> {
+        let quantity = Quantity::named(name)?;
+        let mut values = self.report.values();
+        let (_, value) = values.find(|(known, _)| known.key == quantity.key)?;
+        let value = if quantity.is_flag() {
+            PyBool::new(py, value != 0.0).to_owned().into_any()
+        } else {
+            PyFloat::new(py, value).into_any()
+        };
+        Some((value, quantity.unit))
+    }
+
+    fn keys(&self) -> Vec<&'static str> {
+        self.report.values().map(|(quantity, _)| quantity.key).collect()
+    }
+
+    #[getter]
+    fn method(&self) -> &'static str {
+        self.report.solution.method.name()
+    }
+
+    #[getter]
+    fn outcome(&self) -> &'static str {
+        self.report.solution.outcome.name()
+    }
+
+    #[getter]
+    fn notes(&self) -> Vec<(&'static str, &str)> {
+        self.report.notes.iter().map(|note| (note.code, note.message.as_str())).collect()
+    }
+
+    /// The line of `tipstrike solve --format json`.
+    fn json(&self) -> PyResult<String> {
+        written(|out| data::write_json(&self.report, out))
+    }
+
+    /// The text of `tipstrike solve`.
+    fn text(&self, py: Python<'_>) -> String {
+        py.detach(|| text::render(&self.report.clone().with_others()))
+    }
+
+    fn stations(&self, py: Python<'_>) -> Vec<Column> {
+        let solution = &self.report.solution;
+        let rows = if self.report.selection.stations { solution.own_stations() } else { &[] };
+        let column = |known: &crate::report::stations::Column| {
+            let values = rows.iter().map(|row| known.of(solution, row).unwrap_or(f64::NAN));
+            (known.key.to_owned(), known.unit.to_owned(), numbers(py, values))
+        };
+        columns(solution.method).map(column).collect()
+    }
+
+    /// Path of the incoming tooth, places along the face, and its line load at each of both, in SI.
+    fn face(&self, py: Python<'_>) -> Option<[Py<PyAny>; 3]> {
+        let Report { inputs, solution, .. } = &self.report;
+        let (load, mesh) = (solution.face_load.as_ref()?, solution.mesh.as_ref()?);
+        let face = Face::new(&inputs.face()?, &solution.geometry, mesh).ok()?;
+        let pattern = load.pattern.iter().flatten().copied();
+        let path = numbers(py, load.paths.iter().copied());
+        Some([path, numbers(py, face.places()), numbers(py, pattern)])
+    }
+}
+
+/// The cases side by side, as JSON and text.
+#[pyfunction]
+fn compare(
+    py: Python<'_>,
+    cases: Vec<PyRef<'_, Case>>,
+    only: Vec<String>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(String, String)> {
+    let selection = Selection { only: quantities(&only)?, stations: false };
+    let plain = |case: &PyRef<'_, Case>| {
+        let file = case.document.name().to_owned();
+        (file, case.variant.clone(), case.name.clone(), case.document.case.clone())
+    };
+    let cases: Vec<_> = cases.iter().map(plain).collect();
+    let count = cases.len();
+    let cases = run(py, progress, |go_on| {
+        let wanted = cases.into_iter().enumerate().take_while(|(at, _)| go_on(*at, count));
+        let solved = wanted.map(|(_, (file, variant, name, case))| ComparedCase {
+            file,
+            variant,
+            ..compared(name, case, &selection)
+        });
+        solved.collect::<Vec<_>>()
+    })?;
+    let comparison = Comparison { cases, selection };
+    Ok((written(|out| comparison.write_json(out))?, written(|out| comparison.write(out))?))
+}
+
+/// A report on cases in the format of a file name.
+#[pyfunction]
+fn report(
+    py: Python<'_>,
+    cases: Vec<PyRef<'_, Case>>,
+    name: PathBuf,
+    title: Option<String>,
+    no_appendix: bool,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    let format = format_of(Path::new(&name));
+    let format = format.ok_or_else(|| {
+        wrong(format!(
+            "{}: the extension selects the format: use .html, .md, .csv or .json",
+            name.display()
+        ))
+    })?;
+    let cases: Vec<&Case> = cases.iter().map(|case| &**case).collect();
+    let mut subjects = Vec::new();
+    for case in cases {
+        let (source, file) = (case.unsolved()?, case.text());
+        let call = progress.as_ref().map(|call| call.clone_ref(py));
+        let subject = run(py, call, |go_on| source.subject(file, format, go_on))?;
+        subjects.push(subject.map_err(|refusal| case.refused(&refusal))?);
+    }
+    Ok(render(format, &subjects, &page::Settings { title, no_appendix })?)
+}
+
+/// The SI unit of each field; empty for bare numbers.
+#[pyfunction]
+fn units() -> Vec<(&'static str, &'static str)> {
+    let unit = |kind: &Kind| match kind {
+        Kind::Number(dimension, ..) => dimension.si_unit(),
+        _ => "",
+    };
+    FIELDS.iter().map(|field| (field.key, unit(&field.kind))).collect()
+}
+
+/// The text of a built-in example.
+#[pyfunction]
+fn example(name: &str) -> PyResult<&'static str> {
+    crate::case::Example::find(name).map(|example| example.text).map_err(wrong)
+}
+
+/// The command: its exit code. The workbench ends the process.
+#[pyfunction]
+fn main(arguments: Vec<OsString>) -> u8 {
+    crate::system::report_file_limit_as_error();
+    let mut streams = Streams::standard();
+    match cli::parse(arguments, &mut streams) {
+        Err(exit) => exit as u8,
+        Ok(Arguments { command: Some(command), .. }) => cli::run(&command, &mut streams) as u8,
+        #[cfg(unix)]
+        Ok(Arguments { case, .. }) => crate::tui::run(case),
+        #[cfg(not(unix))]
+        Ok(_) => cli::refuse_workbench(&mut streams) as u8,
+    }
+}
+
+#[pymodule]
+mod _tipstrike {
+    #[pymodule_export]
+    use super::{Case, Solved, compare, example, main, report, units};
+}
