@@ -466,6 +466,7 @@ impl Case {
         spectrum: Option<&str>,
         tolerance: &str,
         tolerance_length: Option<&str>,
+        misalignment: &str,
         minimise: &str,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Found> {
@@ -476,6 +477,7 @@ impl Case {
             spectrum: spectrum.map_or(Ok(Vec::new()), demand::spectrum).map_err(wrong)?,
             tolerance: demand::tolerance(tolerance).map_err(wrong)?,
             tolerance_length: tolerance_length.map(demand::tolerance).transpose().map_err(wrong)?,
+            misalignment: demand::tolerance(misalignment).map_err(wrong)?,
             minimise: minimise.ok_or_else(|| wrong("minimise: write te, peak or entry"))?,
         };
         let inputs = self.inputs()?;

@@ -359,11 +359,11 @@ def seek(case, vary, until, *, points=201, method=None, variant=None, jobs=None,
     return _study(Study, opened.seek(vary, until, points, jobs, _progress(progress)))
 
 
-def relief(case, *, load="25..110%", spectrum=None, tolerance="5 um", tolerance_length=None, minimise="te",
-           method=None, variant=None, progress=None, **changes):
+def relief(case, *, load="25..110%", spectrum=None, tolerance="5 um", tolerance_length=None,
+           misalignment="0 um", minimise="te", method=None, variant=None, progress=None, **changes):
     """The tip relief to specify on both gears, and what each kind of relief gains and costs."""
     opened = _opened(case, changes, variant, method)
-    options = (load, spectrum, tolerance, tolerance_length, minimise)
+    options = (load, spectrum, tolerance, tolerance_length, misalignment, minimise)
     return _study(Study, opened.relief(*options, _progress(progress)))
 
 
