@@ -381,13 +381,13 @@ impl Case {
         }
         let batch = Batch { inputs: &inputs, points: &grid, quantities: &quantities };
         let mut rows = Vec::with_capacity(grid.count());
-        drop(run(py, progress, |go_on| {
+        let _ = run(py, progress, |go_on| {
             let control = Control { jobs, go_on };
             solve_all(&batch, 0..grid.count(), &control, &mut |_, solved| {
                 rows.extend_from_slice(solved);
                 true
             })
-        })?);
+        })?;
         let mut refusals = Refusals::default();
         refusals.count(0, &rows);
         let notes = refusals.0.iter().map(|refused| refused.sentence(&grid)).collect();
@@ -415,14 +415,14 @@ impl Case {
         let (mut rows, mut found) = (Vec::new(), Samples::of(&study));
         let (points, quantities) = (&study.design, &study.quantities);
         let batch = Batch { inputs: &inputs, points, quantities };
-        drop(run(py, progress, |go_on| {
+        let _ = run(py, progress, |go_on| {
             let control = Control { jobs, go_on };
             solve_all(&batch, 0..points.count(), &control, &mut |first, solved| {
                 found.add(first, solved);
                 rows.extend_from_slice(solved);
                 true
             })
-        })?);
+        })?;
         let case = &self.document.case;
         let report =
             ToleranceReport { case, method: inputs.method, study: &study, samples: &found };
