@@ -226,16 +226,25 @@ impl Case {
     }
 
     /// Writes the limit of a quantity, with a valid or an invalid text. An empty text leaves an
-    /// empty limit until [`Case::drop_empty_limits`].
+    /// empty limit until [`Case::drop_empty`].
     pub fn write_limit(&mut self, quantity: &'static str, text: &str) {
         let unread = Limit { quantity, text: text.to_owned(), value: f64::INFINITY, of: None };
         let limit = Limit::new(quantity, text).unwrap_or(unread);
         keep(&mut self.limits, limit, |held| held.quantity == quantity);
     }
 
-    /// Removes the empty limits except the limit of the named quantity.
-    pub fn drop_empty_limits(&mut self, but: Option<&str>) {
+    /// Writes the distribution of a field, as [`Case::write_limit`] writes a limit.
+    pub fn write_spread(&mut self, field: &'static str, text: &str) {
+        let unread =
+            Spread { field, text: text.to_owned(), shape: spread::Shape::Normal, width: 0.0 };
+        let spread = Spread::new(field, text).unwrap_or(unread);
+        keep(&mut self.spread, spread, |held| held.field == field);
+    }
+
+    /// Removes the empty limits and distributions except that of the named quantity or field.
+    pub fn drop_empty(&mut self, but: Option<&str>) {
         self.limits.retain(|limit| !limit.text.is_empty() || Some(limit.quantity) == but);
+        self.spread.retain(|spread| !spread.text.is_empty() || Some(spread.field) == but);
     }
 
     /// Checks the text of one field alone.

@@ -90,10 +90,7 @@ impl Case {
             self.spread.retain(|held| held.field != field);
             return Ok(());
         }
-        let (shape, width) = text.split_once(' ').unwrap_or((text, ""));
-        super::keep(&mut self.spread, Spread::new(field, shape, width)?, |held| {
-            held.field == field
-        });
+        super::keep(&mut self.spread, Spread::new(field, text)?, |held| held.field == field);
         Ok(())
     }
 }
@@ -131,7 +128,7 @@ pub(super) fn texts(case: &Case) -> Vec<(String, String)> {
         .filter_map(|(index, field)| Some((field.key.to_owned(), case.text(index)?.to_owned())));
     let limits =
         case.limits.iter().map(|limit| (format!("limits.{}", limit.quantity), limit.text.clone()));
-    let spreads = case.spread.iter().map(|held| (spread::place(held.field), held.in_words()));
+    let spreads = case.spread.iter().map(|held| (spread::place(held.field), held.text.clone()));
     let overrides = case.variants.iter().flat_map(|variant| {
         let of = |change: &Override| (variant.place(&change.key), change.text.clone());
         variant.overrides.iter().map(of)
@@ -157,7 +154,7 @@ mod tests {
             case.write(fields::index_of(key).expect("a field"), text);
         }
         case.limits = vec![Limit::new("dynamic_factor", "1.5").expect("a limit")];
-        case.spread.push(Spread::new("pair.module", "normal", "4 um").expect("a distribution"));
+        case.spread.push(Spread::new("pair.module", "normal 4 um").expect("a distribution"));
         let change =
             |key: &str, text: &str| Override { key: key.to_owned(), text: text.to_owned() };
         let overrides = vec![

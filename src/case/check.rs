@@ -2,7 +2,7 @@
 
 use super::fields::{Absent, FIELDS, Field, index_of};
 use super::problem::MISSING;
-use super::{Case, Fix, Limit, Problem};
+use super::{Case, Fix, Limit, Problem, Spread};
 use crate::case::fields::{AUTO, Kind, List, Range, Value};
 use crate::case::sanitize::{cut, quoted};
 use crate::case::suggest;
@@ -32,10 +32,13 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
         .collect();
     problems.extend(rules);
     problems.sort_by_key(|problem| index_of(&problem.field));
-    // Valid limits are not read again.
+    // Valid limits and distributions are not read again.
     let unread = case.limits.iter().filter(|limit| limit.value.is_infinite());
     let unread = unread.filter(|limit| !limit.text.is_empty());
     problems.extend(unread.filter_map(|limit| Limit::new(limit.quantity, &limit.text).err()));
+    let unread = case.spread.iter().filter(|spread| spread.width == 0.0);
+    let unread = unread.filter(|spread| !spread.text.is_empty());
+    problems.extend(unread.filter_map(|spread| Spread::new(spread.field, &spread.text).err()));
     // Other methods do not use the needs: a limit does not change their results.
     if inputs.method == Method::Auto {
         let limited = case.limits.iter().flat_map(Limit::quantities);

@@ -40,33 +40,40 @@ impl Shape {
 pub struct Spread {
     /// The field's key.
     pub field: &'static str,
+    /// Shape and width as the user wrote them, such as "normal 4 um".
+    pub text: String,
     /// Its shape.
     pub shape: Shape,
-    /// Its width as the user wrote it.
-    pub text: String,
-    /// Its width in SI, or the flank tolerance class.
+    /// Its width in SI, or the flank tolerance class; 0 while the text in a form is invalid.
     pub width: f64,
 }
 
 impl Spread {
-    /// A distribution from the field's key, the shape's name and the width as written.
+    /// A distribution from the field's key and the shape's name with the width.
     ///
     /// # Errors
     /// If the field cannot have a distribution, the shape is unknown, or the width is not a value
     /// of the field's dimension.
-    pub fn new(key: &str, shape: &str, text: &str) -> Result<Spread, Problem> {
-        Spread::read(key, shape, text).map_err(|problem| problem.at(&place(key)))
+    pub fn new(key: &str, text: &str) -> Result<Spread, Problem> {
+        Spread::read(key, text).map_err(|problem| problem.at(&place(key)))
     }
 
-    fn read(key: &str, shape: &str, text: &str) -> Result<Spread, Problem> {
+    fn read(key: &str, text: &str) -> Result<Spread, Problem> {
         let (field, dimension) = spreadable(key)?;
+        let (shape, written) = parts(text);
         let shape = named(shape)?;
         let width = if shape == Shape::Grade {
-            grade(field, text)?
+            grade(field, written)?
         } else {
-            width(dimension, field, text)?
+            width(dimension, field, written)?
         };
-        Ok(Spread { field: field.key, shape, text: text.to_owned(), width })
+        Ok(Spread { field: field.key, text: text.to_owned(), shape, width })
+    }
+
+    /// The width as the user wrote it.
+    #[must_use]
+    pub fn written_width(&self) -> &str {
+        parts(&self.text).1
     }
 
     /// The problem of an entry without exactly one shape and one width. `shape` is the name of its
@@ -88,12 +95,11 @@ impl Spread {
         };
         problem.at(&place(key))
     }
+}
 
-    /// The distribution as text, such as "normal 4 um".
-    #[must_use]
-    pub fn in_words(&self) -> String {
-        format!("{} {}", self.shape.name(), self.text)
-    }
+/// The name of the shape and the width in the text of a distribution.
+pub(crate) fn parts(text: &str) -> (&str, &str) {
+    text.split_once(' ').unwrap_or((text, ""))
 }
 
 /// A field that can have a distribution, and its dimension.

@@ -218,8 +218,8 @@ fn a_form_accepts_an_incomplete_limit() {
     assert_eq!((case.limits.len(), case.limits[0].value), (1, 2600.0));
     case.write_limit("normal_velocity", "");
     assert!(case.inputs().is_ok());
-    case.drop_empty_limits(Some("normal_velocity"));
+    case.drop_empty(Some("normal_velocity"));
     assert_eq!(case.limits.len(), 2);
-    case.drop_empty_limits(None);
+    case.drop_empty(None);
     assert_eq!(case.limits.len(), 1);
 }

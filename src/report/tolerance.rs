@@ -203,7 +203,7 @@ impl Results for ToleranceReport<'_> {
             json!({
                 "field": spread.field,
                 "shape": spread.shape.name(),
-                "width": spread.text,
+                "width": spread.written_width(),
                 "centre": distribution.centre,
                 "unit": distribution.unit_or_one(),
             })
@@ -246,7 +246,7 @@ pub(super) fn distributions(case: &Case) -> Vec<(&'static str, String)> {
     let of = |spread: &Spread| {
         let value = index_of(spread.field).and_then(|field| case.effective(field));
         let value = sanitize(value.unwrap_or_default());
-        (spread.field, format!("{value}, {}", sanitize(&spread.in_words())))
+        (spread.field, format!("{value}, {}", sanitize(&spread.text)))
     };
     case.spread.iter().map(of).collect()
 }

@@ -201,7 +201,7 @@ impl Distribution {
         };
         let distribution = Distribution { field, centre, width, shape };
         let Some(end) = distribution.beyond() else { return Ok(distribution) };
-        let (words, range) = (spread.in_words(), FIELDS[field].range_text());
+        let (words, range) = (&spread.text, FIELDS[field].range_text());
         refused(
             format!("{words} reaches {end}, outside the field's range"),
             format!(
@@ -324,7 +324,7 @@ mod tests {
     #[test]
     fn a_grade_is_the_deviation_of_iso_1328_of_the_larger_gear() {
         let case = Case::table_1();
-        let spread = Spread::new("deviations.base_pitch", "grade", "7").unwrap();
+        let spread = Spread::new("deviations.base_pitch", "grade 7").unwrap();
         let found = Distribution::of(&spread, &case, &case.inputs().unwrap()).unwrap();
         let allowed = 14e-6 * 20_f64.to_radians().cos();
         assert!((found.width - allowed).abs() < 1e-18 && found.shape == Shape::Truncated);
@@ -334,20 +334,20 @@ mod tests {
     fn a_spread_that_leaves_the_range_or_has_no_value_is_refused() {
         let mut case = Case::table_1();
         case.set("driven.tip_relief", "10 um").unwrap();
-        let refusal = |key, shape, width| {
-            let spread = Spread::new(key, shape, width).unwrap();
+        let refusal = |key, text| {
+            let spread = Spread::new(key, text).unwrap();
             let found = Distribution::of(&spread, &case, &case.inputs().unwrap());
             found.map_err(|problem| problem.to_string())
         };
-        let message = refusal("driven.tip_relief", "uniform", "12 um").unwrap_err();
+        let message = refusal("driven.tip_relief", "uniform 12 um").unwrap_err();
         assert!(
             message.starts_with("spread.\"driven.tip_relief\": uniform 12 um reaches -2 um"),
             "{message}"
         );
-        let message = refusal("driven.tip_relief", "normal", "3 um").unwrap_err();
+        let message = refusal("driven.tip_relief", "normal 3 um").unwrap_err();
         assert!(message.contains("-5 um at 5 standard deviations"), "{message}");
-        assert!(refusal("driven.tip_relief", "truncated", "10 um").is_ok());
-        let message = refusal("operation.torque", "normal", "1 N m").unwrap_err();
+        assert!(refusal("driven.tip_relief", "truncated 10 um").is_ok());
+        let message = refusal("operation.torque", "normal 1 N m").unwrap_err();
         assert!(message.contains("operation.torque has no value to spread around"), "{message}");
     }
 }

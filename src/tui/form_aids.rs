@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use crate::case::fields::{Absent, FIELDS, Field, Kind, index_of};
 use crate::case::units::{self, Dimension, Open, System};
-use crate::case::{Case, Fix, Limit, Problem};
+use crate::case::{Case, Fix, Limit, Problem, Spread, changes};
 use crate::model::Quantity;
 use crate::model::explanation::tidy;
 use crate::numeric::decimal::significant;
@@ -148,6 +148,13 @@ pub(crate) fn step_limit(text: &str, quantity: &str, by: isize) -> Option<String
     moved(text, by, |text| Limit::new(quantity, text).is_ok_and(|limit| limit.value >= 0.0))
 }
 
+/// The text of a distribution after steps of the last digit of its width.
+pub(crate) fn step_spread(spread: &Spread, by: isize) -> Option<String> {
+    let text = |width: &str| format!("{} {width}", spread.shape.name());
+    moved(spread.written_width(), by, |width| Spread::new(spread.field, &text(width)).is_ok())
+        .map(|width| text(&width))
+}
+
 /// Whether the field accepts the text by itself.
 fn is_taken(field: usize, text: &str) -> bool {
     let mut case = Case::empty();
@@ -216,8 +223,8 @@ fn for_form(sentence: &str) -> String {
     parts.collect::<String>().replace(MARKS, "")
 }
 
-/// The name of the field of a key: `module`, `the driver's tip relief`, `limit of impact force`;
-/// the key itself if it belongs to no field.
+/// The name of the field of a key: `module`, `the driver's tip relief`, `limit of impact force`,
+/// `spread of module`; the key itself if it belongs to no field.
 fn called(key: &str) -> String {
     if let Some(field) = index_of(key) {
         let Field { label, .. } = FIELDS[field];
@@ -227,11 +234,7 @@ fn called(key: &str) -> String {
             _ => label.to_owned(),
         };
     }
-    let quantity = key.strip_prefix("limits.").and_then(Quantity::find);
-    quantity.map_or_else(
-        || key.to_owned(),
-        |quantity| format!("limit of {}", quantity.label.trim_start()),
-    )
+    changes::label(key)
 }
 
 #[cfg(test)]
@@ -444,6 +447,7 @@ mod tests {
         assert_eq!(called("pair.module"), "module");
         assert_eq!(called("driven.tip_relief_length"), "the driven gear's tip relief length");
         assert_eq!(called("limits.impact_force"), "limit of impact force");
+        assert_eq!(called("spread.\"driver.tip_relief\""), "spread of driver tip relief");
         assert_eq!(called("pair.modul"), "pair.modul");
         assert_eq!(
             for_form("set model.tooth_compliance to beam, or leave it out"),

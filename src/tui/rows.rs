@@ -1,10 +1,13 @@
-//! The focusable rows of the form: the fields, then the limits of the case.
+//! The focusable rows of the form: the fields, then the limits and distributions of the case.
+
+use std::borrow::Cow;
 
 use crate::case::fields::{AUTO, Absent, Field, index_of};
+use crate::case::spread::{Shape, parts};
 use crate::case::units::{self, System};
-use crate::case::{Case, FIELDS, Limit};
+use crate::case::{Case, FIELDS, Limit, Spread};
 use crate::model::{Inputs, Quantity};
-use crate::tui::form_aids::{Measure, step_limit};
+use crate::tui::form_aids::{Measure, step_limit, step_spread};
 
 /// The content of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,34 +16,51 @@ pub(crate) enum Row<'c> {
     Field(usize),
     /// A limit of the case.
     Limit(&'c Limit),
+    /// A distribution of a field.
+    Spread(&'c Spread),
+}
+
+impl Row<'_> {
+    /// The limited quantity, or the field of the distribution.
+    pub(crate) fn entry(self) -> Option<&'static str> {
+        match self {
+            Row::Field(_) => None,
+            Row::Limit(limit) => Some(limit.quantity),
+            Row::Spread(spread) => Some(spread.field),
+        }
+    }
 }
 
 /// The number of rows.
 pub fn count(case: &Case) -> usize {
-    FIELDS.len() + case.limits.len()
+    FIELDS.len() + case.limits.len() + case.spread.len()
 }
 
 /// The content of a row; for an index beyond the last row, the last field.
 pub(crate) fn row(case: &Case, at: usize) -> Row<'_> {
-    let limit = at.checked_sub(FIELDS.len()).and_then(|at| case.limits.get(at));
-    limit.map_or(Row::Field(at.min(FIELDS.len() - 1)), Row::Limit)
+    let mut entries = case.limits.iter().map(Row::Limit).chain(case.spread.iter().map(Row::Spread));
+    let entry = at.checked_sub(FIELDS.len()).and_then(|at| entries.nth(at));
+    entry.unwrap_or(Row::Field(at.min(FIELDS.len() - 1)))
 }
 
-/// The row of a key, such as `pair.module` or `limits.impact_force`.
+/// The row of a key, such as `pair.module`, `limits.impact_force` or `spread."pair.module"`.
 pub(crate) fn of_key(case: &Case, key: &str) -> Option<usize> {
-    index_of(key).or_else(|| of_limit(case, key.strip_prefix("limits.")?))
+    let spread = key.strip_prefix("spread.").map(|field| field.trim_matches('"'));
+    index_of(key).or_else(|| of_entry(case, key.strip_prefix("limits.").or(spread)?))
 }
 
-/// The row of the limit of a quantity.
-pub(crate) fn of_limit(case: &Case, quantity: &str) -> Option<usize> {
-    case.limits.iter().position(|limit| limit.quantity == quantity).map(|at| FIELDS.len() + at)
+/// The row of the limit of a quantity, or of the distribution of a field.
+pub(crate) fn of_entry(case: &Case, key: &str) -> Option<usize> {
+    (FIELDS.len()..count(case)).find(|&at| row(case, at).entry() == Some(key))
 }
 
 /// The text of a row.
 pub fn text(case: &Case, at: usize) -> Option<&str> {
     match row(case, at) {
         Row::Field(field) => case.text(field),
-        Row::Limit(limit) => Some(limit.text.as_str()).filter(|text| !text.is_empty()),
+        Row::Limit(Limit { text, .. }) | Row::Spread(Spread { text, .. }) => {
+            Some(text.as_str()).filter(|text| !text.is_empty())
+        }
     }
 }
 
@@ -49,6 +69,7 @@ pub(crate) fn differs(case: &Case, other: &Case, at: usize) -> bool {
     match row(case, at) {
         Row::Field(field) => case.text(field) != other.text(field),
         Row::Limit(limit) => !other.limits.contains(limit),
+        Row::Spread(spread) => !other.spread.contains(spread),
     }
 }
 
@@ -57,25 +78,48 @@ pub(crate) fn write(case: &mut Case, at: usize, text: &str) {
     match row(case, at) {
         Row::Field(field) => case.write(field, text),
         Row::Limit(&Limit { quantity, .. }) => case.write_limit(quantity, text),
+        Row::Spread(&Spread { field, .. }) => case.write_spread(field, text),
     }
 }
 
-/// The dimension and unit of the number in a row.
-fn measure(case: &Case, at: usize, system: System) -> Option<Measure> {
-    match row(case, at) {
-        Row::Field(field) => Measure::of_field(&FIELDS[field], system),
-        Row::Limit(limit) => Measure::of_quantity(Quantity::find(limit.quantity)?, system),
-    }
+/// The number in the text of a row, with its dimension and unit.
+fn measure<'t>(
+    case: &Case,
+    at: usize,
+    text: &'t str,
+    system: System,
+) -> Option<(&'t str, Measure)> {
+    let measure = match row(case, at) {
+        Row::Field(field) => Measure::of_field(&FIELDS[field], system)?,
+        Row::Limit(limit) => Measure::of_quantity(Quantity::find(limit.quantity)?, system)?,
+        Row::Spread(spread) => {
+            let (shape, width) = parts(text);
+            let measure = Measure::of_field(&FIELDS[index_of(spread.field)?], system)?;
+            return Some((width, measure)).filter(|_| shape != Shape::Grade.name());
+        }
+    };
+    Some((text, measure))
 }
 
-/// The unit in the text of a row, as written.
+/// The unit in the text of a row, as written; of a distribution without one, the unit of its field.
 pub(crate) fn written_unit(case: &Case, at: usize) -> Option<String> {
-    let measure = measure(case, at, System::Metric)?;
-    units::written_unit(text(case, at)?, measure.dimension).map(str::to_owned)
+    let known = text(case, at).unwrap_or_default();
+    let (number, measure) = measure(case, at, known, System::Metric)?;
+    match (units::written_unit(number, measure.dimension), row(case, at)) {
+        (None, Row::Spread(spread)) => written_unit(case, index_of(spread.field)?),
+        (unit, _) => unit.map(str::to_owned),
+    }
 }
 
-/// The completion of a text typed into a row: the unit in which its value was written, otherwise
-/// the displayed unit.
+/// The rest of the name of a distribution whose first letters are typed.
+pub(crate) fn rest_of_shape(case: &Case, at: usize, typed: &str) -> Option<&'static str> {
+    let is_begun = matches!(row(case, at), Row::Spread(_)) && !typed.is_empty();
+    let rest = |shape: Shape| shape.name().strip_prefix(typed).filter(|rest| !rest.is_empty());
+    Shape::ALL.into_iter().filter(|_| is_begun).find_map(rest)
+}
+
+/// The completion of a text typed into a row: the name of a distribution, or the unit in which its
+/// value was written, otherwise the displayed unit.
 pub(crate) fn ending(
     case: &Case,
     at: usize,
@@ -83,15 +127,20 @@ pub(crate) fn ending(
     written: Option<&str>,
     system: System,
 ) -> Option<String> {
-    let measure = measure(case, at, system)?;
-    units::ending(typed, measure.dimension, written.unwrap_or(measure.unit))
+    if let Some(rest) = rest_of_shape(case, at, typed) {
+        return Some(rest.to_owned());
+    }
+    let (number, measure) = measure(case, at, typed, system)?;
+    units::ending(number, measure.dimension, written.unwrap_or(measure.unit))
 }
 
 /// Whether an invalid text of a row is merely unfinished: further typing may complete it.
 pub(crate) fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
     let takes_auto = field(case, at).is_some_and(Field::takes_auto);
     takes_auto && AUTO.starts_with(typed.trim())
-        || measure(case, at, System::Metric).is_some_and(|measure| measure.is_unfinished(typed))
+        || rest_of_shape(case, at, typed).is_some()
+        || measure(case, at, typed, System::Metric)
+            .is_some_and(|(number, measure)| measure.is_unfinished(number))
 }
 
 /// The text of a row after a step.
@@ -99,6 +148,7 @@ pub(crate) fn stepped(case: &Case, at: usize, by: isize) -> Option<String> {
     match row(case, at) {
         Row::Field(field) => case.stepped(field, by),
         Row::Limit(limit) => step_limit(&limit.text, limit.quantity, by),
+        Row::Spread(spread) => step_spread(spread, by),
     }
 }
 
@@ -111,32 +161,51 @@ pub fn names(case: &Case, at: usize) -> &'static [&'static str] {
 pub fn field(case: &Case, at: usize) -> Option<&'static Field> {
     match row(case, at) {
         Row::Field(field) => Some(&FIELDS[field]),
-        Row::Limit(_) => None,
+        Row::Limit(_) | Row::Spread(_) => None,
     }
 }
 
 /// The symbol, empty without one, and the label of a row.
-pub(crate) fn names_of(case: &Case, at: usize) -> [&'static str; 2] {
+pub(crate) fn names_of(case: &Case, at: usize) -> (&'static str, Cow<'static, str>) {
+    let plain = |symbol, label: &'static str| (symbol, Cow::Borrowed(label));
     match row(case, at) {
-        Row::Field(field) => [FIELDS[field].symbol, FIELDS[field].label],
+        Row::Field(field) => plain(FIELDS[field].symbol, FIELDS[field].label),
         Row::Limit(limit) => Quantity::find(limit.quantity)
-            .map_or(["", limit.quantity], |quantity| {
-                [quantity.symbol, quantity.label.trim_start()]
+            .map_or(plain("", limit.quantity), |quantity| {
+                plain(quantity.symbol, quantity.label.trim_start())
             }),
+        Row::Spread(spread) => index_of(spread.field).map_or(plain("", spread.field), |field| {
+            (FIELDS[field].symbol, FIELDS[field].full_label().into())
+        }),
     }
 }
 
 /// The label of a row, with the gear if both gears have the field.
 pub(crate) fn full_label(case: &Case, at: usize) -> String {
-    let [_, label] = names_of(case, at);
-    field(case, at).map_or_else(|| format!("limit of {label}"), Field::full_label)
+    let (_, label) = names_of(case, at);
+    match row(case, at) {
+        Row::Field(field) => FIELDS[field].full_label(),
+        Row::Limit(_) => format!("limit of {label}"),
+        Row::Spread(_) => format!("spread of {label}"),
+    }
+}
+
+/// The title of the group of a row outside the fields.
+pub(crate) fn title_of_entries(case: &Case, at: usize) -> Option<&'static str> {
+    match row(case, at) {
+        Row::Field(_) => None,
+        Row::Limit(_) => Some("Limits"),
+        Row::Spread(_) => Some("Spread, for the tolerance"),
+    }
 }
 
 /// The first rows of the groups.
 pub(crate) fn groups(case: &Case) -> Vec<usize> {
     let begins = |at: usize| match row(case, at) {
         Row::Field(field) => field == 0 || FIELDS[field].table() != FIELDS[field - 1].table(),
-        Row::Limit(_) => at == FIELDS.len(),
+        Row::Limit(_) | Row::Spread(_) => {
+            title_of_entries(case, at) != title_of_entries(case, at - 1)
+        }
     };
     (0..count(case)).filter(|&at| begins(at)).collect()
 }

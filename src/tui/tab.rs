@@ -7,7 +7,7 @@ use super::panes::form::FormState;
 use super::panes::results::ResultsState;
 use super::panes::study::Study;
 use super::panes::trade::Traded;
-use super::rows::{self, Row};
+use super::rows;
 use super::session::{Access, OpenCase};
 use super::solver::{Answer, Values, Variants};
 use super::text::Line;
@@ -223,16 +223,13 @@ impl Tab {
         self.earlier = self.answer.as_ref().map(Answer::values);
     }
 
-    /// Focuses a row of the form, with the cursor at the end of its text. Leaving an empty limit
-    /// removes it.
+    /// Focuses a row of the form, with the cursor at the end of its text. Leaving an empty limit or
+    /// distribution removes it.
     pub(super) fn focus_on(&mut self, at: usize) {
         let at = at.min(rows::count(&self.case) - 1);
-        let limit = match rows::row(&self.case, at) {
-            Row::Limit(limit) => Some(limit.quantity),
-            Row::Field(_) => None,
-        };
-        self.case.drop_empty_limits(limit);
-        let focus = limit.and_then(|quantity| rows::of_limit(&self.case, quantity)).unwrap_or(at);
+        let entry = rows::row(&self.case, at).entry();
+        self.case.drop_empty(entry);
+        let focus = entry.and_then(|key| rows::of_entry(&self.case, key)).unwrap_or(at);
         self.form = FormState { top: self.form.top, ..FormState::at(&self.case, focus) };
         self.history.end_visit();
     }
@@ -392,7 +389,7 @@ mod tests {
         let second = edited(&first, &|case| case.write(3, "6 mm"));
         let third = edited(&second, &|case| case.write_limit("friction_ratio", "0.5"));
         let fourth = edited(&third, &|case| {
-            case.spread.push(Spread::new("pair.module", "normal", "4 um").unwrap());
+            case.spread.push(Spread::new("pair.module", "normal 4 um").unwrap());
         });
         let fifth = edited(&fourth, &|case| {
             (0..9).for_each(|field| case.write(field, ""));

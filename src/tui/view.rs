@@ -22,8 +22,8 @@ use super::panes::trade::{self, TradePane};
 use super::rows::{self, Row};
 use super::text::{self, symbol};
 use super::update::commands::BINDINGS;
-use crate::case::fields::{Absent, Field, Kind};
-use crate::case::{Acting, FIELDS, Limit, partial_relevance, relevance};
+use crate::case::fields::{Absent, Field, Kind, index_of};
+use crate::case::{Acting, FIELDS, Limit, Spread, partial_relevance, relevance};
 use crate::model::inputs::Method;
 use crate::report::verdict::verdicts;
 use crate::study::trade::Trade;
@@ -139,6 +139,7 @@ fn focused(app: &App) -> String {
             let about = match rows::row(&app.tab.case, app.tab.form.focus) {
                 Row::Field(field) => about_field(app, field),
                 Row::Limit(limit) => about_limit(app, limit),
+                Row::Spread(spread) => about_spread(app, spread),
             };
             typed(app).into_iter().chain([about]).collect::<Vec<_>>().join(" ")
         }
@@ -187,7 +188,7 @@ fn about_field(app: &App, index: usize) -> String {
         _ => partial_relevance(index, inputs).map(|why| format!("Limited effect: {why}.")),
     };
     let spread = case.spread.iter().find(|spread| spread.field == field.key);
-    let spread = spread.map(|spread| format!("Spread: {}.", spread.in_words()));
+    let spread = spread.map(|spread| format!("Spread: {}.", spread.text));
     let material = match materials::of_gear(case, field.table())[..] {
         [material] if matches!(field.name(), "young" | "poisson" | "density") => {
             Some(format!("{}: {}.", material.name, material.source))
@@ -208,14 +209,31 @@ fn about_field(app: &App, index: usize) -> String {
 }
 
 fn about_limit(app: &App, limit: &Limit) -> String {
-    let [_, name] = rows::names_of(&app.tab.case, app.tab.form.focus);
+    let (_, name) = rows::names_of(&app.tab.case, app.tab.form.focus);
     let solution = app.tab.present().filter(|_| !limit.text.is_empty());
     let verdicts = solution.map_or_else(Vec::new, |solution| verdicts(&app.tab.case, solution));
     let verdict = verdicts.iter().find(|verdict| verdict.limit.quantity == limit.quantity);
     let sentence = verdict.map(|verdict| {
         format!("{} {}. ", verdict.standing.word(), verdict.sentence(app.settings.units))
     });
-    format!("{}Upper limit of {name}; empty: no limit.", sentence.unwrap_or_default())
+    format!(
+        "{}Upper limit of {name}, or a multiple such as 1.3 x mesh_force or 1.3 x nominal; empty: no \
+            limit.",
+        sentence.unwrap_or_default()
+    )
+}
+
+fn about_spread(app: &App, spread: &Spread) -> String {
+    let case = &app.tab.case;
+    let (_, name) = rows::names_of(case, app.tab.form.focus);
+    let field = index_of(spread.field);
+    let value = field.and_then(|field| case.effective(field)).unwrap_or("its value");
+    let unit = field.map_or("", |field| FIELDS[field].usual_unit());
+    let grade = if spread.field.ends_with("base_pitch") { ", grade 7 (ISO 1328-1)" } else { "" };
+    format!(
+        "Distribution of {name} around {value}, sampled by the tolerance: normal 1 {unit} (standard \
+            deviation), uniform, triangular or truncated 1 {unit} (half the span){grade}; empty: none."
+    )
 }
 
 fn at_cursor(app: &App) -> String {

@@ -574,7 +574,7 @@ fn any_case() -> impl Strategy<Value = Case> {
         }
         if spread {
             case.limits.push(Limit::new("dynamic_factor", "1.5").unwrap());
-            case.spread.push(Spread::new("pair.module", "normal", "4 um").unwrap());
+            case.spread.push(Spread::new("pair.module", "normal 4 um").unwrap());
         }
         case
     })

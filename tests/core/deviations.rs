@@ -1,7 +1,6 @@
 //! How deviations of both gears and a backlash make the incoming tooth early.
 use crate::support::standard_pair;
 
-use tipstrike::case::spread::Shape;
 use tipstrike::case::{Case, Spread};
 use tipstrike::model::inputs::{Combination, Method};
 use tipstrike::model::{Inputs, QUANTITIES, Quantity, Solution, Stage, Stages, solve};
@@ -45,7 +44,7 @@ fn deviations_drawn_gear_by_gear_are_summed() {
             case.set("driver.base_pitch", "").unwrap();
             case.set("driven.base_pitch", "").unwrap();
         }
-        let narrow = |key: &&str| Spread::new(key, Shape::Uniform.name(), "1e-9 um").unwrap();
+        let narrow = |key: &&str| Spread::new(key, "uniform 1e-9 um").unwrap();
         case.spread = keys.iter().map(narrow).collect();
         let inputs = case.inputs().unwrap();
         let only: Vec<&Quantity> = Quantity::find("equivalent_error").into_iter().collect();

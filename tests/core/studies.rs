@@ -267,7 +267,7 @@ fn spread_case(lines: &[(&str, &str, &str)]) -> Case {
     let mut case = Case::table_1();
     case.set("model.deflection", "").unwrap();
     for (field, shape, width) in lines {
-        case.spread.push(Spread::new(field, shape, width).unwrap());
+        case.spread.push(Spread::new(field, &format!("{shape} {width}")).unwrap());
     }
     case
 }

@@ -203,7 +203,7 @@ fn values(case: &Case) -> BTreeSet<(String, String)> {
     let limits = case.limits.iter();
     let limits = limits.map(|limit| (key("limits", limit.quantity), limit.text.clone()));
     let spread = case.spread.iter();
-    let spread = spread.map(|spread| (key("spread", spread.field), spread.in_words()));
+    let spread = spread.map(|spread| (key("spread", spread.field), spread.text.clone()));
     let variants = case.variants.iter().flat_map(|variant| {
         let above = format!("variants.{}", variant.name);
         let change = variant.overrides.iter();
@@ -227,7 +227,7 @@ impl Other {
             Other::Case(edit) => edit.apply(case),
             Other::Spread(field, shape, width) => {
                 let at = case.spread.iter().position(|own| own.field == *field);
-                match (Spread::new(field, shape, width), at) {
+                match (Spread::new(field, &format!("{shape} {width}")), at) {
                     (Ok(new), Some(at)) => case.spread[at] = new,
                     (Ok(new), None) => case.spread.push(new),
                     (Err(_), Some(at)) => drop(case.spread.remove(at)),

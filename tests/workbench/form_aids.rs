@@ -137,6 +137,37 @@ fn a_new_limit_starts_at_the_result_and_an_empty_one_is_removed() {
 }
 
 #[test]
+fn a_distribution_of_a_field_is_a_row_that_the_tolerance_samples() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.go_to("deviations.base_pitch").keys(&["Alt-D"]);
+    desk.assert_shows("(no distribution)");
+    desk.keys(&["n", " ", "4"]);
+    desk.assert_shows("normal 4 um");
+    desk.keys(&["Shift-Up"]);
+    let texts = |desk: &Desk| {
+        desk.app.tab.case.spread.iter().map(|spread| spread.text.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(texts(&desk), ["normal 5 um"]);
+    desk.keys(&["Ctrl-S"]);
+    let line = "\"deviations.base_pitch\" = { normal = \"5 um\" }\n";
+    let saved = desk.read("case.toml");
+    assert!(saved.contains(line), "{saved}");
+    assert_eq!(saved.replace(&format!("\n[spread]\n{line}"), ""), TABLE_1);
+    desk.keys(&["Esc", "6", "d"]);
+    desk.assert_shows("10000 samples");
+    // Another one is wrong until it is removed; undo restores it.
+    desk.keys(&["1"]).go_to("driver.tip_relief").keys(&["Alt-D", "normal 4 kg", "Ctrl-Home"]);
+    desk.keys(&["Ctrl-S"]);
+    desk.assert_shows("not saved");
+    desk.keys(&["Ctrl-U", "Up"]);
+    assert_eq!(texts(&desk), ["normal 5 um"]);
+    desk.go_to("deviations.base_pitch").keys(&["Alt-D", "Ctrl-U", "Ctrl-Home", "Ctrl-S"]);
+    assert_eq!(desk.read("case.toml").replace("\n[spread]\n", ""), TABLE_1);
+    desk.keys(&["Ctrl-Z"]);
+    assert_eq!(texts(&desk), ["normal 5 um"]);
+}
+
+#[test]
 fn a_limit_that_is_no_value_is_not_saved() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Ctrl-End", "Ctrl-U", "much", "Ctrl-Home", "Ctrl-S"]);

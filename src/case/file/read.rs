@@ -284,7 +284,7 @@ impl<'l> Reader<'l> {
                     continue;
                 }
                 Some(([shape], Value::String(width) | Value::Number(width))) => {
-                    Spread::new(key, shape, width)
+                    Spread::new(key, &format!("{shape} {width}"))
                 }
                 Some(([shape], _)) => Err(Spread::malformed(key, Some(shape))),
                 _ => Err(Spread::malformed(key, None)),

@@ -110,7 +110,7 @@ impl Form<'_> {
 enum Row {
     /// The title of the group whose first line has this index.
     Group(usize),
-    /// A field or a limit, by its index among the focusable rows.
+    /// A field, a limit or a distribution, by its index among the focusable rows.
     Line(usize),
     Reason(String),
 }
@@ -170,7 +170,7 @@ pub(crate) fn scrolled(pane: &Form<'_>, by: isize) -> usize {
 // The title of a group; for a gear with its material, if known.
 fn group_title(pane: &Form<'_>, index: usize) -> String {
     let Some(field) = rows::field(pane.case, index) else {
-        return "Limits".to_owned();
+        return rows::title_of_entries(pane.case, index).unwrap_or_default().to_owned();
     };
     let title = GROUPS.iter().find(|(table, _)| *table == field.table());
     let title = title.map_or("", |(_, title)| title);
@@ -220,14 +220,15 @@ fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> 
     let (default, verdict) = match rows::row(case, index) {
         rows::Row::Field(field) => (rows::unwritten(case, pane.inputs, field), None),
         rows::Row::Limit(limit) => ("(no limit)".to_owned(), verdict_on(pane, limit)),
+        rows::Row::Spread(_) => ("(no distribution)".to_owned(), None),
     };
     let value = written.map_or(default, |text| text::printable(text).into_owned());
     let (verdict, of_verdict) = verdict.unwrap_or_default();
-    let [symbol, label] = rows::names_of(case, index);
+    let (symbol, label) = rows::names_of(case, index);
     let [symbol, label] = match kind {
         // A text has no symbol; its value needs the room.
-        Some(Kind::Text) => [label, ""],
-        _ => [&text::symbol(symbol, pane.look.ascii), label],
+        Some(Kind::Text) => [&*label, ""],
+        _ => [&text::symbol(symbol, pane.look.ascii), &*label],
     };
     let (is_edited, is_choice) = (pane.is_edited(index), matches!(kind, Some(Kind::Choice(..))));
     let is_typed = is_edited && written.is_some() && !is_choice;

@@ -308,7 +308,8 @@ fn faults(pane: &Results<'_>) -> Vec<String> {
     if rows.len() > 1 && rows.iter().all(|&row| rows::lacks(pane.case, row)) {
         return vec![format!("! {} required values are missing ({key})", rows.len())];
     }
-    let name = rows::names_of(pane.case, *row).join(" ");
+    let (symbol, label) = rows::names_of(pane.case, *row);
+    let name = format!("{symbol} {label}");
     let more = if rows.len() > 1 { format!("; {} more", rows.len() - 1) } else { String::new() };
     vec![format!("! {}: {}{more} ({key})", name.trim_start(), problem.cause)]
 }

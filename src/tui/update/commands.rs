@@ -420,6 +420,9 @@ pub static BINDINGS: &[Binding] = &[
         "Show the free impact and the other methods beside the method of the case, or fold them.").shown_in(Place::RESULTS),
     row(Place::WORK, "Alt-L", "limit", edit::ask_limit,
         "Set a limit on the selected result, or on a result from a list.").shown_in(Place::RESULTS),
+    row(Place::WORK, "Alt-D", "spread", edit::ask_spread,
+        "Give the focused field a distribution for the tolerance, or a field from a list; an empty \
+            distribution is removed."),
     row(Place::COMMANDED, ":", "commands", |app| type_command(app, ""),
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
             there.").shown_in(Place::OUTSIDE),
@@ -523,9 +526,6 @@ pub static BINDINGS: &[Binding] = &[
         "Switch the chart marker: Braille, blocks or dots."),
     row(Place::WORK, "", "journals", |app| app.want(Effect::Journals),
         "List the unsaved edits of ended sessions, and delete them on request."),
-    row(Place::WORK, "", "spread", |app| type_command(app, "spread "),
-        "Give the focused field a distribution for the tolerance: type spread normal 4 um, or \
-            uniform, triangular, truncated, grade 7; spread none removes it."),
     row(Place::WORK, "", "sweep", studies::ask_range,
         "Study a result over one or two fields: type their ranges."),
     row(Place::WORK, "", "relief", edit::ask_relief,

@@ -29,10 +29,18 @@ pub(super) fn insert(app: &mut App, letter: char) {
     }
     let before = rows::text(&app.tab.case, app.tab.form.focus).map(str::to_owned);
     let is_announced = letter.is_ascii_digit() && app.starts_new_edit();
-    paste(app, letter.encode_utf8(&mut [0; 4]));
+    // Space completes the name of a distribution.
+    let rest = Some(rest_of_shape(app)).filter(|_| letter == ' ').flatten();
+    paste(app, &format!("{}{letter}", rest.unwrap_or_default()));
     if is_announced {
         announce(app, letter, before.as_deref());
     }
+}
+
+fn rest_of_shape(app: &App) -> Option<&'static str> {
+    let is_in_form = app.prompts.is_empty() && app.has_line();
+    let form = Some(&app.tab.form).filter(|_| is_in_form)?;
+    rows::rest_of_shape(&app.tab.case, form.focus, form.input.value())
 }
 
 /// Inserts a pasted text into a line of text, without control characters. Several lines become one.
@@ -227,7 +235,7 @@ pub(super) fn ask_limit(app: &mut App) {
 
 /// Goes to the limit of a quantity; a new limit starts with the present value of the quantity.
 fn hold_limit(app: &mut App, quantity: &'static Quantity) {
-    if rows::of_limit(&app.tab.case, quantity.key).is_none() {
+    if rows::of_entry(&app.tab.case, quantity.key).is_none() {
         // The printed value of the quantity, rounded up so that the limit is met.
         let value = app.tab.solution().and_then(|solution| report::value(quantity, solution));
         let begin = |value: f64| {
@@ -240,16 +248,52 @@ fn hold_limit(app: &mut App, quantity: &'static Quantity) {
         case.write_limit(quantity.key, &value.map(begin).unwrap_or_default());
         replace(app, case);
     }
+    let row = rows::of_entry(&app.tab.case, quantity.key).or_else(|| index_of("model.method"));
+    edit_row(app, row.unwrap_or(app.tab.form.focus));
+}
+
+fn edit_row(app: &mut App, row: usize) {
     app.layout.focus_on(Pane::Form);
     app.is_editing = true;
-    let row = rows::of_limit(&app.tab.case, quantity.key).or_else(|| index_of("model.method"));
-    app.focus_on(row.unwrap_or(app.tab.form.focus));
+    app.focus_on(row);
+}
+
+/// Goes to the distribution of the focused field if it is a number, otherwise opens the list of
+/// fields.
+pub(super) fn ask_spread(app: &mut App) {
+    match spread_field(app) {
+        Some(field) if app.layout.focus() == Pane::Form => begin_spread(app, field),
+        _ => app.pick(Picker::fields("Distribution of a field", begin_spread)),
+    }
+}
+
+// The focused field, or the field of the focused distribution, if it can have a distribution.
+fn spread_field(app: &App) -> Option<usize> {
+    let field = match rows::row(&app.tab.case, app.tab.form.focus) {
+        Row::Field(field) => field,
+        Row::Spread(spread) => index_of(spread.field)?,
+        Row::Limit(_) => return None,
+    };
+    matches!(FIELDS[field].kind, Kind::Number(..)).then_some(field)
+}
+
+/// Goes to the distribution of a field; a new one is empty.
+fn begin_spread(app: &mut App, field: usize) {
+    let Field { key, kind, .. } = FIELDS[field];
+    if !matches!(kind, Kind::Number(..)) {
+        let label = FIELDS[field].full_label();
+        return app.complain(format!("{label} has no distribution: choose a number with decimals"));
+    }
+    if rows::of_entry(&app.tab.case, key).is_none() {
+        app.tab.case.write_spread(key, "");
+    }
+    edit_row(app, rows::of_entry(&app.tab.case, key).unwrap_or(field));
 }
 
 /// Gives the focused field a distribution such as `normal 4 um`; `none` removes it.
 pub(super) fn set_spread(app: &mut App, text: &str) {
-    let Row::Field(field) = rows::row(&app.tab.case, app.tab.form.focus) else {
-        return app.complain("a limit has no distribution: go to a field of the form");
+    let Some(field) = spread_field(app) else {
+        return app.complain("no distribution here: go to a field with a number");
     };
     let mut case = app.tab.case.clone();
     let key = format!("spread.{}", FIELDS[field].key);

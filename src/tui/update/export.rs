@@ -184,7 +184,7 @@ pub(super) fn copy_value(app: &mut App) {
         Pane::Form => {
             let text = match rows::row(case, row) {
                 Row::Field(field) => case.effective(field).unwrap_or_default(),
-                Row::Limit(limit) => &limit.text,
+                _ => rows::text(case, row).unwrap_or_default(),
             };
             Ok((text.to_owned(), rows::full_label(case, row)))
         }

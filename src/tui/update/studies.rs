@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::{edit, key_of, panes};
 use crate::case::fields::FIELDS;
+use crate::case::fields::index_of;
 use crate::case::{Evaluator, Problem, Variant};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Stages};
@@ -89,14 +90,15 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
     let quantity =
         quantity.or_else(|| Quantity::find("impact_force")).ok_or("No result is selected.")?;
     if app.study.is_tolerance {
-        if tab.case.spread.is_empty() {
+        let (mut case, inputs) = (tab.case.clone(), inputs.clone());
+        case.drop_empty(None);
+        if case.spread.is_empty() {
             return Err(
-                "The case has no [spread]: go to a field and type :spread normal 4 um, for \
-                example. d in this pane shows the field over its range."
+                "The case has no [spread]: Alt-D in a field gives that field a distribution. \
+                d in this pane shows the field over its range."
                     .to_owned(),
             );
         }
-        let (case, inputs) = (tab.case.clone(), inputs.clone());
         let parameters = ToleranceParameters { case, inputs, quantity: quantity.key };
         return Ok(StudyParameters::Tolerance(Box::new(parameters)));
     }
@@ -127,6 +129,7 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
 fn field(app: &App) -> Option<usize> {
     app.study.field.or(match rows::row(&app.tab.case, app.tab.form.focus) {
         Row::Field(field) => Some(field),
+        Row::Spread(spread) => index_of(spread.field),
         Row::Limit(_) => None,
     })
 }
