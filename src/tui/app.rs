@@ -4,9 +4,11 @@
 pub(crate) mod actions;
 pub(crate) mod dialogs;
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use ratatui::layout::{Position, Rect, Size};
 
@@ -26,7 +28,7 @@ use super::store::WatchedFile;
 use super::tab::Tab;
 use super::theme::Look;
 use crate::case::fields::Kind;
-use crate::case::{Case, Document, Problem};
+use crate::case::{Case, Document, Evaluator, Problem};
 use crate::model::{Stage, Stages};
 use crate::report;
 use crate::report::graphs::GRAPHS;
@@ -35,6 +37,11 @@ use crate::study::trade::STEADY;
 use actions::{Effect, Slot, Work};
 use dialogs::cursor_to::CursorScope;
 use dialogs::{Prompt, Surroundings};
+
+/// A solve that takes longer shows its progress.
+const LONG: Duration = Duration::from_millis(400);
+/// Time between two reports of the progress.
+const PROGRESS_STEP: Duration = Duration::from_millis(200);
 
 /// The whole state of the screen.
 #[derive(Debug, Clone)]
@@ -85,6 +92,8 @@ pub struct App {
     pub is_playing: bool,
     /// How long a benchmark measures each setting.
     pub patience: Duration,
+    /// The last solves, which the next solve uses again.
+    evaluator: Arc<Mutex<Evaluator>>,
     /// The running work of each slot, by its number.
     running: BTreeMap<Slot, u64>,
     /// The effects of the present action.
@@ -160,6 +169,7 @@ impl App {
             comparing: None,
             is_playing: false,
             patience: STEADY,
+            evaluator: Arc::default(),
             running: BTreeMap::new(),
             effects: Effects::default(),
             prompts: Vec::new(),
@@ -485,8 +495,46 @@ impl App {
 
     /// Checks the form and solves it if it is valid.
     pub(super) fn solve(&mut self) {
-        if let Some(request) = self.checked() {
-            self.want(Effect::Solve(Box::new(request)));
+        let Some(request) = self.checked() else { return };
+        let (serial, evaluator) = (request.serial, Arc::clone(&self.evaluator));
+        let work = Work::in_steps(Slot::Solve, move |running| {
+            let show = |answer: &Answer| {
+                let answer = answer.clone();
+                running.send(move |app| app.take(answer));
+            };
+            let next = Cell::new(Instant::now() + LONG);
+            let go_on = |part| {
+                let now = Instant::now();
+                if now > next.get() {
+                    next.set(now + PROGRESS_STEP);
+                    running.send(move |app| app.show_progress(serial, part));
+                }
+                running.is_wanted()
+            };
+            solver::on_demand("solver");
+            let mut evaluator = evaluator.lock().unwrap_or_else(PoisonError::into_inner);
+            let found = solver::solve(&mut evaluator, &request, &mut |answer| show(answer), &go_on);
+            found.iter().for_each(show);
+        });
+        self.start(work.or(move |app| app.solver_failed(serial)));
+    }
+
+    /// Shows the progress of a slow solve.
+    pub fn show_progress(&mut self, serial: u64, part: f64) {
+        if let Some(tab) = self.tab_of(serial).filter(|tab| !tab.is_settled) {
+            tab.solving = Some(part);
+        }
+    }
+
+    /// Reports that the solver failed on the request with a serial.
+    pub fn solver_failed(&mut self, serial: u64) {
+        let Some(tab) = self.tab_of(serial) else { return };
+        (tab.has_failed, tab.is_settled, tab.solving) = (true, true, None);
+        if self.tab.serial == serial {
+            self.is_pinning = false;
+            self.complain(
+                "internal error: the solver failed on this; undo or change the last edit",
+            );
         }
     }
 
@@ -495,7 +543,7 @@ impl App {
         let (stages, stiffness) = (self.wanted(), self.wants_stiffness());
         let tab = &mut self.tab;
         let (inputs, problems) = tab.case.read();
-        tab.inputs_so_far = inputs.clone();
+        tab.inputs_so_far = inputs;
         let (case, focus) = (tab.case.clone(), tab.form.focus);
         let place_of = |problem: &Problem| rows::of_key(&case, &problem.field).unwrap_or(focus);
         let placed = problems.iter().map(|problem| (place_of(problem), problem.for_form()));
@@ -505,19 +553,21 @@ impl App {
             return None;
         }
         self.last_serial += 1;
-        let serial = self.last_serial;
-        (tab.serial, tab.requested, tab.requested_stiffness) = (serial, stages, stiffness);
+        (tab.serial, tab.requested, tab.requested_stiffness) =
+            (self.last_serial, stages, stiffness);
         (tab.is_settled, tab.solving) = (false, None);
-        Some(Request { serial, case, inputs, stages, stiffness })
+        Some(self.tab.request())
     }
 
-    /// The request for the results that the first frame leaves out.
-    pub(super) fn unanswered(&mut self) -> Option<Request> {
+    /// Solves what the first frame leaves out.
+    pub(super) fn complete(&mut self) {
         let stiffness = self.wants_stiffness();
         let is_partial = self.tab.answer.as_ref().is_some_and(|answer| {
             answer.stages != self.tab.requested || (stiffness && answer.stiffness.is_none())
         });
-        if is_partial || !self.tab.is_settled { self.checked() } else { None }
+        if is_partial || !self.tab.is_settled {
+            self.solve();
+        }
     }
 
     /// Solves the stages that became visible after the last request.
@@ -530,7 +580,7 @@ impl App {
     }
 
     /// Shows an answer in its tab, unless a later request is running.
-    pub(super) fn take(&mut self, answer: Answer) {
+    pub fn take(&mut self, answer: Answer) {
         if let Some(tab) = self.tab_of(answer.serial) {
             tab.take(answer);
         }
@@ -571,7 +621,9 @@ mod tests {
     #[test]
     fn the_worker_solves_the_results_that_the_first_frame_leaves_out() {
         let whole = |request: &Request| Some(solver::answer(request));
-        assert_eq!(on_dynamic(whole).unanswered(), None);
+        let mut app = on_dynamic(whole);
+        app.complete();
+        assert!(!app.is_busy(Slot::Solve));
 
         let without_relief = |request: &Request| {
             let answer = solver::answer(request);
@@ -591,9 +643,9 @@ mod tests {
         let inputs = Case::table_1().inputs().expect("Table 1 is valid");
         let found = crate::model::solve(&inputs, Stages::EVERY);
         let assert_asks = |mut app: App| {
-            let request = app.unanswered().expect("a request for the worker");
-            assert_eq!(request.inputs.method, Method::Dynamic);
-            assert_eq!(request.serial, app.tab.serial);
+            app.complete();
+            assert!(app.is_busy(Slot::Solve), "a request for the worker");
+            assert_eq!(app.tab.request().inputs.method, Method::Dynamic);
             assert!(!app.tab.is_settled);
         };
         assert_asks(on_dynamic(|_| None));

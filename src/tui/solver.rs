@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::case::{Case, Evaluator};
+use crate::case::Evaluator;
 use crate::model::compliance::without_field;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages};
@@ -13,13 +13,28 @@ use crate::study::stiffness::{PATH_POINTS, PathComparison, compare_path};
 /// After this time the workbench shows the closed form until the slower method is finished.
 const PATIENCE: Duration = Duration::from_millis(30);
 
+/// Panics or blocks forever if a test requests a fault at this place.
+#[cfg(debug_assertions)]
+#[expect(clippy::panic, reason = "a test requests the fault")]
+pub(super) fn on_demand(place: &str) {
+    match std::env::var("TIPSTRIKE_FAULT").unwrap_or_default() {
+        asked if asked == place => panic!("a fault on demand"),
+        asked if asked.strip_prefix("stuck ") == Some(place) => loop {
+            std::thread::park();
+        },
+        _ => {}
+    }
+}
+
+/// Does nothing.
+#[cfg(not(debug_assertions))]
+pub(super) fn on_demand(_place: &str) {}
+
 /// A request to solve a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// Number of the request, which identifies outdated answers.
     pub serial: u64,
-    /// The case.
-    pub case: Case,
     /// The pair.
     pub inputs: Inputs,
     /// The stages of the visible results.
@@ -266,6 +281,13 @@ fn micros(begun: Instant) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Case;
+
+    fn request(method: Method) -> Request {
+        let mut inputs = Case::table_1().inputs().expect("Table 1 is valid");
+        inputs.method = method;
+        Request { serial: 1, inputs, stages: Stages::EVERY, stiffness: false }
+    }
 
     #[test]
     fn the_method_of_the_case_is_active_and_auto_gives_its_choice() {
@@ -274,14 +296,59 @@ mod tests {
             (Method::Static, Method::Static),
             (Method::Auto, Method::Dynamic),
         ] {
-            let case = Case::table_1();
-            let mut inputs = case.inputs().expect("Table 1 is valid");
-            inputs.method = method;
-            let asked =
-                Request { serial: 1, inputs, case, stages: Stages::EVERY, stiffness: false };
-            let found = answer(&asked);
+            let found = answer(&request(method));
             assert_eq!((found.active, found.pending), (active, None));
             assert!(found.of(active).is_some() && found.of(Method::Exact).is_some());
         }
+    }
+
+    /// Every shown answer, and the last one if the solve is not stopped.
+    fn shown(request: &Request, go_on: &dyn Fn(f64) -> bool) -> (Vec<Answer>, Option<Answer>) {
+        let mut shown = Vec::new();
+        let show = &mut |answer: &Answer| shown.push(answer.clone());
+        let last = solve(&mut Evaluator::default(), request, show, go_on);
+        (shown, last)
+    }
+
+    #[test]
+    fn a_slow_method_shows_the_closed_form_and_can_be_stopped() {
+        let mut slow = request(Method::Dynamic);
+        (slow.inputs.tolerance, slow.inputs.warmup_cycles) = (1e-12, 10_000);
+        // Without damping the motion never becomes steady.
+        slow.inputs.damping_ratio = 0.0;
+        let begun = Instant::now();
+        let (shown, last) = shown(&slow, &|_| begun.elapsed() < 4 * PATIENCE);
+        assert_eq!(last, None);
+        assert_eq!(
+            shown.iter().map(|answer| (answer.active, answer.pending)).collect::<Vec<_>>(),
+            [(Method::Exact, Some(Method::Dynamic))]
+        );
+    }
+
+    #[test]
+    fn the_required_relief_follows_an_answer_that_is_already_shown() {
+        for (method, expected) in [
+            (Method::Exact, vec![true]),
+            (Method::Static, vec![false, true]),
+            (Method::Auto, vec![false, true]),
+        ] {
+            let (shown, last) = shown(&request(method), &|_| true);
+            let whole = shown.into_iter().chain(last).filter(|answer| answer.pending.is_none());
+            let found = whole.map(|answer| {
+                let clearing = answer.of(answer.active).and_then(|solution| solution.clearing);
+                assert_eq!(clearing.is_none(), answer.lacks(Stage::Clearing));
+                clearing.is_some_and(|clearing| clearing.relief.is_some())
+            });
+            assert_eq!(found.collect::<Vec<_>>(), expected, "{}", method.name());
+        }
+    }
+
+    #[test]
+    fn the_relief_at_rest_is_present_during_the_search_in_motion() {
+        let (shown, _) = shown(&request(Method::Dynamic), &|_| true);
+        let answer = shown.iter().find(|answer| answer.pending.is_none()).expect("an answer");
+        let relief = |method| answer.of(method).and_then(|solution| solution.clearing);
+        assert!(answer.lacks(Stage::Clearing) && relief(Method::Dynamic).is_none());
+        assert!(relief(Method::Static).is_some_and(|clearing| clearing.relief.is_some()));
     }
 }

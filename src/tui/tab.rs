@@ -9,7 +9,7 @@ use super::panes::study::Study;
 use super::panes::trade::Traded;
 use super::rows;
 use super::session::{Access, OpenCase};
-use super::solver::{Answer, Values, Variants};
+use super::solver::{Answer, Request, Values, Variants};
 use super::text::Line;
 use crate::case::{Case, Document, FIELDS, Limit, Problem, Spread, Variant, fields};
 use crate::model::{Inputs, Refusal, Solution, Stages};
@@ -124,6 +124,12 @@ impl Tab {
             chart_work: ChartWork::default(),
             results: ResultsState::default(),
         }
+    }
+
+    /// The last request.
+    pub fn request(&self) -> Request {
+        let (stages, stiffness) = (self.requested, self.requested_stiffness);
+        Request { serial: self.serial, inputs: self.inputs_so_far.clone(), stages, stiffness }
     }
 
     /// The inputs, if the form is valid.

@@ -38,6 +38,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     }
     let cursor = app.cursor;
     happen(app, action);
+    studies::pin_baseline(app);
     if !app.has_line() {
         app.tab.read_line_anew();
     }
@@ -83,16 +84,6 @@ fn happen(app: &mut App, action: Action) {
             // Terminals cut their content when they shrink, even if they have the old size again.
             app.want(Effect::Redraw);
         }
-        Action::Solved(answer) => {
-            app.take(*answer);
-            studies::pin_baseline(app);
-        }
-        Action::SolverFailed(serial) => solver_failed(app, serial),
-        Action::Solving(serial, part) => {
-            if let Some(tab) = app.tab_of(serial).filter(|tab| !tab.is_settled) {
-                tab.solving = Some(part);
-            }
-        }
         Action::Worked(slot, number, change) => {
             if app.runs(slot, number) {
                 change.apply(app);
@@ -105,17 +96,6 @@ fn happen(app: &mut App, action: Action) {
         Action::Claimed(claim) => files::claimed(app, *claim),
         Action::Journals(journals) => files::list_journals(app, journals),
         Action::Failed(reason) => app.complain(reason),
-    }
-}
-
-fn solver_failed(app: &mut App, serial: u64) {
-    let Some(tab) = app.tab_of(serial) else {
-        return;
-    };
-    (tab.has_failed, tab.is_settled, tab.solving) = (true, true, None);
-    if app.tab.serial == serial {
-        app.is_pinning = false;
-        app.complain("internal error: the solver failed on this; undo or change the last edit");
     }
 }
 
@@ -381,9 +361,10 @@ fn stop(app: &mut App, has_study: bool) -> bool {
 // Stops a slow solve, or the search for the required relief, which starts after the other results
 // are shown.
 fn stop_solve(app: &mut App) -> bool {
-    let is_slow = app.tab.solving.take().is_some();
-    let mut words = None;
-    if let Some(answer) = &mut app.tab.answer {
+    let (tab, mut words) = (&mut app.tab, None);
+    let is_slow = tab.solving.take().is_some();
+    let answer = tab.answer.as_mut().filter(|answer| is_slow || answer.serial == tab.serial);
+    if let Some(answer) = answer {
         if is_slow {
             let shown = "is stopped; the closed form is shown until the next edit";
             words = answer.pending.take().map(|method| format!("method {} {shown}", method.name()));
@@ -394,11 +375,11 @@ fn stop_solve(app: &mut App) -> bool {
         }
     }
     if is_slow {
-        (app.tab.is_settled, app.is_pinning) = (true, false);
+        (tab.is_settled, app.is_pinning) = (true, false);
     }
     let has_run = is_slow || words.is_some();
     if has_run {
-        app.want(Effect::CancelSolve);
+        app.cancel(Slot::Solve);
     }
     if let Some(words) = words {
         app.say(words);

@@ -13,12 +13,13 @@ use super::session::Autosave;
 use super::session::Claim;
 use super::session::journal::JournalWriter;
 use super::settings::Settings;
+use super::solver::on_demand;
 use super::store::{self, State};
 use super::tab::Origin;
 use super::terminal::Screen;
 use super::theme::Look;
 use super::update::{self, update};
-use super::worker::{self, Workers};
+use super::worker::Workers;
 use crate::case::rexs;
 use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
 
@@ -81,9 +82,8 @@ pub(super) fn session(
     let autosave = Autosave::new(State::find(), Arc::clone(journal_writer));
     let mut workbench =
         Workbench { app, screen, events, workers, autosave, alarm: None, chosen: None };
-    if let Some(request) = workbench.app.unanswered() {
-        workbench.workers.solve(request);
-    }
+    workbench.app.complete();
+    workbench.act(Action::Tick)?;
     workbench.stay()
 }
 
@@ -201,12 +201,10 @@ impl Workbench {
                 match effect {
                     Effect::Quit => return Ok(true),
                     Effect::Redraw => {
-                        worker::on_demand("screen");
+                        on_demand("screen");
                         self.screen.clear()?;
                     }
                     Effect::Suspend => self.suspend()?,
-                    Effect::Solve(request) => self.workers.solve(*request),
-                    Effect::CancelSolve => self.workers.stop_solve(),
                     Effect::Work(number, work) => self.workers.work(number, work)?,
                     Effect::Cancel(slot) => self.workers.cancel(slot),
                     Effect::Keep(settings) => self.chosen = Some(settings),

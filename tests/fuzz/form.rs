@@ -291,15 +291,6 @@ impl Bench {
 
     fn perform(&mut self, effect: Effect, was_asked: bool) -> Vec<Action> {
         match effect {
-            Effect::Solve(request) => {
-                assert_eq!(
-                    self.app.tab.case.inputs().as_ref(),
-                    Ok(&request.inputs),
-                    "only valid cases reach the model"
-                );
-                self.waiting = Some(*request);
-                Vec::new()
-            }
             Effect::Quit => {
                 let is_unsaved = self.app.tabs().any(tipstrike::tui::testing::tab::Tab::is_unsaved);
                 assert!(was_asked || !is_unsaved, "edits are not lost without a question");
@@ -312,6 +303,16 @@ impl Bench {
                 self.outside(Effect::Save(saving, next))
             }
             Effect::Work(number, mut work) => match work.slot {
+                Slot::Solve => {
+                    let request = self.app.tab.request();
+                    assert_eq!(
+                        self.app.tab.case.inputs().as_ref(),
+                        Ok(&request.inputs),
+                        "only valid cases reach the model"
+                    );
+                    self.waiting = Some(request);
+                    Vec::new()
+                }
                 Slot::Recents => {
                     if let Some(Prompt::Browse(browser)) = self.app.prompts.last_mut() {
                         let recent = self.folder.path().join("case.toml");
@@ -355,7 +356,8 @@ impl Bench {
 
     fn answer(&mut self) {
         if let Some(request) = self.waiting.take() {
-            self.act(Action::Solved(Box::new(solver::answer(&request))));
+            self.app.take(solver::answer(&request));
+            self.act(Action::Tick);
         }
     }
 

@@ -24,11 +24,12 @@ use tipstrike::tui::testing::jobs::Slot;
 use tipstrike::tui::testing::session::Autosave;
 use tipstrike::tui::testing::session::JournalWriter;
 use tipstrike::tui::testing::settings::Settings;
+use tipstrike::tui::testing::solver::{self, Answer};
 use tipstrike::tui::testing::store::State;
 use tipstrike::tui::testing::store::recents;
 use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
-use tipstrike::tui::testing::{effects, solver, store, update, view};
+use tipstrike::tui::testing::{effects, store, update, view};
 
 pub(crate) const SMALL: Size = Size { width: 80, height: 24 };
 pub(crate) const LARGE: Size = Size { width: 140, height: 45 };
@@ -172,14 +173,28 @@ impl Desk {
         }
     }
 
+    /// The answer to the last request of the current case.
+    pub(crate) fn whole_answer(&self) -> Answer {
+        solver::answer(&self.app.tab.request())
+    }
+
+    /// Shows an answer of the solver.
+    pub(crate) fn show(&mut self, answer: Answer) {
+        self.app.take(answer);
+        self.act(Action::Tick);
+    }
+
     /// Applies an action and carries out its effects immediately.
     pub(crate) fn act(&mut self, action: Action) {
         let mut actions = VecDeque::from([action]);
         while let Some(action) = actions.pop_front() {
             for effect in update(&mut self.app, action) {
                 match effect {
-                    Effect::Solve(request) => {
-                        actions.push_back(Action::Solved(Box::new(solver::answer(&request))));
+                    // Only the last answer of a solve.
+                    Effect::Work(number, work) if work.slot == Slot::Solve => {
+                        let all = results(number, work);
+                        let before = all.len().saturating_sub(2);
+                        actions.extend(all.into_iter().skip(before));
                     }
                     Effect::Work(_, work) if work.slot == Slot::Recents => {
                         show_recents(&mut self.app, &self.recents);
@@ -190,7 +205,7 @@ impl Desk {
                     Effect::Copy(text) => self.copied = Some(text),
                     Effect::Mouse(takes) => self.has_mouse = takes,
                     Effect::Play(plays) => self.ticks = plays,
-                    Effect::CancelSolve | Effect::Cancel(_) => self.has_cancelled = true,
+                    Effect::Cancel(_) => self.has_cancelled = true,
                     Effect::Redraw => self.has_redrawn = true,
                     Effect::Suspend => self.is_suspended = true,
                     Effect::Keep(settings) => self.kept = Some(settings),

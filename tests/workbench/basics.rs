@@ -3,7 +3,7 @@ use crate::harness;
 
 use std::sync::Arc;
 
-use harness::{Desk, LARGE, SMALL, TABLE_1, name};
+use harness::{Desk, LARGE, SMALL, TABLE_1, name, requested};
 use insta::assert_snapshot;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
@@ -17,6 +17,7 @@ use tipstrike::tui::testing::actions::{Action, of_key};
 use tipstrike::tui::testing::app::App;
 use tipstrike::tui::testing::dialogs::Item;
 use tipstrike::tui::testing::dialogs::Prompt;
+use tipstrike::tui::testing::jobs::Slot;
 use tipstrike::tui::testing::pane::Pane;
 use tipstrike::tui::testing::settings::Settings;
 use tipstrike::tui::testing::solver::Answer;
@@ -313,17 +314,13 @@ fn an_answer_goes_to_the_case_that_asked_for_it() {
     let mut desk = three_cases(LARGE);
     desk.keys(&["Alt-1"]).fill("operation.speed", "1100 rpm");
     let late = update(&mut desk.app, Action::Insert('x'));
-    assert!(
-        !late.iter().any(|effect| matches!(effect, Effect::Solve(_))),
-        "an invalid case is not solved"
-    );
+    assert!(requested(late, Slot::Solve).is_none(), "an invalid case is not solved");
     let effects = update(&mut desk.app, harness::run("undo"));
-    let Some(Effect::Solve(request)) = effects.into_iter().next() else {
-        panic!("it asks for a solve")
-    };
+    assert!(requested(effects, Slot::Solve).is_some(), "it asks for a solve");
+    let answer = desk.whole_answer();
     desk.keys(&["Alt-2"]);
     let before = desk.screen();
-    desk.act(Action::Solved(Box::new(tipstrike::tui::testing::solver::answer(&request))));
+    desk.show(answer);
     assert_eq!(desk.screen(), before);
     desk.keys(&["Alt-1"]);
     assert!(desk.shows("2191.0"));
@@ -523,10 +520,8 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
     let mut desk = Desk::new(LARGE);
     desk.assert_shows("47.4 um of tip relief on the driven gear");
     let effects = update(&mut desk.app, harness::run("method"));
-    let Some(Effect::Solve(request)) = effects.into_iter().next() else {
-        panic!("it asks for a solve")
-    };
-    let whole = tipstrike::tui::testing::solver::answer(&request);
+    assert!(requested(effects, Slot::Solve).is_some(), "it asks for a solve");
+    let whole = desk.whole_answer();
     let mut first = Answer { stages: whole.stages.without(Stage::Clearing), ..whole.clone() };
     for solution in first
         .methods
@@ -535,17 +530,17 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
     {
         solution.clearing = None;
     }
-    desk.act(Action::Solved(Box::new(first)));
+    desk.show(first);
     desk.assert_shows("... um of tip relief on the driven");
     let mut stopped = desk.app.clone();
     let cancel = of_key(harness::event("Ctrl-C"), stopped.place()).expect("a key");
     let effects = update(&mut stopped, cancel);
-    assert!(matches!(effects[..], [Effect::CancelSolve]) && stopped.message.is_some());
+    assert!(matches!(effects[..], [Effect::Cancel(Slot::Solve)]) && stopped.message.is_some());
     assert!(
         stopped.tab.answer.as_ref().is_some_and(|answer| !answer.lacks(Stage::Clearing)),
         "it is waited for no more"
     );
-    desk.act(Action::Solved(Box::new(whole)));
+    desk.show(whole);
     desk.assert(desk.shows("40.1 um of tip relief on the driven") && !desk.shows("..."));
 }
 
@@ -553,20 +548,19 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
 fn a_slow_solve_shows_its_progress_and_esc_stops_it() {
     let mut desk = three_cases(LARGE);
     let effects = update(&mut desk.app, harness::run("method"));
-    let Some(Effect::Solve(request)) = effects.into_iter().next() else {
-        panic!("it asks for a solve")
-    };
-    let whole = tipstrike::tui::testing::solver::answer(&request);
+    assert!(requested(effects, Slot::Solve).is_some(), "it asks for a solve");
+    let whole = desk.whole_answer();
     let half = Answer { active: Method::Exact, pending: Some(Method::Static), ..whole };
-    desk.act(Action::Solved(Box::new(half)));
-    desk.act(Action::Solving(request.serial, 0.25));
+    desk.show(half);
+    let serial = desk.app.tab.serial;
+    desk.app.show_progress(serial, 0.25);
     desk.assert(desk.shows("25 % solving static; Ctrl-C cancels") && desk.shows("static pending"));
     desk.keys(&["Ctrl-C"]);
     desk.assert(
         desk.has_cancelled && desk.shows("method static is stopped") && !desk.shows("pending"),
     );
     assert!(desk.app.has_line(), "the field keeps the keys");
-    desk.act(Action::Solving(request.serial, 0.5));
+    desk.app.show_progress(serial, 0.5);
     assert!(!desk.shows("solving"), "a late message is not shown");
 }
 

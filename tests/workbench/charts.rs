@@ -14,12 +14,12 @@ use tipstrike::model::solve::speeds;
 use tipstrike::model::{ContactState, Outcome};
 use tipstrike::report::charts::speed_chart;
 use tipstrike::report::graphs::{GRAPHS, Graph};
-use tipstrike::tui::testing::actions::{self, Action, Effect};
+use tipstrike::tui::testing::actions::{self, Action};
 use tipstrike::tui::testing::chart;
 use tipstrike::tui::testing::chart::curves::{self, CurveSource};
 use tipstrike::tui::testing::jobs::Slot;
 use tipstrike::tui::testing::pane::Pane;
-use tipstrike::tui::testing::solver::{self, Answer};
+use tipstrike::tui::testing::solver::Answer;
 use tipstrike::tui::testing::teeth::readings;
 use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
@@ -794,15 +794,12 @@ fn the_mesh_stiffness_appears_as_soon_as_it_is_computed() {
     desk.keys(&["1", ":", "chart: mesh stiffness"]);
     let accept = actions::of_key(harness::event("Enter"), desk.app.place()).expect("an action");
     let effects = update(&mut desk.app, accept);
-    let request = effects.into_iter().find_map(|effect| match effect {
-        Effect::Solve(request) => Some(request),
-        _ => None,
-    });
-    let answer = solver::answer(&request.expect("a request"));
+    assert!(harness::requested(effects, Slot::Solve).is_some(), "a request");
+    let answer = desk.whole_answer();
     let without = Answer { stiffness: None, ..answer.clone() };
-    desk.act(Action::Solved(Box::new(without)));
+    desk.show(without);
     desk.assert_shows("Computing the mesh stiffness.");
-    desk.act(Action::Solved(Box::new(answer)));
+    desk.show(answer);
     let drawn = chart(&desk);
     desk.keys(&["3", "j", "k"]);
     assert_eq!(drawn[1..], chart(&desk)[1..]);

@@ -2,10 +2,8 @@
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1, name};
-use tipstrike::model::Stages;
 use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::rows;
-use tipstrike::tui::testing::solver::Request;
 
 #[test]
 fn every_keystroke_that_leaves_a_valid_value_changes_the_results() {
@@ -219,17 +217,10 @@ fn backspace_may_arrive_as_ctrl_h() {
 #[test]
 fn a_late_answer_is_dropped() {
     let mut desk = Desk::new(SMALL);
-    let inputs = desk.app.tab.case.inputs().expect("Table 1 is valid");
-    let late = Request {
-        serial: desk.app.tab.serial,
-        case: desk.app.tab.case.clone(),
-        inputs,
-        stages: Stages::EVERY,
-        stiffness: false,
-    };
+    let late = desk.whole_answer();
     desk.fill("operation.speed", "500 rpm");
     let screen = desk.screen();
-    desk.act(Action::Solved(Box::new(tipstrike::tui::testing::solver::answer(&late))));
+    desk.show(late);
     assert_eq!(desk.screen(), screen);
 }
 
@@ -267,7 +258,7 @@ fn every_field_can_be_reached_and_every_line_of_the_results() {
 #[test]
 fn a_failed_solve_is_reported_and_the_results_are_marked() {
     let mut desk = Desk::new(SMALL);
-    desk.act(Action::SolverFailed(desk.app.tab.serial));
+    desk.app.solver_failed(desk.app.tab.serial);
     assert!(desk.shows("solver failed") && desk.shows("LAST VALID"));
     desk.fill("operation.speed", "1500 rpm");
     assert!(!desk.shows("solver failed") && !desk.shows("LAST VALID"));

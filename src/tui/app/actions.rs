@@ -13,7 +13,6 @@ use crate::case::Document;
 use crate::tui::layout::Place;
 use crate::tui::session::{Claim, Next, SaveFault, Saving, Written};
 use crate::tui::settings::Settings;
-use crate::tui::solver::{Answer, Request};
 
 /// A command with its keys: a row of the table of commands.
 #[derive(Debug, Clone, Copy)]
@@ -103,12 +102,6 @@ pub enum Action {
     Resize(Size),
     /// Time for the next frame of an animation.
     Tick,
-    /// The answer of the solver.
-    Solved(Box<Answer>),
-    /// Progress of the solve with this serial, from 0 to 1.
-    Solving(u64, f64),
-    /// The solver failed on the request with this serial.
-    SolverFailed(u64),
     /// A result of the work with this number.
     Worked(Slot, u64, Change),
     /// The end of the work with this number.
@@ -131,10 +124,6 @@ pub enum Action {
 /// A request of the state to the outside.
 #[derive(Debug)]
 pub enum Effect {
-    /// Solves a case; replaces a waiting request.
-    Solve(Box<Request>),
-    /// Stops the running solve.
-    CancelSolve,
     /// Runs work with this number.
     Work(u64, Work),
     /// Stops the work of a slot.
@@ -218,6 +207,7 @@ impl fmt::Debug for Choice {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "each is named after its work")]
 pub enum Slot {
+    Solve,
     Folder,
     Search,
     Preview,
