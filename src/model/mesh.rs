@@ -15,7 +15,7 @@ use super::given::GivenCompliance;
 use super::inputs::Inputs;
 use super::pair_forces::{OfPairs, PITCHES, Pair, PairSet, Place};
 use super::relief::Reliefs;
-use crate::numeric::chebyshev::TERMS;
+use crate::numeric::chebyshev::{Series, TERMS};
 use crate::numeric::polynomial::Polynomial;
 use crate::numeric::{quadrature, root};
 use sharing::Couplings;
@@ -55,6 +55,7 @@ pub struct Mesh {
     /// Cached load sharing of coupled pairs.
     sharing: Arc<Cache<Sharing>>,
     mean_stiffness: Arc<Cache<OnceLock<f64>>>,
+    sections: Arc<Cache<OnceLock<Arc<Vec<Series<5>>>>>>,
     back_place: f64,
     /// The mesh of the back flanks, for all meshes that differ only in speed and deviation.
     back: Arc<Cache<OnceLock<Mesh>>>,

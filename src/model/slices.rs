@@ -43,8 +43,8 @@ impl Slice {
 pub struct Face {
     inputs: FaceInputs,
     mesh: Arc<Mesh>,
-    /// Compliance of driver's and driven tooth without the contact, by the zones of the mesh.
-    teeth: Arc<Vec<Series<2>>>,
+    /// The section by the zones of the mesh, see [`Mesh::sections`].
+    sections: Arc<Vec<Series<5>>>,
     slices: Vec<Slice>,
     /// Greatest path of a slice ahead of the middle, in m.
     reach: f64,
@@ -84,7 +84,7 @@ impl Face {
         Ok(Face {
             inputs: *inputs,
             mesh: Arc::clone(mesh),
-            teeth: Arc::new(mesh.teeth(geometry)?),
+            sections: mesh.sections(geometry)?,
             reach: 0.5 * inputs.width * inputs.lead.abs(),
             least_gap: slices.iter().map(|slice| slice.gap).fold(f64::INFINITY, f64::min),
             slices,

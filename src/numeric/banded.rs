@@ -40,7 +40,11 @@ impl<const ROW: usize, T: Entry> Banded<ROW, T> {
     /// # Source
     /// Golub & Van Loan 2013, "Matrix Computations", section 4.3.6.
     pub fn factored(rows: impl IntoIterator<Item = [T; ROW]>) -> Option<Banded<ROW, T>> {
-        let mut rows: Rows<T, ROW> = rows.into_iter().collect();
+        Banded::of(rows.into_iter().collect())
+    }
+
+    /// [`Banded::factored`] in place.
+    pub fn of(mut rows: Rows<T, ROW>) -> Option<Banded<ROW, T>> {
         for at in 0..rows.len() {
             let (known, rest) = rows.split_at_mut(at);
             let (row, reach) = (&mut rest[0], ROW.min(at + 1));

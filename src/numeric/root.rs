@@ -112,24 +112,27 @@ impl Bracket {
     }
 
     /// Whether the best samples have the same value.
-    fn is_flat(&self) -> bool {
-        self.best.1 - self.third.1 <= ROUNDING * self.best.1.abs()
+    fn is_flat(&self, flat: f64) -> bool {
+        self.best.1 - self.third.1 <= flat * self.best.1.abs()
     }
 
     /// The peak in the range. The search ends early if the peak is below `least_value`.
-    fn peak(mut self, least_value: f64, at: &impl Fn(f64) -> f64) -> Sample {
+    fn peak(
+        mut self,
+        least_value: f64,
+        (least, flat): (f64, f64),
+        at: &impl Fn(f64) -> f64,
+    ) -> Sample {
         const STEPS: usize = 60;
-        /// Of the first range.
-        const LEAST: f64 = 1e-13;
         /// Of the rise of a parabola.
         const SAFETY: f64 = 4.0;
-        let least = LEAST * self.width();
+        let least = least * self.width();
         if self.is_at_best(at) {
             return self.best;
         }
         let (mut step, mut earlier) = (self.width(), self.width());
         for _ in 0..STEPS {
-            if self.width() <= 4.0 * least || self.is_flat() {
+            if self.width() <= 4.0 * least || self.is_flat(flat) {
                 break;
             }
             let top = self.top();
@@ -191,6 +194,9 @@ impl Bracket {
     }
 }
 
+/// Tolerance of the place of a peak, relative to the distance of the samples.
+const LEAST: f64 = 1e-13;
+
 /// The greatest value and its place. `known` samples the function in the order of the places, so
 /// densely that it has only one peak between neighbours. A peak may be at an end, and may have a
 /// bend. At a jump, `known` has a sample of both sides at the same place.
@@ -199,12 +205,22 @@ impl Bracket {
 /// Parabolas and golden section: Brent 1973, "Algorithms for Minimization without Derivatives",
 /// chapter 5.
 pub fn greatest(known: &[Sample], at: impl Fn(f64) -> f64) -> Sample {
+    greatest_within(known, (LEAST, ROUNDING), at)
+}
+
+/// [`greatest`] with a place to the first tolerance, relative to the distance of the samples, or a
+/// value to the second, relative to itself.
+pub fn greatest_within(
+    known: &[Sample],
+    (least, flat): (f64, f64),
+    at: impl Fn(f64) -> f64,
+) -> Sample {
     let mut tops: Vec<Bracket> = brackets(known).collect();
     tops.sort_by(|one, other| other.best.1.total_cmp(&one.best.1));
     let mut best = tops.first().map_or((0.0, f64::NEG_INFINITY), |top| top.best);
     for bracket in tops {
-        if bracket.limit > best.1 + ROUNDING * best.1.abs() {
-            let top = bracket.peak(best.1, &at);
+        if bracket.limit > best.1 + flat * best.1.abs() {
+            let top = bracket.peak(best.1, (least, flat), &at);
             if top.1 > best.1 {
                 best = top;
             }

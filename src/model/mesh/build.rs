@@ -153,6 +153,7 @@ impl Mesh {
             inputs: *inputs,
             sharing: Arc::default(),
             mean_stiffness: Arc::default(),
+            sections: Arc::default(),
             back_place: back_place(&inputs.shape, geometry),
             back: Arc::default(),
             reach,
@@ -162,18 +163,27 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// Compliance of the driver's and of the driven tooth without the contact, per unit width, in
-    /// m²/N, in each zone.
+    /// What a slice of the face needs of a pair, in each zone: gap, in m, compliances of the contact,
+    /// of the driver's tooth and of the driven tooth per unit width, in m²/N, and the arm of the
+    /// friction force over the driver's base radius with the sign of the sliding velocity.
     ///
     /// # Errors
     /// Those of the compliances.
-    pub(in crate::model) fn teeth(&self, geometry: &Geometry) -> Result<Vec<Series<2>>, Refusal> {
-        /// Of the compliance in the middle of the path.
+    pub(in crate::model) fn sections(
+        &self,
+        geometry: &Geometry,
+    ) -> Result<Arc<Vec<Series<5>>>, Refusal> {
+        /// Of each value in the middle of the path.
         const REST: f64 = 1e-12;
+        /// Least part of the compliance of a pair that is in its contact.
+        const LEAST: f64 = 1e-3;
+        if let Some(known) = self.sections.0.get() {
+            return Ok(Arc::clone(known));
+        }
         let (inputs, force, flanks) = (&self.inputs, self.force, Flanks::clone(&self.flanks));
         let run_in = End { inputs: *inputs, geometry: *geometry, flanks, side: -1.0 };
         let run_out = run_in.swapped()?;
-        let at = |s: f64| match s {
+        let teeth = |s: f64| match s {
             s if s < 0.0 => run_in.teeth(force, -s / geometry.driven.base),
             s if s > self.length => {
                 let angle = (s - self.length) / geometry.driver.base;
@@ -181,9 +191,21 @@ impl Mesh {
             }
             s => teeth_on_line(inputs, geometry, &self.flanks, force, s),
         };
-        let rest = at(0.5 * self.length)?.map(|size| REST * size);
-        let series = |zone: &Zone| Series::of(zone.from, zone.to, &|_, _| rest, &at);
-        self.zones.iter().map(series).collect()
+        let of_zone = |zone: &Zone| {
+            let [_, _, _, turns] = zone.series.at(f64::midpoint(zone.from, zone.to));
+            let at = |s: f64| {
+                let [stiffness, gap, lever] = zone.series.at(s);
+                let ([driver, driven], compliance) = (teeth(s)?, self.width / stiffness);
+                let contact = (compliance - driver - driven).max(LEAST * compliance);
+                let part = (compliance - contact) / (driver + driven);
+                Ok([gap, contact, part * driver, part * driven, lever * turns.signum()])
+            };
+            let [_, size, ..] = at(f64::midpoint(zone.from, zone.to))?;
+            let rest = [zone.gap_rest, REST * size, REST * size, REST * size, REST];
+            Series::of(zone.from, zone.to, &|_, _| rest, &at)
+        };
+        let found = Arc::new(self.zones.iter().map(of_zone).collect::<Result<_, _>>()?);
+        Ok(Arc::clone(self.sections.0.get_or_init(|| found)))
     }
 
     /// The mesh without coupling.
@@ -261,6 +283,7 @@ impl Mesh {
             couplings: couplings
                 .map(|couplings| Arc::new(couplings.reversed(self.length, self.base_pitch))),
             sharing: Arc::default(),
+            sections: Arc::default(),
             back: Arc::default(),
             ..self.clone()
         }

@@ -4,7 +4,7 @@ use super::{Face, Slice};
 use crate::model::Refusal;
 use crate::model::budget::PAIRS;
 use crate::model::pair_forces::PITCHES;
-use crate::numeric::banded::Banded;
+use crate::numeric::banded::{Banded, Rows};
 
 /// The line loads of all pairs at a position of the mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,16 +15,12 @@ pub struct Loads {
     pub first: i32,
     /// Number of pairs.
     pub pairs: usize,
-    /// Deviation of the incoming pair, in m.
-    error: f64,
     /// Displacement of the driver ahead x, in m.
     pub displacement: f64,
     /// Line load of each pair at each slice, slice by slice, in N/m.
     pub line_loads: Vec<f64>,
     /// Displacement under the loads minus the gap, in m, above 0 where a pair carries.
     pub leads: Vec<f64>,
-    /// Gap plus deflection by the pair itself, of each pair at each slice, in m: smooth along the face.
-    free: Vec<f64>,
     /// Force that turns the driver, in N.
     pub force: f64,
     /// Change of the force with the displacement, in N/m.
@@ -82,6 +78,37 @@ pub enum Until {
     Displacement(f64),
 }
 
+/// What differs at the incoming pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Incoming {
+    /// It is like the others.
+    Alike,
+    /// It has this deviation, in m.
+    Deviates(f64),
+    /// It has the deviation, and touches only after E.
+    AfterStart(f64),
+}
+
+impl Incoming {
+    /// Changes a pair without deviation.
+    pub(super) fn change(self, position: &mut Position<'_>, ahead: i32) {
+        let (Incoming::Deviates(error) | Incoming::AfterStart(error)) = self else {
+            return;
+        };
+        let Some(pair) = position.index(ahead) else {
+            return;
+        };
+        let path = position.s + f64::from(ahead) * position.face.mesh.base_pitch;
+        position.error = error;
+        let contacts = position.contacts[pair..].iter_mut().step_by(position.pairs);
+        for (slice, contact) in position.face.slices.iter().zip(contacts) {
+            contact.gap -= error;
+            let is_before = path + slice.ahead <= 0.0;
+            contact.can_carry &= !(is_before && matches!(self, Incoming::AfterStart(_)));
+        }
+    }
+}
+
 /// A pair at a slice.
 #[derive(Debug, Clone, Copy)]
 struct Contact {
@@ -97,6 +124,12 @@ struct Contact {
     weight: f64,
 }
 
+impl Contact {
+    /// A pair beyond the computed range.
+    const NONE: Contact =
+        Contact { gap: f64::INFINITY, can_carry: false, local: 1.0, root: 0.0, weight: 1.0 };
+}
+
 /// All pairs at all slices with the incoming pair at a place, to be balanced.
 #[derive(Debug, Clone)]
 pub(super) struct Position<'a> {
@@ -106,9 +139,10 @@ pub(super) struct Position<'a> {
     pairs: usize,
     /// Deviation of the pair that deviates, in m.
     error: f64,
+    /// The pairs slice by slice.
     contacts: Vec<Contact>,
-    /// The lower factor C of κ = C Cᵀ, row by row.
-    factors: Vec<f64>,
+    /// κ, row by row.
+    kappa: Vec<f64>,
 }
 
 impl Face {
@@ -118,52 +152,45 @@ impl Face {
     /// # Errors
     /// Those of `Position::loads`.
     pub fn loads(&self, s: f64, error: f64, until: Until) -> Result<Loads, Refusal> {
-        let mut position = self.position(s)?;
-        position.deviate(0, error);
+        let mut position = self.position(s);
+        Incoming::Deviates(error).change(&mut position, 0);
         position.loads(until, None)
     }
 
     /// All pairs without deviations, with the incoming pair at `s` in the middle of the face.
-    ///
-    /// # Errors
-    /// [`Refusal::IndefiniteCompliance`] if neighbouring pairs displace each other too much.
-    pub(super) fn position(&self, s: f64) -> Result<Position<'_>, Refusal> {
+    pub(super) fn position(&self, s: f64) -> Position<'_> {
         let mesh = &self.mesh;
         let (from, to) = mesh.ends();
         let first = ((from - s - self.reach) / mesh.base_pitch).ceil() as i32;
         let last = ((to - s + self.reach) / mesh.base_pitch).floor() as i32;
         let pairs = (last - first + 1).max(0) as usize;
-        let mut contacts = Vec::with_capacity(self.slices.len() * pairs);
-        for slice in &self.slices {
-            for ahead in (first..).take(pairs) {
-                let place = s + f64::from(ahead) * mesh.base_pitch + slice.ahead;
-                contacts.push(self.contact(slice, place));
+        let mut contacts = vec![Contact::NONE; self.slices.len() * pairs];
+        for (pair, ahead) in (first..).take(pairs).enumerate() {
+            let path = s + f64::from(ahead) * mesh.base_pitch;
+            let of_pair = contacts[pair..].iter_mut().step_by(pairs);
+            for (slice, contact) in self.slices.iter().zip(of_pair) {
+                *contact = self.contact(slice, path + slice.ahead);
             }
         }
-        let factors = self.factors(s, first, pairs)?;
-        Ok(Position { face: self, s, first, pairs, error: 0.0, contacts, factors })
+        let kappa = self.kappa(s, first, pairs);
+        Position { face: self, s, first, pairs, error: 0.0, contacts, kappa }
     }
 
     /// A pair without deviation at a place of its path in a slice.
     fn contact(&self, slice: &Slice, place: f64) -> Contact {
-        /// Least part of the compliance of a pair that is in its contact.
-        const LEAST: f64 = 1e-3;
         let mesh = &self.mesh;
-        let (zone, kept) = mesh.zone_at(place);
-        let [stiffness, gap, lever, sliding] = mesh.values(zone, kept);
-        let [driver, driven] = self.teeth[zone].at(kept);
-        let compliance = self.inputs.width / stiffness;
-        let contact = (compliance - driver - driven).max(LEAST * compliance);
-        let teeth = (compliance - contact) * (driver * slice.ends[0] + driven * slice.ends[1])
-            / (driver + driven);
-        let can_carry = kept.to_bits() == place.to_bits();
-        let friction = mesh.friction() * self.inputs.oblique;
+        let (from, to) = mesh.ends();
+        if place < from || place > to {
+            return Contact::NONE;
+        }
+        let [gap, local, driver, driven, friction] = self.sections[mesh.zone_at(place).0].at(place);
+        let teeth = driver * slice.ends[0] + driven * slice.ends[1];
         Contact {
-            gap: if can_carry { gap + slice.gap } else { f64::INFINITY },
-            can_carry,
-            local: contact,
+            gap: gap + slice.gap,
+            can_carry: true,
+            local,
             root: teeth.max(0.0).sqrt(),
-            weight: 1.0 - friction * sliding.signum() * lever,
+            weight: 1.0 - mesh.friction() * self.inputs.oblique * friction,
         }
     }
 
@@ -179,11 +206,16 @@ impl Face {
         let z = (path - loads.s - f64::from(ahead) * self.mesh.base_pitch) / self.inputs.lead;
         let after = self.slices.partition_point(|slice| slice.z < z);
         let before = after.checked_sub(1).filter(|_| after < self.slices.len())?;
-        let [one, other] = [before, after].map(|slice| loads.free[slice * loads.pairs + pair]);
+        // Gap plus deflection by the pair itself is smooth along the face.
+        let free = |number: usize| {
+            let (at, slice) = (number * loads.pairs + pair, &self.slices[number]);
+            let contact = self.contact(slice, self.path(loads, ahead, number));
+            loads.leads[at] + contact.gap + self.own(&contact) * loads.line_loads[at]
+        };
+        let [one, other] = [before, after].map(free);
         let part = (z - self.slices[before].z) / self.slices[before].step;
-        let error = if ahead == 0 { loads.error } else { 0.0 };
         let contact = self.contact(&Slice::at(&self.inputs, z), path);
-        let lead = one + part * (other - one) - (contact.gap - error);
+        let lead = one + part * (other - one) - contact.gap;
         Some((lead, contact.local + self.own(&contact), z))
     }
 
@@ -212,8 +244,8 @@ impl Face {
         if self.inputs.coupling_length > 0.0 { 0.0 } else { contact.root * contact.root }
     }
 
-    /// The lower factor C of κ = C Cᵀ, row by row.
-    fn factors(&self, s: f64, first: i32, pairs: usize) -> Result<Vec<f64>, Refusal> {
+    /// κ, row by row.
+    fn kappa(&self, s: f64, first: i32, pairs: usize) -> Vec<f64> {
         let mesh = &self.mesh;
         let mut kappa = vec![0.0; pairs * pairs];
         for rear in 0..pairs {
@@ -224,24 +256,12 @@ impl Face {
                 let place = s + (f64::from(first) + rear as f64) * mesh.base_pitch;
                 let to_middle = 0.5 * (mesh.length - way) - place;
                 let place = place + to_middle.clamp(-self.reach, self.reach);
-                kappa[(rear + apart) * pairs + rear] = self.neighbour(place, apart);
+                let (front, neighbour) = (rear + apart, self.neighbour(place, apart));
+                kappa[front * pairs + rear] = neighbour;
+                kappa[rear * pairs + front] = neighbour;
             }
         }
-        for row in 0..pairs {
-            for column in 0..=row {
-                let before =
-                    (0..column).map(|at| kappa[row * pairs + at] * kappa[column * pairs + at]);
-                let rest = kappa[row * pairs + column] - before.sum::<f64>();
-                kappa[row * pairs + column] = if column < row {
-                    rest / kappa[column * pairs + column]
-                } else if rest > 0.0 {
-                    rest.sqrt()
-                } else {
-                    return Err(Refusal::IndefiniteCompliance);
-                };
-            }
-        }
-        Ok(kappa)
+        kappa
     }
 
     /// κ of a pair at a place and of the pair `apart` pitches ahead.
@@ -252,8 +272,8 @@ impl Face {
             return 0.0;
         }
         let teeth = |place: f64| {
-            let (zone, kept) = mesh.zone_at(place);
-            self.teeth[zone].at::<2>(kept).iter().sum::<f64>()
+            let [_, _, driver, driven] = self.sections[mesh.zone_at(place).0].at(place);
+            driver + driven
         };
         let mean = (teeth(place) * teeth(place + way)).sqrt();
         mesh.coupling(apart, place) * self.inputs.width / mean
@@ -261,31 +281,9 @@ impl Face {
 }
 
 impl Position<'_> {
-    /// Whether a pair is within the computed range.
-    pub(super) fn has(&self, ahead: i32) -> bool {
-        usize::try_from(ahead - self.first).is_ok_and(|index| index < self.pairs)
-    }
-
-    /// Advances the flanks of a pair by a deviation, in m.
-    pub(super) fn deviate(&mut self, ahead: i32, error: f64) {
-        self.of_pair(ahead, |_, contact| contact.gap -= error);
-        self.error = error;
-    }
-
-    /// Lets a pair touch only after E.
-    pub(super) fn keep_after_start(&mut self, ahead: i32) {
-        let (face, s) = (self.face, self.s + f64::from(ahead) * self.face.mesh.base_pitch);
-        self.of_pair(ahead, |slice, contact| {
-            contact.can_carry &= s + face.slices[slice].ahead > 0.0;
-        });
-    }
-
-    fn of_pair(&mut self, ahead: i32, mut change: impl FnMut(usize, &mut Contact)) {
-        if self.has(ahead) {
-            let index = (ahead - self.first) as usize;
-            let of_pair = self.contacts.iter_mut().skip(index).step_by(self.pairs);
-            of_pair.enumerate().for_each(|(slice, contact)| change(slice, contact));
-        }
+    /// The index of a pair within the computed range.
+    pub(super) fn index(&self, ahead: i32) -> Option<usize> {
+        usize::try_from(ahead - self.first).ok().filter(|index| *index < self.pairs)
     }
 
     /// The loads of all pairs. The search for the touching slices begins with those of `near`.
@@ -296,9 +294,9 @@ impl Position<'_> {
     /// u_j − L² u_j'' = √q_tj p_j,   u_j' = 0 at the ends of the face,   ∫ Σ w_k p_k dz = F0
     /// ```
     /// κ_kj is the displacement of pair k by a load on pair j over the geometric mean of those of
-    /// the loaded pairs. The known touching slices give linear equations, symmetric and positive
-    /// definite in the coordinates Cᵀ u with C Cᵀ = κ; the slices are corrected until no load and no
-    /// overlap contradicts them.
+    /// the loaded pairs. The known touching slices give linear equations in the pairs with any of them,
+    /// symmetric and positive definite in the coordinates Cᵀ u with C Cᵀ = κ; the slices are corrected
+    /// until no load and no overlap contradicts them.
     ///
     /// # Source
     /// The decay along the tooth over L by own finite elements in three dimensions. Active sets:
@@ -306,34 +304,78 @@ impl Position<'_> {
     /// method".
     ///
     /// # Errors
-    /// [`Refusal::BeyondReach`] if a pair beyond the computed gaps may touch.
+    /// [`Refusal::BeyondReach`] if a pair beyond the computed gaps may touch,
+    /// [`Refusal::IndefiniteCompliance`] if neighbouring pairs displace each other too much.
     pub(super) fn loads(&self, until: Until, near: Option<&Loads>) -> Result<Loads, Refusal> {
-        // The length of a matrix row is known to the compiler.
-        let loads = match self.pairs {
-            ..3 => self.balanced::<3>(until, near),
-            3 => self.balanced::<4>(until, near),
-            4 => self.balanced::<5>(until, near),
-            5 => self.balanced::<6>(until, near),
-            6..8 => self.balanced::<8>(until, near),
-            8..16 => self.balanced::<16>(until, near),
-            _ => self.balanced::<{ PAIRS + 1 }>(until, near),
-        };
-        let loads = loads.ok_or(Refusal::IndefiniteCompliance)?;
-        let lead = loads.displacement - self.face.least_gap + self.error.max(0.0);
-        self.face.mesh.check_reach(lead)?;
-        Ok(loads)
+        const CORRECTIONS: usize = 40;
+        const ONE_BY_ONE: usize = 400;
+        let (mut touching, mut displacement) = self.first_guess(until, near);
+        let count = self.contacts.len();
+        let (mut lines, mut sums) = (vec![[1.0, 0.0]; count], [0.0; 2]);
+        let lead = |lines: &[f64; 2], displacement: f64| lines[0] * displacement - lines[1];
+        let rounds = if displacement.is_finite() { CORRECTIONS + ONE_BY_ONE } else { 0 };
+        for round in 0..rounds {
+            lines = self.lines(&touching).ok_or(Refusal::IndefiniteCompliance)?;
+            sums = self.sums(&touching, &lines);
+            if let Until::Force(force) = until {
+                displacement = (force + sums[1]) / sums[0];
+            }
+            let carries = lines.iter().zip(&self.contacts);
+            let carries =
+                carries.map(|(lines, of)| of.can_carry && lead(lines, displacement) > 0.0);
+            let wrong = touching.iter_mut().zip(carries).filter(|(old, new)| **old != *new);
+            let most = if round < CORRECTIONS { count } else { 1 };
+            if wrong.take(most).map(|(old, new)| *old = new).count() == 0 {
+                break;
+            }
+            if round < CORRECTIONS && matches!(until, Until::Force(_)) && !touching.contains(&true)
+            {
+                let all = (0..count).filter(|&at| self.contacts[at].can_carry);
+                let lead = |at: usize| lead(&lines[at], displacement);
+                let nearest = all.max_by(|&one, &other| lead(one).total_cmp(&lead(other)));
+                if let Some(at) = nearest {
+                    touching[at] = true;
+                }
+            }
+        }
+        let mut alike = (f64::NEG_INFINITY, f64::INFINITY);
+        for (lines, _) in lines.iter().zip(&self.contacts).filter(|(_, of)| of.can_carry) {
+            let turn = lines[1] / lines[0];
+            if turn < displacement {
+                alike.0 = turn.max(alike.0);
+            } else {
+                alike.1 = turn.min(alike.1);
+            }
+        }
+        let leads: Vec<f64> = lines.iter().map(|lines| lead(lines, displacement)).collect();
+        let loaded = leads.iter().zip(&self.contacts);
+        let loaded =
+            loaded.map(|(lead, of)| if of.can_carry { lead.max(0.0) / of.local } else { 0.0 });
+        let line_loads = loaded.collect();
+        let most = displacement - self.face.least_gap + self.error.max(0.0);
+        self.face.mesh.check_reach(most)?;
+        Ok(Loads {
+            s: self.s,
+            first: self.first,
+            pairs: self.pairs,
+            displacement,
+            line_loads,
+            leads,
+            force: sums[0] * displacement - sums[1],
+            stiffness: sums[0],
+            alike,
+        })
     }
 
     /// The displacement at which independent slices balance a force. Begins with all slices, so that
     /// the displacement falls to that of the touching ones.
     fn of_springs(&self, force: f64) -> f64 {
-        let springs = self.contacts.iter().enumerate().filter(|(_, contact)| contact.can_carry);
+        let springs = self.of_slices().filter(|(_, contact)| contact.can_carry);
         let mut displacement = f64::INFINITY;
         loop {
             let touching = springs.clone().filter(|(_, contact)| contact.gap < displacement);
             let (stiffness, preload) =
-                touching.fold((0.0, force), |(stiffness, preload), (at, contact)| {
-                    let width = self.face.slices[at / self.pairs].width;
+                touching.fold((0.0, force), |(stiffness, preload), (width, contact)| {
                     let compliance = contact.local + contact.root * contact.root;
                     let spring = contact.weight * width / compliance;
                     (stiffness + spring, preload + spring * contact.gap)
@@ -346,18 +388,25 @@ impl Position<'_> {
         }
     }
 
-    /// The slices to begin with, and the displacement.
+    /// Every pair at every slice, with the width of the slice.
+    fn of_slices(&self) -> impl Iterator<Item = (f64, &Contact)> + Clone {
+        let slices = self.face.slices.iter().zip(self.contacts.chunks(self.pairs.max(1)));
+        slices.flat_map(|(slice, pairs)| pairs.iter().map(|contact| (slice.width, contact)))
+    }
+
+    /// The pairs at slices to begin with, and the displacement.
     fn first_guess(&self, until: Until, near: Option<&Loads>) -> (Vec<bool>, f64) {
-        let touching = |is_near: &dyn Fn(usize) -> bool| -> Vec<bool> {
-            (0..self.contacts.len()).map(|at| self.contacts[at].can_carry && is_near(at)).collect()
-        };
         if let Some(near) = near {
-            let carried = touching(&|at| {
-                near.at(
-                    self.first.saturating_add_unsigned((at % self.pairs) as u32),
-                    at / self.pairs,
-                ) > 0.0
-            });
+            let mut carried = vec![false; self.contacts.len()];
+            for (pair, ahead) in (self.first..).take(self.pairs).enumerate() {
+                let Some(known) = near.index(ahead) else { continue };
+                let (old, new) = (&near.line_loads[known..], &mut carried[pair..]);
+                let old = old.iter().step_by(near.pairs);
+                let of_pair = self.contacts[pair..].iter().step_by(self.pairs).zip(old);
+                for (new, (of, old)) in new.iter_mut().step_by(self.pairs).zip(of_pair) {
+                    *new = of.can_carry && *old > 0.0;
+                }
+            }
             match until {
                 Until::Displacement(displacement) => return (carried, displacement),
                 Until::Force(_) if carried.contains(&true) => return (carried, near.displacement),
@@ -368,175 +417,114 @@ impl Position<'_> {
             Until::Force(force) => self.of_springs(force),
             Until::Displacement(displacement) => displacement,
         };
-        (touching(&|at| self.contacts[at].gap < displacement), displacement)
+        let touches = |of: &Contact| of.can_carry && of.gap < displacement;
+        (self.contacts.iter().map(touches).collect(), displacement)
     }
 
-    /// The loads at the end of the search; `None` if the compliances are not positive definite.
-    fn balanced<const ROW: usize>(&self, until: Until, near: Option<&Loads>) -> Option<Loads> {
-        const CORRECTIONS: usize = 40;
-        const ONE_BY_ONE: usize = 400;
-        let (touching, mut displacement) = self.first_guess(until, near);
-        let count = self.contacts.len();
-        let mut system = System::<ROW> {
-            at: self,
-            touching,
-            rows: vec![[0.0; ROW]; count],
-            sides: vec![[0.0; 2]; count],
-        };
-        let (mut leads, mut sums) = (vec![[1.0, 0.0]; count], [0.0; 2]);
-        let lead = |lines: &[f64; 2], displacement: f64| lines[0] * displacement - lines[1];
-        let rounds = if displacement.is_finite() { CORRECTIONS + ONE_BY_ONE } else { 0 };
-        for round in 0..rounds {
-            system.solve()?;
-            sums = system.sums();
-            if let Until::Force(force) = until {
-                displacement = (force + sums[1]) / sums[0];
-            }
-            leads = system.leads();
-            let touching = &mut system.touching;
-            let carries =
-                |at: usize| self.contacts[at].can_carry && lead(&leads[at], displacement) > 0.0;
-            let mut wrong = (0..count).filter(|&at| carries(at) != touching[at]);
-            if round < CORRECTIONS {
-                let wrong: Vec<usize> = wrong.collect();
-                if wrong.is_empty() {
-                    break;
-                }
-                for at in wrong {
-                    touching[at] = !touching[at];
-                }
-                let is_apart = matches!(until, Until::Force(_)) && !touching.contains(&true);
-                let all = (0..count).filter(|&at| is_apart && self.contacts[at].can_carry);
-                let lead = |at: usize| lead(&leads[at], displacement);
-                let nearest = all.max_by(|&one, &other| lead(one).total_cmp(&lead(other)));
-                if let Some(at) = nearest {
-                    touching[at] = true;
-                }
-            } else if let Some(at) = wrong.next() {
-                touching[at] = !touching[at];
-            } else {
-                break;
-            }
+    /// Displacement under the loads minus the gap, of every pair at every slice, if exactly the
+    /// `touching` ones carry: its change with the displacement, and what is taken from that. `None` if
+    /// the compliances are not positive definite.
+    fn lines(&self, touching: &[bool]) -> Option<Vec<[f64; 2]>> {
+        let has_load =
+            |pair: &usize| touching[*pair..].iter().step_by(self.pairs).any(|touches| *touches);
+        let active: Vec<usize> = (0..self.pairs).filter(has_load).collect();
+        // The length of a matrix row is known to the compiler.
+        match active.len() {
+            0 | 1 => self.lines_of::<2>(&active, touching),
+            2 => self.lines_of::<3>(&active, touching),
+            3 => self.lines_of::<4>(&active, touching),
+            4 => self.lines_of::<5>(&active, touching),
+            5..8 => self.lines_of::<8>(&active, touching),
+            8..16 => self.lines_of::<16>(&active, touching),
+            _ => self.lines_of::<{ PAIRS + 1 }>(&active, touching),
         }
-        let mut alike = (f64::NEG_INFINITY, f64::INFINITY);
-        for (lines, _) in leads.iter().zip(&self.contacts).filter(|(_, of)| of.can_carry) {
-            let turn = lines[1] / lines[0];
-            if turn < displacement {
-                alike.0 = turn.max(alike.0);
-            } else {
-                alike.1 = turn.min(alike.1);
-            }
-        }
-        let leads: Vec<f64> = leads.iter().map(|lines| lead(lines, displacement)).collect();
-        let loaded = leads.iter().zip(&self.contacts);
-        let line_loads: Vec<f64> = loaded
-            .map(|(lead, of)| if of.can_carry { lead.max(0.0) / of.local } else { 0.0 })
-            .collect();
-        let free = leads.iter().zip(&line_loads).zip(&self.contacts);
-        let free = free.map(|((lead, load), of)| lead + of.gap + self.face.own(of) * load);
-        Some(Loads {
-            s: self.s,
-            first: self.first,
-            error: self.error,
-            pairs: self.pairs,
-            displacement,
-            free: free.collect(),
-            line_loads,
-            leads,
-            force: sums[0] * displacement - sums[1],
-            stiffness: sums[0],
-            alike,
-        })
-    }
-}
-
-/// The linear equations of a balance, in the coordinates y = Cᵀ u.
-struct System<'a, const ROW: usize> {
-    at: &'a Position<'a>,
-    touching: Vec<bool>,
-    /// Rows of the lower half of the matrix: the diagonal, then the entries before it.
-    rows: Vec<[f64; ROW]>,
-    /// The right sides, and then the solutions, of the displacement and of the gaps.
-    sides: Vec<[f64; 2]>,
-}
-
-impl<const ROW: usize> System<'_, ROW> {
-    /// L²/step: what a difference of u between a slice and the next takes from one to the other.
-    fn exchange(&self, number: usize) -> f64 {
-        let (length, step) =
-            (self.at.face.inputs.coupling_length, self.at.face.slices[number].step);
-        if step > 0.0 { length * length / step } else { 0.0 }
     }
 
-    /// Solves the equations of the touching slices; `None` if the compliances are not positive definite.
-    fn solve(&mut self) -> Option<()> {
-        let (pairs, mut before) = (self.at.pairs, 0.0);
-        for (number, slice) in self.at.face.slices.iter().enumerate() {
-            let after = self.exchange(number);
-            let of_slice = number * pairs..(number + 1) * pairs;
-            let contacts = &self.at.contacts[of_slice.clone()];
-            let touching = &self.touching[of_slice.clone()];
-            for row in 0..pairs {
-                let at = number * pairs + row;
-                let entries = &mut self.rows[at];
-                *entries = [0.0; ROW];
+    /// [`Position::lines`] with the pairs that have any touching slice, fewer than `ROW`.
+    fn lines_of<const ROW: usize>(
+        &self,
+        active: &[usize],
+        touching: &[bool],
+    ) -> Option<Vec<[f64; 2]>> {
+        let (face, pairs, count) = (self.face, self.pairs, active.len());
+        let factors = self.factors(active)?;
+        let length = face.inputs.coupling_length;
+        let mut rows = Rows::<f64, ROW>::with_capacity(face.slices.len() * count);
+        let mut sides = vec![[0.0; 2]; face.slices.len() * count];
+        // What a difference of u between a slice and the next takes from one to the other, L²/step.
+        let mut before = 0.0;
+        let of_slices = self.contacts.chunks(pairs.max(1)).zip(touching.chunks(pairs.max(1)));
+        for (number, (slice, (contacts, touching))) in face.slices.iter().zip(of_slices).enumerate()
+        {
+            let after = if slice.step > 0.0 { length * length / slice.step } else { 0.0 };
+            let base = number * count;
+            for _ in 0..count {
+                let mut entries = [0.0; ROW];
                 entries[0] = slice.width + before + after;
                 if number > 0 {
-                    entries[pairs] = -before;
+                    entries[count] = -before;
                 }
-                self.sides[at] = [0.0; 2];
+                rows.push(entries);
             }
-            for pair in (0..pairs).filter(|pair| touching[*pair]) {
+            for (index, &pair) in active.iter().enumerate().filter(|(_, pair)| touching[**pair]) {
                 let Contact { gap, local, root, .. } = contacts[pair];
-                let factors = &self.at.factors[pair * pairs..=pair * pairs + pair];
+                let factors = &factors[pair * count..=pair * count + index];
                 let push = slice.width * root / local;
-                for (row, factor) in
-                    factors.iter().enumerate().filter(|(_, factor)| **factor != 0.0)
-                {
-                    let at = number * pairs + row;
-                    self.sides[at][0] += push * factor;
-                    self.sides[at][1] += push * factor * gap;
-                    for (column, other) in factors[..=row].iter().enumerate() {
-                        self.rows[at][row - column] += push * root * factor * other;
+                for (row, factor) in factors.iter().enumerate() {
+                    let (push, entries) = (push * factor, &mut rows[base + row]);
+                    for (entry, other) in entries.iter_mut().zip(factors[..=row].iter().rev()) {
+                        *entry += push * root * other;
                     }
+                    let side = &mut sides[base + row];
+                    *side = [side[0] + push, side[1] + push * gap];
                 }
             }
             before = after;
         }
-        Banded::factored(self.rows.iter().copied())?.solve(&mut self.sides);
-        Some(())
+        Banded::of(rows)?.solve(&mut sides);
+        let mut lines = Vec::with_capacity(self.contacts.len());
+        for (number, contacts) in self.contacts.chunks(pairs.max(1)).enumerate() {
+            let sides = &sides[number * count..][..count];
+            for (pair, Contact { root, gap, .. }) in contacts.iter().enumerate() {
+                let factors = factors[pair * count..][..count].iter().zip(sides);
+                let [moved, kept] = factors.fold([0.0; 2], |[one, other], (factor, side)| {
+                    [one + factor * side[0], other + factor * side[1]]
+                });
+                lines.push([1.0 - root * moved, gap - root * kept]);
+            }
+        }
+        Some(lines)
     }
 
-    /// √q_t (C y)_k of the displacement and of the gaps.
-    fn pushed(&self, at: usize) -> [f64; 2] {
-        let (pairs, slice, pair) = (self.at.pairs, at / self.at.pairs, at % self.at.pairs);
-        let factors = &self.at.factors[pair * pairs..=pair * pairs + pair];
-        let sides = &self.sides[slice * pairs..];
-        let sum = factors.iter().zip(sides).fold([0.0; 2], |[one, other], (factor, side)| {
-            [one + factor * side[0], other + factor * side[1]]
-        });
-        sum.map(|sum| self.at.contacts[at].root * sum)
+    /// Row by row the factor C of κ = C Cᵀ of the active pairs, and the rows that the other pairs have
+    /// with it. `None` if κ is not positive definite.
+    fn factors(&self, active: &[usize]) -> Option<Vec<f64>> {
+        let (pairs, count) = (self.pairs, active.len());
+        let mut factors = vec![0.0; pairs * count];
+        for (column, &own) in active.iter().enumerate() {
+            let rest = |factors: &[f64], pair: usize| {
+                let known = factors[pair * count..].iter().zip(&factors[own * count..]);
+                let known = known.take(column).map(|(one, other)| one * other);
+                self.kappa[pair * pairs + own] - known.sum::<f64>()
+            };
+            let square = rest(&factors, own);
+            if square <= 0.0 || square.is_nan() {
+                return None;
+            }
+            for pair in (0..pairs).filter(|pair| !active[..column].contains(pair)) {
+                factors[pair * count + column] = rest(&factors, pair) / square.sqrt();
+            }
+        }
+        Some(factors)
     }
 
     /// Change of the force that turns the driver with the displacement, and the force that the gaps
     /// take.
-    fn sums(&self) -> [f64; 2] {
-        let touching = (0..self.at.contacts.len()).filter(|&at| self.touching[at]);
-        touching.fold([0.0; 2], |[slope, offset], at| {
-            let ([moved, kept], contact) = (self.pushed(at), &self.at.contacts[at]);
-            let width = self.at.face.slices[at / self.at.pairs].width;
+    fn sums(&self, touching: &[bool], lines: &[[f64; 2]]) -> [f64; 2] {
+        let touching = self.of_slices().zip(lines).zip(touching).filter(|(_, touches)| **touches);
+        touching.fold([0.0; 2], |[slope, offset], (((width, contact), lines), _)| {
             let spring = contact.weight * width / contact.local;
-            [slope + spring * (1.0 - moved), offset + spring * (contact.gap - kept)]
+            [slope + spring * lines[0], offset + spring * lines[1]]
         })
-    }
-
-    /// Displacement under the loads minus the gap, of every pair at every slice: its change with the
-    /// displacement, and what is taken from that.
-    fn leads(&self) -> Vec<[f64; 2]> {
-        let lead = |at: usize| {
-            let [moved, kept] = self.pushed(at);
-            [1.0 - moved, self.at.contacts[at].gap - kept]
-        };
-        (0..self.at.contacts.len()).map(lead).collect()
     }
 }

@@ -1,17 +1,21 @@
 //! The load at rest over the face width: one base pitch without deviations, and the passage of the
 //! incoming tooth.
 
-use super::balance::{Loads, Until};
+use super::balance::{Incoming, Loads, Until};
 use super::course::Course;
 use super::{Face, Slice};
 use crate::model::Refusal;
 use crate::model::budget::STATIONS;
 use crate::model::static_load::{HARMONICS, Spectrum, StaticLoad, StaticSpectrum};
 use crate::model::stations::{Own, Spacing, Station};
-use crate::numeric::root::{self, greatest};
+use crate::numeric::root::{self, greatest_within};
 use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
+use std::rc::Rc;
 use std::sync::Arc;
+
+/// Tolerances of greatest values: finer ones are lost among the errors of the slices.
+pub(super) const PRECISION: (f64, f64) = (1e-6, 1e-9);
 
 /// A place of contact on the face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -105,7 +109,7 @@ impl Face {
     }
 
     /// The path of a pair at a slice, in m.
-    fn path(&self, loads: &Loads, ahead: i32, slice: usize) -> f64 {
+    pub(super) fn path(&self, loads: &Loads, ahead: i32, slice: usize) -> f64 {
         loads.s + f64::from(ahead) * self.mesh.base_pitch + self.slices[slice].ahead
     }
 
@@ -178,12 +182,6 @@ impl Face {
         parts.map(|(value, slice)| value * of(slice.z) * slice.width).sum()
     }
 
-    /// The balance with the incoming pair at `s`.
-    fn balance(&self, s: f64, error: f64) -> Result<Loads, Refusal> {
-        let loads = self.loads(s, error, Until::Force(self.mesh.force))?;
-        if loads.displacement.is_finite() { Ok(loads) } else { Err(Refusal::BeyondReach) }
-    }
-
     /// One base pitch without deviations, and the harmonics of its transmission error.
     ///
     /// # Formula
@@ -198,12 +196,15 @@ impl Face {
     /// Those of [`Face::loads`].
     pub fn cycle(&self) -> Result<(FaceCycle, StaticSpectrum), Refusal> {
         let (pitch, steps) = (self.mesh.base_pitch, self.steps());
-        let place = |number: usize| pitch * number as f64 / steps as f64;
-        let all: Vec<Loads> =
-            (0..steps).map(|number| self.balance(place(number), 0.0)).collect::<Result<_, _>>()?;
-        let mean = |of: &dyn Fn(&Loads) -> f64| all.iter().map(of).sum::<f64>() / steps as f64;
+        let passage = Passage::new(self, None, Incoming::Alike);
+        let places: Vec<f64> =
+            (0..=steps).map(|number| pitch * number as f64 / steps as f64).collect();
+        let period = passage.samples(&places)?;
+        let all = &period[..steps];
+        let mean =
+            |of: fn(&Loads) -> f64| all.iter().map(|loads| of(loads)).sum::<f64>() / steps as f64;
         let mut line_loads = vec![0.0; self.slices.len()];
-        for loads in &all {
+        for loads in all {
             for (sum, line_load) in line_loads.iter_mut().zip(loads.of_all()) {
                 *sum += line_load / steps as f64;
             }
@@ -216,20 +217,15 @@ impl Face {
                 *sum = [sum[0] + loads.displacement * cosine, sum[1] + loads.displacement * sine];
             }
         }
-        let extreme = |of: &dyn Fn(&Loads) -> f64| {
-            let known = all.iter().chain([&all[0]]).enumerate();
-            let known: Vec<_> = known.map(|(number, loads)| (place(number), of(loads))).collect();
-            greatest(&known, |s| self.balance(s, 0.0).map_or(f64::NEG_INFINITY, |loads| of(&loads)))
-                .1
-        };
+        let extreme = |of: &dyn Fn(&Loads) -> f64| passage.greatest(&period, of).1;
         let middle = |loads: &Loads| {
             let line_loads = loads.of_all();
             self.over_face(&line_loads, |z| z) / self.over_face(&line_loads, |_| 1.0)
         };
         let most = line_loads.iter().copied().fold(0.0, f64::max);
         let cycle = FaceCycle {
-            mean_displacement: mean(&|loads| loads.displacement),
-            mean_slope: mean(&|loads| loads.stiffness),
+            mean_displacement: mean(|loads| loads.displacement),
+            mean_slope: mean(|loads| loads.stiffness),
             face_load_factor: most * self.inputs.width / self.over_face(&line_loads, |_| 1.0),
             swing: extreme(&middle) + extreme(&|loads| -middle(loads)),
             line_loads,
@@ -243,27 +239,21 @@ impl Face {
         Ok((cycle, StaticSpectrum { spectrum, tooth_force }))
     }
 
-    /// The greatest lead of the incoming tooth before E over the face, in m: the displacement under the
-    /// loads after E and of the other pairs less its gap. Above 0 the tip touches before E. `until`
-    /// gives what ends the search for a balance with the incoming pair at a place.
+    /// The greatest lead of the incoming tooth before E over the face, in m, at rest or in a motion: the
+    /// displacement under the loads after E and of the other pairs less its gap. Above 0 the tip touches
+    /// before E.
     ///
     /// # Errors
     /// Those of [`Face::loads`].
-    pub(super) fn greatest_lead(&self, until: &dyn Fn(f64) -> Until) -> Result<f64, Refusal> {
+    pub(in crate::model) fn greatest_lead(&self, course: Option<&Course>) -> Result<f64, Refusal> {
         let (mesh, step) = (&self.mesh, self.mesh.base_pitch / self.steps() as f64);
         let (from, to) = (mesh.ends().0 - self.reach, self.reach);
-        let lead = |s: f64| -> Result<f64, Refusal> {
-            let mut position = self.position(s)?;
-            position.deviate(0, mesh.error);
-            position.keep_after_start(0);
-            let loads = position.loads(until(s), None)?;
-            Ok(self.lead_before_start(&loads).max(-mesh.length))
-        };
         let count = ((to - from) / step).ceil() as usize;
         let places = (0..=count).map(|number| from + (to - from) * number as f64 / count as f64);
-        let known: Vec<(f64, f64)> =
-            places.map(|s| Ok((s, lead(s)?))).collect::<Result<_, Refusal>>()?;
-        Ok(greatest(&known, |s| lead(s).unwrap_or(f64::NEG_INFINITY)).1)
+        let passage = Passage::new(self, course, Incoming::AfterStart(mesh.error));
+        let samples = passage.samples(&places.collect::<Vec<_>>())?;
+        let lead = |loads: &Loads| self.lead_before_start(loads).max(-mesh.length);
+        Ok(passage.greatest(&samples, &lead).1)
     }
 
     /// The greatest lead of the incoming tooth before E at rest, in m.
@@ -271,7 +261,7 @@ impl Face {
     /// # Errors
     /// Those of [`Face::loads`].
     pub fn lead_at_rest(&self) -> Result<f64, Refusal> {
-        self.greatest_lead(&|_| Until::Force(self.mesh.force))
+        self.greatest_lead(None)
     }
 
     /// The greatest force of a tooth, in N.
@@ -330,7 +320,7 @@ impl Face {
         &self,
         spacing: Spacing,
     ) -> Result<(StaticLoad, Option<Arc<FaceLoad>>), Refusal> {
-        let passage = Passage { face: self, course: None, near: RefCell::default() };
+        let passage = Passage::new(self, None, Incoming::Deviates(self.mesh.error));
         let Some(passed) = passage.run(spacing)? else {
             return Ok((StaticLoad::default(), None));
         };
@@ -356,11 +346,12 @@ impl Face {
 
 /// The passage of the incoming tooth, at rest or in motion.
 pub(super) struct Passage<'a> {
-    pub face: &'a Face,
+    face: &'a Face,
     /// The motion; `None` at rest.
-    pub course: Option<&'a Course>,
+    course: Option<&'a Course>,
+    incoming: Incoming,
     /// The balance computed last, whose slices are likely to touch again.
-    pub near: RefCell<Option<Loads>>,
+    near: RefCell<Option<Rc<Loads>>>,
 }
 
 /// The load of the incoming tooth in a passage.
@@ -376,25 +367,43 @@ pub(super) struct Passed {
     pub rough: Option<Refusal>,
     pub face: FaceLoad,
     /// The loads at places from the first to the last contact.
-    pub samples: Vec<Loads>,
+    pub samples: Vec<Rc<Loads>>,
 }
 
-impl Passage<'_> {
+impl<'a> Passage<'a> {
+    pub(super) fn new(face: &'a Face, course: Option<&'a Course>, incoming: Incoming) -> Self {
+        Passage { face, course, incoming, near: RefCell::default() }
+    }
+
     /// The loads with the incoming pair at `s`.
-    fn loads(&self, s: f64) -> Result<Loads, Refusal> {
-        let face = self.face;
-        let mut position = face.position(s)?;
-        position.deviate(0, face.mesh.error);
+    fn loads(&self, s: f64) -> Result<Rc<Loads>, Refusal> {
+        let mut near = self.near.borrow_mut();
+        if let Some(near) = near.as_ref().filter(|near| near.s.to_bits() == s.to_bits()) {
+            return Ok(Rc::clone(near));
+        }
+        let mut position = self.face.position(s);
+        self.incoming.change(&mut position, 0);
         let until = match self.course {
             Some(course) => Until::Displacement(course.at(s)[0]),
-            None => Until::Force(face.mesh.force),
+            None => Until::Force(self.face.mesh.force),
         };
-        let loads = position.loads(until, self.near.borrow().as_ref())?;
+        let loads = Rc::new(position.loads(until, near.as_deref())?);
         if !loads.displacement.is_finite() {
             return Err(Refusal::BeyondReach);
         }
-        *self.near.borrow_mut() = Some(loads.clone());
+        *near = Some(Rc::clone(&loads));
         Ok(loads)
+    }
+
+    fn samples(&self, places: &[f64]) -> Result<Vec<Rc<Loads>>, Refusal> {
+        places.iter().map(|&s| self.loads(s)).collect()
+    }
+
+    /// The greatest value, with its place, by samples and a search between them.
+    fn greatest(&self, samples: &[Rc<Loads>], of: &dyn Fn(&Loads) -> f64) -> (f64, f64) {
+        let known: Vec<_> = samples.iter().map(|loads| (loads.s, of(loads))).collect();
+        let at = |s: f64| self.loads(s).map_or(f64::NEG_INFINITY, |loads| of(&loads));
+        greatest_within(&known, PRECISION, at)
     }
 
     /// Places between two places, at which the load is smooth enough to be sampled; `part` of them.
@@ -456,14 +465,8 @@ impl Passage<'_> {
         };
         let (first_place, last_place) = (place(first)?, place(last)?);
         let places = self.places(first, last, 1);
-        let samples: Vec<Loads> =
-            places.iter().map(|&s| self.loads(s)).collect::<Result<_, _>>()?;
-        let extreme = |of: &dyn Fn(&Loads) -> f64| {
-            let known: Vec<_> =
-                places.iter().zip(&samples).map(|(&s, loads)| (s, of(loads))).collect();
-            let at = |s: f64| self.loads(s).map_or(f64::NEG_INFINITY, |loads| of(&loads));
-            greatest(&known, at)
-        };
+        let samples = self.samples(&places)?;
+        let extreme = |of: &dyn Fn(&Loads) -> f64| self.greatest(&samples, of);
         let line_peak = |part: Part| {
             let peak = |loads: &Loads| face.line_peak(loads, std::iter::once(0), part);
             let (s, _) = extreme(&|loads| peak(loads).line_load);
@@ -477,7 +480,7 @@ impl Passage<'_> {
                 let motion = self.course.map(|course| (s / course.speed, Some(course.at(s)[1])));
                 let loads = self.loads(s).unwrap_or_else(|refusal| {
                     failed.set(Some(refusal));
-                    samples[0].clone()
+                    Rc::clone(&samples[0])
                 });
                 let station = face.station(&loads, motion);
                 (station.force, station)
@@ -495,7 +498,8 @@ impl Passage<'_> {
             deepest / mesh.base_radii.1
         });
         let is_apart = |angle: &f64| *angle > 0.0;
-        let at_slices = |loads: &Loads| (0..face.slices.len()).map(|at| loads.at(0, at)).collect();
+        let at_slices =
+            |loads: &Rc<Loads>| (0..face.slices.len()).map(|at| loads.at(0, at)).collect();
         Ok(Some(Passed {
             ends: (
                 Some(ahead(&first_place)).filter(is_apart).or(strikes),
@@ -524,20 +528,14 @@ impl Passage<'_> {
 
     /// The time from the first contact to the first minimum of the force after its first peak, or to the
     /// last contact, in s. `None` at rest.
-    pub(super) fn first_minimum(&self, samples: &[Loads]) -> Option<f64> {
-        let speed = self.course?.speed;
-        let force: Vec<f64> =
-            samples.iter().map(|loads| self.face.force(loads, 0, Part::All)).collect();
+    pub(super) fn first_minimum(&self, samples: &[Rc<Loads>]) -> Option<f64> {
+        let of = |loads: &Loads| self.face.force(loads, 0, Part::All);
+        let force: Vec<f64> = samples.iter().map(|loads| of(loads)).collect();
         let peak = (1..force.len()).find(|&at| force[at] < force[at - 1])?;
         let rises = |at: &usize| force.get(at + 1).is_none_or(|next| *next > force[*at]);
         let least = (peak..force.len()).find(rises)?;
-        let known: Vec<_> = samples[..=(least + 1).min(force.len() - 1)][least - 1..]
-            .iter()
-            .map(|loads| (loads.s, -self.face.force(loads, 0, Part::All)))
-            .collect();
-        let at = |s: f64| {
-            self.loads(s).map_or(f64::NEG_INFINITY, |loads| -self.face.force(&loads, 0, Part::All))
-        };
-        Some((greatest(&known, at).0 - samples[0].s) / speed)
+        let near = &samples[least - 1..=(least + 1).min(force.len() - 1)];
+        let (s, _) = self.greatest(near, &|loads| -of(loads));
+        Some((s - samples[0].s) / self.course?.speed)
     }
 }

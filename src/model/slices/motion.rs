@@ -4,17 +4,18 @@
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use super::Face;
-use super::balance::{Loads, Position, Until};
+use super::balance::{Incoming, Loads, Position, Until};
 use super::course::{Course, Moment};
-use super::load::{FaceLoad, Passage, Passed};
+use super::load::{FaceLoad, PRECISION, Passage, Passed};
 use crate::model::Refusal;
 use crate::model::dynamic::steady::{Start, Steady, periodic};
 use crate::model::dynamic::{Approach, Dynamic, Settings, State};
 use crate::model::static_load::Fourier;
-use crate::numeric::root::greatest;
+use crate::numeric::root::greatest_within;
 
 /// Steps of a motion times slices: some ten seconds of computation.
 const MOST_WORK: f64 = 4e6;
@@ -47,32 +48,8 @@ struct Line {
     stiffness: f64,
 }
 
-/// What differs at the incoming pair.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Incoming {
-    /// It is like the others.
-    Alike,
-    /// It has this deviation, in m.
-    Deviates(f64),
-    /// It has the deviation, and touches only after E.
-    AfterStart(f64),
-}
-
 /// Memory of a pair at a slice of a known place, in bytes.
 const PER_CONTACT: usize = 48;
-
-impl Incoming {
-    fn change(self, position: &mut Position<'_>, pair: i32) {
-        match self {
-            Incoming::Alike => {}
-            Incoming::Deviates(error) => position.deviate(pair, error),
-            Incoming::AfterStart(error) => {
-                position.deviate(pair, error);
-                position.keep_after_start(pair);
-            }
-        }
-    }
-}
 
 impl<'a> Springs<'a> {
     /// The places for motions at this speed along the line of action and above.
@@ -124,10 +101,10 @@ impl<'a> Springs<'a> {
         let place = match places.entry(place.to_bits()) {
             std::collections::hash_map::Entry::Occupied(known) => known.into_mut(),
             std::collections::hash_map::Entry::Vacant(new) => {
-                new.insert(Place { position: self.face.position(place)?, lines: Vec::new() })
+                new.insert(Place { position: self.face.position(place), lines: Vec::new() })
             }
         };
-        let is_alike = incoming == Incoming::Alike || !place.position.has(pitches);
+        let is_alike = incoming == Incoming::Alike || place.position.index(pitches).is_none();
         let deviating = (!is_alike).then_some(pitches);
         let serves = |(of, line): &&(Option<i32>, Line)| {
             *of == deviating && displacement >= line.alike.0 && displacement <= line.alike.1
@@ -270,7 +247,7 @@ impl<'a, 'b> Motion<'a, 'b> {
     /// The static balance at the beginning of a base pitch.
     fn at_rest(&self, pitches: i32) -> Result<State, Refusal> {
         let face = self.springs.face;
-        let mut position = face.position(0.0)?;
+        let mut position = face.position(0.0);
         self.incoming.change(&mut position, pitches);
         let loads = position.loads(Until::Force(face.mesh.force), None)?;
         if loads.displacement.is_finite() {
@@ -351,15 +328,14 @@ pub(in crate::model) fn dynamic(
     let springs = Springs::new(face, settings, mesh.speed);
     let motion = Motion::new(&springs, settings, mesh.speed, Incoming::Deviates(mesh.error));
     let course = motion.passage(settings, mesh.ends().1 + face.reach, go_on)?;
-    let passage = Passage { face, course: Some(&course), near: RefCell::default() };
+    let passage = Passage::new(face, Some(&course), Incoming::Deviates(mesh.error));
     let passed = passage.run(settings.spacing)?.ok_or(Refusal::BeyondReach)?;
     let Passed { ends, stations, rough, samples, .. } = passed;
     let strikes = ends.0.is_some();
-    let until = |s: f64| Until::Displacement(course.at(s)[0]);
-    let least_gap = if strikes { None } else { Some(-face.greatest_lead(&until)?) };
+    let least_gap = if strikes { None } else { Some(-face.greatest_lead(Some(&course))?) };
     let last = samples.last().map_or(mesh.length, |loads| loads.s);
-    let time = |pair: &[Loads]| (pair[1].s - pair[0].s) / mesh.speed;
-    let power = |pair: &[Loads]| {
+    let time = |pair: &[Rc<Loads>]| (pair[1].s - pair[0].s) / mesh.speed;
+    let power = |pair: &[Rc<Loads>]| {
         let [one, other] = [&pair[0], &pair[1]].map(|loads| face.friction_power(loads));
         f64::midpoint(one, other) * time(pair)
     };
@@ -396,7 +372,7 @@ pub(in crate::model) fn approach(
     let springs = Springs::new(face, settings, mesh.speed);
     let motion = Motion::new(&springs, settings, mesh.speed, Incoming::AfterStart(mesh.error));
     let course = motion.passage(settings, face.reach, go_on)?;
-    let lead = face.greatest_lead(&|s| Until::Displacement(course.at(s)[0]))?;
+    let lead = face.greatest_lead(Some(&course))?;
     let contact_lost = course.loses_contact(-mesh.base_pitch - face.reach, face.reach);
     Ok(Approach { lead, contact_lost })
 }
@@ -444,7 +420,7 @@ pub(in crate::model) fn steady(
     }
     let extreme = |of: &dyn Fn(f64) -> f64| {
         let known: Vec<_> = course.moments.iter().map(|one| (one.s, of(one.s))).collect();
-        greatest(&known, of).1
+        greatest_within(&known, PRECISION, of).1
     };
     fourier.include(extreme(&|s| course.at(s)[0]));
     fourier.include(-extreme(&|s| -course.at(s)[0]));
