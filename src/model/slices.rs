@@ -43,8 +43,8 @@ impl Slice {
 pub struct Face {
     inputs: FaceInputs,
     mesh: Arc<Mesh>,
-    /// The section by the zones of the mesh, see [`Mesh::sections`].
-    sections: Arc<Vec<Series<5>>>,
+    /// The section over the path of a pair, see [`Mesh::sections`].
+    sections: Arc<Series<5>>,
     slices: Vec<Slice>,
     /// Greatest path of a slice ahead of the middle, in m.
     reach: f64,

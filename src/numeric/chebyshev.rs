@@ -80,6 +80,11 @@ impl<const N: usize> Series<N> {
         groups
     }
 
+    /// The functions on one interval after the other.
+    pub fn joined(parts: impl IntoIterator<Item = Series<N>>) -> Series<N> {
+        Series { pieces: parts.into_iter().flat_map(|part| part.pieces).collect() }
+    }
+
     /// The values of the first `M` functions at `x`. `x` may be beyond the interval by rounding.
     pub fn at<const M: usize>(&self, x: f64) -> [f64; M] {
         self.piece(x).map_or([f64::NAN; M], |piece| values(&piece.powers, 0, piece.inner(x)))

@@ -163,7 +163,7 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// What a slice of the face needs of a pair, in each zone: gap, in m, compliances of the contact,
+    /// What a slice of the face needs of a pair at a place of its path: gap, in m, compliances of the contact,
     /// of the driver's tooth and of the driven tooth per unit width, in m²/N, and the arm of the
     /// friction force over the driver's base radius with the sign of the sliding velocity.
     ///
@@ -172,7 +172,7 @@ impl Mesh {
     pub(in crate::model) fn sections(
         &self,
         geometry: &Geometry,
-    ) -> Result<Arc<Vec<Series<5>>>, Refusal> {
+    ) -> Result<Arc<Series<5>>, Refusal> {
         /// Of each value in the middle of the path.
         const REST: f64 = 1e-12;
         /// Least part of the compliance of a pair that is in its contact.
@@ -204,8 +204,8 @@ impl Mesh {
             let rest = [zone.gap_rest, REST * size, REST * size, REST * size, REST];
             Series::of(zone.from, zone.to, &|_, _| rest, &at)
         };
-        let found = Arc::new(self.zones.iter().map(of_zone).collect::<Result<_, _>>()?);
-        Ok(Arc::clone(self.sections.0.get_or_init(|| found)))
+        let zones: Vec<Series<5>> = self.zones.iter().map(of_zone).collect::<Result<_, _>>()?;
+        Ok(Arc::clone(self.sections.0.get_or_init(|| Arc::new(Series::joined(zones)))))
     }
 
     /// The mesh without coupling.

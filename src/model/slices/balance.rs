@@ -183,7 +183,7 @@ impl Face {
         if place < from || place > to {
             return Contact::NONE;
         }
-        let [gap, local, driver, driven, friction] = self.sections[mesh.zone_at(place).0].at(place);
+        let [gap, local, driver, driven, friction] = self.sections.at(place);
         let teeth = driver * slice.ends[0] + driven * slice.ends[1];
         Contact {
             gap: gap + slice.gap,
@@ -272,7 +272,7 @@ impl Face {
             return 0.0;
         }
         let teeth = |place: f64| {
-            let [_, _, driver, driven] = self.sections[mesh.zone_at(place).0].at(place);
+            let [_, _, driver, driven] = self.sections.at(place);
             driver + driven
         };
         let mean = (teeth(place) * teeth(place + way)).sqrt();
