@@ -144,7 +144,7 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
     commit.map_or_else(|| version.to_owned(), |commit| format!("{version} ({commit})"))
 });
 
-/// Compute corner contact in spur gear pairs: position, force and duration of the tip impact
+/// Compute corner contact in spur and helical gear pairs: position, force and duration of the tip impact
 #[derive(Debug, Parser)]
 #[command(name = "tipstrike", version = VERSION.as_str(), args_conflicts_with_subcommands = true, after_help = exit_codes())]
 pub struct Arguments {

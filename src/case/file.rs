@@ -754,7 +754,7 @@ fn named(key: &Key) -> Named {
     (key.get().to_owned(), key.span().unwrap_or_default().start)
 }
 
-/// The file without comment lines, empty lines, and headers of empty tables. Keeps all lines of a
+/// The file without comments, empty lines, and headers of empty tables. Keeps all lines of a
 /// multi-line string.
 #[must_use]
 pub fn without_comments(text: &str) -> String {
@@ -771,6 +771,11 @@ pub fn without_comments(text: &str) -> String {
         let trimmed = line.trim();
         if is_inside || !(trimmed.is_empty() || trimmed.starts_with('#')) {
             let is_header = !is_inside && line.starts_with('[');
+            let values = layout.values().map(|entry| entry.span.end);
+            let end = values.filter(|end| (start..start + line.len()).contains(end)).max();
+            let comment =
+                end.map(|end| end - start).filter(|&end| line[end..].trim_start().starts_with('#'));
+            let line = &line[..comment.unwrap_or(line.len())];
             kept.push((sanitize(line.trim_end_matches(['\n', '\r'])), is_header));
         }
         start += line.len();

@@ -199,7 +199,12 @@ pub(super) fn added_by_inertia(moved: &Solution, still: Option<&Solution>) -> Op
 }
 
 fn difference(mesh: &Mesh, still: &StaticLoad, moved: &Dynamic) -> f64 {
-    let angles = match (still.first_contact_angle, moved.first_contact_angle) {
+    /// Part of the peak force below which a contact that only the motion has counts as none.
+    const TOUCH: f64 = 1e-4;
+    let is_force =
+        still.first_contact_angle.is_some() || moved.peak_approach_force > TOUCH * moved.peak_force;
+    let first_moved = moved.first_contact_angle.filter(|_| is_force);
+    let angles = match (still.first_contact_angle, first_moved) {
         (Some(still), Some(moved)) => (still / moved - 1.0).abs(),
         (None, None) => 0.0,
         _ => 1.0,
@@ -208,7 +213,7 @@ fn difference(mesh: &Mesh, still: &StaticLoad, moved: &Dynamic) -> f64 {
         if difference == 0.0 { 0.0 } else { (difference / force).abs() }
     };
     let peaks = over(still.peak_force - moved.peak_force, moved.peak_force);
-    let approach = moved.first_contact_angle.map_or(0.0, |_| {
+    let approach = first_moved.map_or(0.0, |_| {
         over(still.force_at_start - moved.peak_approach_force, moved.peak_approach_force)
     });
     let off = |&(place, force): &(f64, f64)| {
@@ -247,7 +252,7 @@ impl fmt::Display for Reason {
             }
             Reason::Refused => f.write_str("the closed form has no solution"),
             Reason::OverFace => f.write_str("the load varies over the face width"),
-            Reason::ContactLost => f.write_str("the pair ahead loses contact"),
+            Reason::ContactLost => f.write_str("by the closed form the pair ahead loses contact"),
             Reason::Outlasts(lasts, way) => {
                 write!(
                     f,

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
 
+use super::auto::Inertia;
 use super::compliance::model_of;
 use super::compliance::tooth::preferences;
 use super::deviation::{Origin, out_of_range};
@@ -98,14 +99,17 @@ const ROWS: &[fn(&Context) -> Found] = &[
     |k| {
         let [period, time, part] = inertia_at_rest(k)?;
         let message = format!(
-            "method static ignores inertia, which may change the force by {:.0} %: the mesh period \
-                is {} us, and the load on the tooth grows over {} us",
+            "method static ignores inertia, which may change the force by {:.0} %: the natural \
+                period of the mesh is {} us, and the load on the tooth grows over {} us",
             100.0 * part.min(1.0),
             micro(period),
             micro(time)
         );
         let is_fast = k.solution.method == Method::Static && part > k.inputs.within;
-        is_fast.then_some(("inertia", message))
+        // A trial motion measured the effect.
+        let tried = k.solution.choice.and_then(|choice| choice.inertia);
+        let is_known = matches!(tried, Some(Inertia::Tried(_)));
+        (is_fast && !is_known).then_some(("inertia", message))
     },
     |k| {
         let refusal = k.solution.withheld?;

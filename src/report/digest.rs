@@ -67,11 +67,13 @@ impl Digest {
         let size = first([("Pd ", "pair.diametral_pitch"), ("m ", "pair.module")]);
         let [z1, z2, angle] = ["driver.teeth", "driven.teeth", "pair.pressure_angle"].map(text);
         let load = first([("", "operation.power"), ("", "operation.torque")]);
+        let helix = Some(text("pair.helix_angle")).filter(|_| inputs.helix_angle > 0.0);
+        let helix = helix.map_or_else(String::new, |helix| format!("β {helix}, "));
         let limits = verdicts.iter().map(|limit| (limit.standing, limit.sentence(system)));
         let notes = found.map(|solution| model::notes(inputs, solution)).unwrap_or_default();
         Digest {
             title: text("title"),
-            pair: format!("z {z1}/{z2}, {size}, α {angle}, b {width}"),
+            pair: format!("z {z1}/{z2}, {size}, α {angle}, {helix}b {width}"),
             load: format!("{load} at {}", text("operation.speed")),
             method,
             outcome,
@@ -101,7 +103,7 @@ pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> St
     if solution.outcome == Outcome::NoCornerContact {
         let why = without_contact_in_full(solution, system);
         let most = most.map(|most| format!("; up to {most}")).unwrap_or_default();
-        return format!("No corner contact: {why}{most}.");
+        return format!("No corner contact: {why}{most}{}.", at_exit(solution, 0.0, system));
     }
     let angle = own("approach_angle_driver", solution);
     let angle = angle.and_then(|own| printed(own.key, solution, system));
@@ -115,8 +117,19 @@ pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> St
         (Some((tip, ratio)), None) => format!(": impact force {tip}{ratio}"),
         _ => String::new(),
     };
+    let exit = at_exit(solution, of("static_force_at_start", solution).unwrap_or(0.0), system);
     let relief = relief(solution, system, pending).map(|relief| format!("; {relief}"));
-    format!("Corner contact{angle}{forces}{}.", relief.unwrap_or_default())
+    format!("Corner contact{angle}{forces}{}{exit}.", relief.unwrap_or_default())
+}
+
+/// The force of the corner contact at the exit, if it is clearly larger than the force at the entry.
+fn at_exit(solution: &Solution, entry: f64, system: System) -> String {
+    const LARGER: f64 = 1.05;
+    let of_contact = of("static_last_contact_angle", solution);
+    let force = of_contact.and_then(|_| of("static_force_at_end", solution));
+    let is_larger = force.is_some_and(|force| force > LARGER * entry);
+    let shown = printed("static_force_at_end", solution, system).filter(|_| is_larger);
+    shown.map_or_else(String::new, |force| format!("; at the exit {force} on the driver's tip"))
 }
 
 /// A quantity of the free impact, or its counterpart in the method.

@@ -203,12 +203,15 @@ impl ReliefReport<'_> {
                 let [shown, other] = [from, to].map(|error| tidy(error * 1e6, 3));
                 format!("from {shown} to {other} um ({})", change(from, to))
             };
+            let over_loads = changed(case.nominal.error, own.nominal.error);
+            let at_first = changed(case.errors[0], own.errors[0]);
+            let at_first = match at_first == over_loads {
+                true => String::new(),
+                false => format!(", at {} % of the load {at_first}", percent(found.loads[0])),
+            };
             lines.push(format!(
-                "The {} transmission error over the loads changes {}, at {} % of the load {}.",
+                "The {} transmission error over the loads changes {over_loads}{at_first}.",
                 self.figure(),
-                changed(case.nominal.error, own.nominal.error),
-                percent(found.loads[0]),
-                changed(case.errors[0], own.errors[0]),
             ));
             let [from, to] = [case, own].map(|choice| choice.nominal.peak);
             if (to / from - 1.0).abs() > 0.02 {

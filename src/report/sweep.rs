@@ -83,8 +83,8 @@ fn line(grid: &Grid, quantities: &[&Quantity], index: usize, row: &Row) -> Json 
     })
 }
 
-/// The chart of a sweep from its CSV: the first quantity, or the selected ones of its unit, over the
-/// varied field with the most values, with a curve for each combination of the other fields.
+/// The chart of a sweep from its CSV: the quantities, or the selected ones, with the unit of the first,
+/// over the varied field with the most values, with a curve for each combination of the other fields.
 ///
 /// # Errors
 /// The reason if the text is no sweep or has no values.
@@ -106,9 +106,6 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
     let none = "this is no CSV of `tipstrike sweep` with a varied field and the quantity";
     let &(_, first) = known.first().ok_or(none)?;
     known.retain(|(_, quantity)| quantity.unit == first.unit);
-    if only.is_empty() {
-        known.truncate(1);
-    }
     let distinct = |columns: &[usize]| {
         let mut found: Vec<Vec<&str>> = Vec::new();
         for row in &rows {
@@ -160,9 +157,14 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
     let (key, across_unit) = names[across];
     let labels = places.iter().enumerate().map(|(at, place)| (at as f64, place[0].to_owned()));
     let labels = labels.filter(|_| !is_number).collect();
-    let up = format!("{} {}", first.label.trim_start(), first.symbol);
+    let dimension = units::Dimension::of_unit(unit).map_or("", units::Dimension::name);
+    let common = dimension.trim_start_matches("an ").trim_start_matches("a ");
+    let (name, up) = match known.len() {
+        1 => (first.label.trim_start(), format!("{} {}", first.label.trim_start(), first.symbol)),
+        _ => (common, common.to_owned()),
+    };
     Ok(Chart {
-        title: format!("{} over {}", first.label.trim_start(), label(key)),
+        title: format!("{name} over {}", label(key)),
         across: Axis { labels, ..Axis::new(label(key), across_unit) },
         up: Axis::new(up, units::named(unit)),
         series,

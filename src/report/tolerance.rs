@@ -8,7 +8,7 @@ use super::{common_unit, shown_with};
 use crate::case::fields::index_of;
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::case::{Case, Problem, Spread};
+use crate::case::{Acting, Case, Problem, Spread, relevance};
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::study::batch::Points;
@@ -243,10 +243,15 @@ pub(super) fn samples(study: &Tolerance, summary: &Summary) -> String {
 
 /// The spread fields of a case with their values and distributions.
 pub(super) fn distributions(case: &Case) -> Vec<(&'static str, String)> {
+    let (inputs, _) = case.read();
     let of = |spread: &Spread| {
         let value = index_of(spread.field).and_then(|field| case.effective(field));
         let value = sanitize(value.unwrap_or_default());
-        (spread.field, format!("{value}, {}", sanitize(&spread.text)))
+        let idle = match index_of(spread.field).map(|field| relevance(field, &inputs)) {
+            Some(Acting::No(why) | Acting::Beside(why)) => format!("; changes nothing: {why}"),
+            _ => String::new(),
+        };
+        (spread.field, format!("{value}, {}{idle}", sanitize(&spread.text)))
     };
     case.spread.iter().map(of).collect()
 }

@@ -193,7 +193,11 @@ impl Distribution {
         let Some((field, centre)) = given.and_then(|field| Some((field, case.value(field)?)))
         else {
             let cause = format!("{key} has no value to spread around");
-            return refused(cause, format!("give {key} a value"));
+            let fix = match key.ends_with(".base_pitch") {
+                true => format!("write {key} = \"0 um\": the deviation is drawn around 0"),
+                false => format!("give {key} a value"),
+            };
+            return refused(cause, fix);
         };
         let (shape, width) = match spread.shape {
             Shape::Grade => (Shape::Truncated, allowed_deviation(spread, inputs)),

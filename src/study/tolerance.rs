@@ -56,7 +56,7 @@ impl Tolerance {
         size: Size,
     ) -> Result<Tolerance, Problem> {
         if case.spread.is_empty() {
-            let fix = "add a line [spread] and below it a line such as \
+            let fix = "write under [spread] a line such as \
                 \"deviations.base_pitch\" = { normal = \"4 um\" }";
             return Err(Problem::new("spread", "the case has no distributions", fix));
         }

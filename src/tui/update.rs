@@ -235,7 +235,10 @@ fn fault(app: &mut App) {
     let (tab, focus) = (&app.tab, app.tab.form.focus);
     let rows = tab.problems.iter().map(|(row, _)| *row).chain(tab.refused_row());
     match rows.min_by_key(|&row| (row <= focus, row)) {
-        Some(row) => field(app, row),
+        Some(row) => {
+            app.is_editing = true;
+            field(app, row);
+        }
         None => app.say("no field has an error"),
     }
 }

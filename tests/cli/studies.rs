@@ -360,7 +360,7 @@ fn a_bad_distribution_gets_place_cause_and_fix() {
     }
     let (code, _, errors) = printed(&["tolerance", TABLE_1]);
     assert!(
-        code == 3 && errors.contains("no distributions: add a line [spread] and below it"),
+        code == 3 && errors.contains("no distributions: write under [spread] a line such as"),
         "{errors}"
     );
     let (code, _, errors) = printed(&["tolerance", TABLE_1, "--samples", "1"]);

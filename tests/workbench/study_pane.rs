@@ -227,7 +227,7 @@ fn a_hidden_study_is_not_computed_and_a_late_result_is_ignored() {
     desk.fill("operation.speed", "2 kg");
     assert_eq!(
         desk.app.tab.study.obstacle.as_deref(),
-        Some("No study: a field has an error. Alt-E goes to that field.")
+        Some("No study: a field is empty or has an error. Alt-E goes to that field.")
     );
 }
 

@@ -128,10 +128,11 @@ pub(super) fn template(case: &Case, comments: &[(&str, String)]) -> String {
         let _ = writeln!(text, "\n# {help}\n[{table}]\n{lines}");
     }
     let about = of_table(&["about"]);
-    if !about.is_empty() {
-        let lines = about.join("\n");
-        let _ = writeln!(text, "\n# Texts for the page of a report.\n[about]\n{lines}");
-    }
+    let lines = match about.is_empty() {
+        true => "# [about]\n# project = \"\"\n# author = \"\"".to_owned(),
+        false => format!("[about]\n{}", about.join("\n")),
+    };
+    let _ = writeln!(text, "\n# Texts for the page of a report, with any keys.\n{lines}");
     text.push_str("\n# Overrides of the case, for compare, --variant and the workbench.\n");
     if case.variants.is_empty() {
         text.push_str("# [variants.relieved]\n# \"driven.tip_relief\" = \"48 um\"\n");

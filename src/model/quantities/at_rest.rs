@@ -1,10 +1,12 @@
 //! Rows of the static load sharing.
 
-use super::conditions::{always, friction_given};
+use super::conditions::{always, friction_given, in_slices};
 use super::{Need, PLAIN, Quantity, Variant, checks, of_driver};
 use crate::model::Stage::{Mesh, Static};
 use crate::model::compliance::{ContactPlace, Teeth};
-use crate::model::explanation::Formula::{self, Difference, Found, Made, Solved, Text, Words};
+use crate::model::explanation::Formula::{
+    self, Cases, Difference, Found, Made, Solved, Text, Words,
+};
 use crate::model::explanation::{Check, Context, Equation, Step, step};
 use crate::model::position::TipContact;
 use crate::model::position::{gap, tip_at};
@@ -114,8 +116,17 @@ pub(super) const TABLE: &[Quantity] = &[
             |s| Some(s.static_load.as_ref()?.force_at_start),
             "The force on the incoming tooth at E at rest. A sufficient tip relief \
             reduces this force to 0.",
-            Difference("max(k_E (x_E + Δf_0 - C_E), 0)"),
+            Cases(&[
+                (in_slices, Found("the largest Σ w_k F_k of the slices before their E", SHARED)),
+                (always, Difference("max(k_E (x_E + Δf_0 - C_E), 0)")),
+            ]),
         )
+        .variants(&[Variant::meaning(
+            in_slices,
+            " Each slice of the face reaches its E at another time: this is the part of the force \
+                on the tooth that its tip edge carries before E, at its largest. The chart of the \
+                force shows the whole force on the tooth.",
+        )])
         .corrections(&["Eq. 53", "Eq. 54"]),
     AT_REST
         .row(

@@ -68,6 +68,11 @@ pub fn any_base_pitch(inputs: &Inputs) -> bool {
     inputs.has_own_base_pitch() || inputs.combination == Combination::Sum
 }
 
+/// The load varies over the face width: the pair is solved in slices.
+pub fn in_slices(inputs: &Inputs) -> bool {
+    inputs.face().is_some()
+}
+
 /// The pair is helical.
 pub fn helical(inputs: &Inputs) -> bool {
     inputs.helix_angle > 0.0

@@ -407,6 +407,7 @@ impl Charts<'_> {
         let values: Vec<String> = values.collect();
         let mark = chart.marks.iter().find(|mark| mark.0.total_cmp(&place).is_eq());
         let mark = mark.map_or_else(String::new, |(_, name)| format!(" ({name})"));
+        let values = if values.is_empty() { vec!["no value".to_owned()] } else { values };
         let across = value(place, &chart.across.unit);
         format!("{} {across}{mark}: {}.", chart.across.name, values.join(", "))
     }

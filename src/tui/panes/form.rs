@@ -186,7 +186,7 @@ fn reasons(pane: &Form<'_>, row: usize) -> Vec<Row> {
     if pane.is_unfinished(row) || rows::lacks(pane.case, row) {
         return Vec::new();
     }
-    let width = usize::from(pane.area.width).saturating_sub(5);
+    let width = usize::from(pane.area.width).saturating_sub(6);
     let own = pane.problems.iter().filter(|(at, _)| *at == row);
     own.flat_map(|(_, problem)| {
         let lines = text::wrap(&format!("{}: {}", problem.cause, problem.fix), width);

@@ -316,9 +316,8 @@ pub(super) fn ask_relief(app: &mut App) {
 /// Writes the relief into the form as one edit.
 fn take_relief(app: &mut App, values: &[(&'static str, String)]) {
     app.prompts.pop();
-    let amounts = values.iter().filter(|(key, _)| key.ends_with(".tip_relief"));
-    let words: Vec<String> =
-        amounts.map(|(key, text)| format!("{} {text}", key.replace(['.', '_'], " "))).collect();
+    let words = values.iter().map(|(key, text)| format!("{} {text}", changes::label(key)));
+    let words: Vec<String> = words.collect();
     set_values(app, values, &words.join(", "));
 }
 

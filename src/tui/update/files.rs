@@ -294,6 +294,8 @@ pub(super) fn built_in(app: &mut App) {
 /// Starts an empty case in a new tab.
 pub(super) fn fresh_tab(app: &mut App) {
     add_tab(app, Origin::New, Document::new(Case::fresh()));
+    app.layout.focus_on(Pane::Form);
+    app.is_editing = true;
     let missing = app.tab.problems.len();
     app.say(format!(
         "new case: {missing} required fields are empty, the others show their defaults; \

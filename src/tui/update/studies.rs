@@ -84,7 +84,9 @@ pub(super) fn request(app: &mut App) {
 /// reason why there is no study.
 fn parameters(app: &App) -> Result<StudyParameters, String> {
     let tab = &app.tab;
-    let inputs = tab.inputs().ok_or("No study: a field has an error. Alt-E goes to that field.")?;
+    let inputs = tab
+        .inputs()
+        .ok_or("No study: a field is empty or has an error. Alt-E goes to that field.")?;
     let chosen = app.study.quantity.and_then(Quantity::find);
     let quantity = chosen.or_else(|| app.results().marked());
     let quantity =

@@ -177,7 +177,13 @@ fn fitting(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
         let least = if last.rank == UNITS { last.least } else { 0 };
         let room = last.width().saturating_sub(over).max(least);
         if room >= last.least {
-            columns[at].cells.iter_mut().for_each(|cell| *cell = text::cut(cell, room));
+            // The symbol tells the method.
+            let short = |cell: &str| {
+                let stripped =
+                    ["static: ", "dynamic: "].iter().find_map(|by| cell.strip_prefix(by));
+                text::cut(stripped.unwrap_or(cell), room)
+            };
+            columns[at].cells.iter_mut().for_each(|cell| *cell = short(cell));
         } else {
             columns.remove(at);
         }

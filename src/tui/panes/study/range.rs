@@ -189,7 +189,8 @@ fn value(case: &Case, field: usize) -> f64 {
         }
         _ => known.example().parse().ok(),
     };
-    number(case, field).or_else(example).unwrap_or(0.0)
+    let derived = || case.derived(field, &case.read().0);
+    number(case, field).or_else(derived).or_else(example).unwrap_or(0.0)
 }
 
 fn around_zero(case: &Case, field: usize) -> f64 {
