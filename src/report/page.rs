@@ -223,7 +223,13 @@ impl PageCase<'_> {
             line = format!("{line}. {notes}");
         }
         let about = report.case.about.iter();
-        let about = about.map(|(key, text)| format!("{}: {}", sanitize(key), one_line(text)));
+        let about = about.map(|(key, text)| {
+            let mut name = sanitize(key);
+            if let Some(first) = name.get_mut(..1) {
+                first.make_ascii_uppercase();
+            }
+            format!("{name}: {}", one_line(text))
+        });
         let about = about.collect::<Vec<_>>().join(" · ");
         [about, line].into_iter().filter(|line| !line.is_empty()).collect()
     }

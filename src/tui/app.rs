@@ -581,8 +581,15 @@ impl App {
 
     /// Shows an answer in its tab, unless a later request is running.
     pub fn take(&mut self, answer: Answer) {
-        if let Some(tab) = self.tab_of(answer.serial) {
+        let (serial, before) = (answer.serial, self.tab.chosen);
+        if let Some(tab) = self.tab_of(serial) {
             tab.take(answer);
+        }
+        let now = self.tab.chosen.filter(|_| serial == self.tab.serial);
+        if let Some((before, now)) = before.zip(now).filter(|(before, now)| before != now) {
+            let earlier = self.message.take().map(|message| message.text + ". ");
+            let (earlier, before) = (earlier.unwrap_or_default(), before.name());
+            self.say(format!("{earlier}auto: {before} -> {}", now.name()));
         }
         self.follow();
     }

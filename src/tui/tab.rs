@@ -12,6 +12,7 @@ use super::session::{Access, OpenCase};
 use super::solver::{Answer, Request, Values, Variants};
 use super::text::Line;
 use crate::case::{Case, Document, FIELDS, Limit, Problem, Spread, Variant, fields};
+use crate::model::inputs::Method;
 use crate::model::{Inputs, Refusal, Solution, Stages};
 
 /// An open case.
@@ -58,6 +59,8 @@ pub struct Tab {
     pub is_settled: bool,
     /// The last valid results.
     pub answer: Option<Answer>,
+    /// The method that `auto` chose for the last complete results.
+    pub(crate) chosen: Option<Method>,
     /// The values before the present visit of a field, in the order of the quantities.
     pub(crate) earlier: Option<Values>,
     /// Why the model refuses the case of the form.
@@ -115,6 +118,7 @@ impl Tab {
             solving: None,
             is_settled: false,
             answer: None,
+            chosen: None,
             earlier: None,
             refusal: None,
             has_failed: false,
@@ -258,6 +262,10 @@ impl Tab {
             if answer.stiffness.is_none() && self.requested_stiffness {
                 // The chart keeps its curves until the new ones are computed.
                 answer.stiffness = self.answer.take().and_then(|earlier| earlier.stiffness);
+            }
+            if self.is_settled {
+                let is_auto = answer.inputs.method == Method::Auto;
+                self.chosen = Some(answer.active).filter(|_| is_auto);
             }
             self.answer = Some(answer);
         }
