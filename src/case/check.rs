@@ -150,8 +150,12 @@ fn number(
     let value = units::parse(text, dimension, known.usual_unit()).map_err(|misread| {
         let problem = misread.at(known.key);
         let likely = likely_units(text, known, dimension, (from, to));
-        if likely.is_empty() || !matches!(units::split(text, ""), Ok((_, ""))) {
+        if !matches!(units::split(text, ""), Ok((_, ""))) {
             return problem;
+        }
+        if likely.is_empty() {
+            let fix = format!("write a value from {}", known.range_text());
+            return Problem { fix: fix.into(), ..problem };
         }
         let meant = likely.iter().map(|unit| format!("\"{} {unit}\"", cut(text.trim())));
         Problem {

@@ -37,7 +37,7 @@ fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
     let mark = format!("{unsaved}{}{last}", tab.marks());
     let room = usize::from(width).saturating_sub(11 + mark.width());
     let instead = tab.in_place_of.as_ref();
-    let instead = instead.map(|path| format!(", for {} cannot be opened", path.display()));
+    let instead = instead.map(|path| format!(" ({} cannot be opened)", path.display()));
     let name = text::cut(&format!("{}{}", tab.name(), instead.unwrap_or_default()), room);
     let left = room.saturating_sub(name.width() + 3);
     let title = Some(tab.case.title()).filter(|title| !title.is_empty() && left > 8);

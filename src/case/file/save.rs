@@ -620,7 +620,14 @@ impl Target {
 /// Creates a temporary file beside a file. The umask limits the mode of a file that is not private.
 fn begin(beside: &Path, is_private: bool) -> io::Result<NamedTempFile> {
     let mode = if is_private { 0o600 } else { 0o666 };
-    files::with_mode(Builder::new().prefix(TEMPORARY), mode).tempfile_in(folder_of(beside))
+    let made =
+        files::with_mode(Builder::new().prefix(TEMPORARY), mode).tempfile_in(folder_of(beside));
+    // The error names the temporary file, which the user does not know.
+    made.map_err(|error| {
+        let inner = error.get_ref().and_then(std::error::Error::source);
+        let code = inner.and_then(|own| own.downcast_ref::<io::Error>()?.raw_os_error());
+        code.map_or(error, io::Error::from_raw_os_error)
+    })
 }
 
 /// Removes temporary files of killed saves in a folder: those that nobody wrote to for a day.
