@@ -229,10 +229,10 @@ fn about_spread(app: &App, spread: &Spread) -> String {
     let field = index_of(spread.field);
     let value = field.and_then(|field| case.effective(field)).unwrap_or("its value");
     let unit = field.map_or("", |field| FIELDS[field].usual_unit());
-    let grade = if spread.field.ends_with("base_pitch") { ", grade 7 (ISO 1328-1)" } else { "" };
+    let grade = if spread.field.ends_with("base_pitch") { ", grade 7" } else { "" };
     format!(
-        "Distribution of {name} around {value}, sampled by the tolerance: normal 1 {unit} (standard \
-            deviation), uniform, triangular or truncated 1 {unit} (half the span){grade}; empty: none."
+        "Distribution of {name} around {value}: normal 1 {unit} (standard deviation), uniform, \
+            triangular or truncated 1 {unit} (half-width){grade}; empty: none."
     )
 }
 
