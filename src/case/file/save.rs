@@ -624,9 +624,8 @@ fn begin(beside: &Path, is_private: bool) -> io::Result<NamedTempFile> {
         files::with_mode(Builder::new().prefix(TEMPORARY), mode).tempfile_in(folder_of(beside));
     // The error names the temporary file, which the user does not know.
     made.map_err(|error| {
-        let inner = error.get_ref().and_then(std::error::Error::source);
-        let code = inner.and_then(|own| own.downcast_ref::<io::Error>()?.raw_os_error());
-        code.map_or(error, io::Error::from_raw_os_error)
+        let text = error.to_string();
+        io::Error::new(error.kind(), text.split(" at path ").next().unwrap_or_default())
     })
 }
 
