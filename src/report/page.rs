@@ -234,6 +234,11 @@ impl PageCase<'_> {
         [about, line].into_iter().filter(|line| !line.is_empty()).collect()
     }
 
+    /// The notes without the marks of Markdown.
+    fn plain_notes(&self) -> Vec<String> {
+        self.notes.iter().map(|note| note.replace('`', "")).collect()
+    }
+
     fn name(&self) -> String {
         sanitize(&self.report.name)
     }
