@@ -1,12 +1,12 @@
 //! Rows of the face width: helical geometry, and the line load of a pair in slices.
 
-use super::{Need, PLAIN, Quantity, checks};
+use super::{Formula, Need, PLAIN, Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{Dynamic, Geometry, Load, Static, StaticSpectrum};
 use crate::model::explanation::Formula::{Found, Made, Text};
 use crate::model::explanation::{Check, Context};
 use crate::model::helix::Helix;
-use crate::model::slices::load::{FaceCycle, FaceLoad, LinePeak};
+use crate::model::slices::load::{FaceCycle, FaceLoad};
 
 const HELICAL: &str = "External helical gears on parallel, rigid shafts, with involute flanks \
             down to the contact.";
@@ -51,23 +51,83 @@ const MOVING: Quantity = Quantity {
     ..AT_REST
 };
 
-const LOAD: super::Formula =
-    Found("line load of the balance ∫ Σ p dz = F_0 in slices, x - gap = displacement", &["F_0"]);
-
 fn helix(solution: &Solution) -> Option<&Helix> {
     solution.helix.as_ref()
 }
 
-fn load(solution: &Solution) -> Option<&FaceLoad> {
-    solution.face_load.as_deref()
+/// The load over the face width at rest or in motion.
+fn load<const MOVES: bool>(solution: &Solution) -> Option<&FaceLoad> {
+    if MOVES { solution.face_motion.as_deref() } else { solution.face_load.as_deref() }
 }
 
-fn moving(solution: &Solution) -> Option<&FaceLoad> {
-    solution.face_motion.as_deref()
+const LOAD: Formula =
+    Found("line load of the balance ∫ Σ p dz = F_0 in slices, x - gap = displacement", &["F_0"]);
+
+/// The load over the face width, by the names of the rows.
+const fn of_load<const MOVES: bool>(names: [[&'static str; 3]; 5]) -> [Quantity; 5] {
+    const IN_MOTION: Formula =
+        Found("line load in motion, x - gap = displacement in slices", &["F_0", "f_n"]);
+    let [first, most, place, before, after] = names;
+    let (base, formula) = if MOVES { (MOVING, IN_MOTION) } else { (AT_REST, LOAD) };
+    [
+        base.row(
+            first,
+            ("m", "mm", 4),
+            |s| Some(load::<MOVES>(s)?.first.z),
+            "The place of the first contact of the incoming tooth along the axis, from \
+            the middle of the common face.",
+            formula,
+        )
+        .signed(),
+        base.row(
+            most,
+            ("N/m", "N/mm", 5),
+            |s| Some(load::<MOVES>(s)?.peak.line_load),
+            "The greatest force per width of the incoming tooth.",
+            formula,
+        ),
+        base.row(
+            place,
+            ("m", "mm", 4),
+            |s| Some(load::<MOVES>(s)?.peak.place.z),
+            "Where the greatest line load acts, along the axis from the middle of the \
+            common face.",
+            formula,
+        )
+        .signed(),
+        base.row(
+            before,
+            ("N/m", "N/mm", 5),
+            |s| Some(load::<MOVES>(s)?.before_start?.line_load),
+            "The greatest force per width of the driven tip before E: that of the \
+            corner contact.",
+            formula,
+        ),
+        base.row(
+            after,
+            ("N/m", "N/mm", 5),
+            |s| Some(load::<MOVES>(s)?.after_end?.line_load),
+            "The greatest force per width of the driver's tip after B.",
+            formula,
+        ),
+    ]
 }
 
-const IN_MOTION: super::Formula =
-    Found("line load in motion, x - gap = displacement in slices", &["F_0", "f_n"]);
+const STATIC: [Quantity; 5] = of_load::<false>([
+    ["static_first_contact_z", "z_st", "static: first contact at z"],
+    ["static_peak_line_load", "w_st,max", "static: peak line load"],
+    ["static_peak_line_load_z", "z_st,max", "static: peak line load at z"],
+    ["static_peak_line_load_before_start", "w_st,DE", "static: peak line load before E"],
+    ["static_peak_line_load_after_end", "w_st,B", "static: peak line load after B"],
+]);
+
+const DYNAMIC: [Quantity; 5] = of_load::<true>([
+    ["dynamic_first_contact_z", "z_dyn", "dynamic: first contact at z"],
+    ["dynamic_peak_line_load", "w_dyn,max", "dynamic: peak line load"],
+    ["dynamic_peak_line_load_z", "z_dyn,max", "dynamic: peak line load at z"],
+    ["dynamic_peak_line_load_before_start", "w_dyn,DE", "dynamic: peak line load before E"],
+    ["dynamic_peak_line_load_after_end", "w_dyn,B", "dynamic: peak line load after B"],
+]);
 
 fn cycle(solution: &Solution) -> Option<&FaceCycle> {
     solution.face_cycle.as_ref()
@@ -77,10 +137,6 @@ fn cycle(solution: &Solution) -> Option<&FaceCycle> {
 fn axial_force(k: &Context) -> String {
     let sign = if k.inputs.driver_hand.sign() < 0.0 { "-" } else { "" };
     format!("{sign}F_0 tan β_b")
-}
-
-fn line_load(peak: LinePeak) -> f64 {
-    peak.line_load
 }
 
 pub(super) const TABLE: &[Quantity] = &[
@@ -156,100 +212,26 @@ pub(super) const TABLE: &[Quantity] = &[
         )
         .stage(Load)
         .signed(),
-    AT_REST
-        .row(
-            ["static_first_contact_z", "z_st", "static: first contact at z"],
-            ("m", "mm", 4),
-            |s| Some(load(s)?.first.z),
-            "The place of the first contact of the incoming tooth along the axis, from \
-            the middle of the common face.",
-            LOAD,
-        )
-        .signed(),
+    STATIC[0],
     AT_REST
         .row(
             ["static_first_contact_path", "s_st", "static: first contact after E"],
             ("m", "mm", 4),
-            |s| Some(load(s)?.first.path),
+            |s| Some(load::<false>(s)?.first.path),
             "The path after E of the first contact in its own plane across the axis. \
             Below 0 the tip strikes before E.",
             LOAD,
         )
         .signed(),
-    AT_REST.row(
-        ["static_peak_line_load", "w_st,max", "static: peak line load"],
-        ("N/m", "N/mm", 5),
-        |s| Some(line_load(load(s)?.peak)),
-        "The greatest force per width of the incoming tooth.",
-        LOAD,
-    ),
-    AT_REST
-        .row(
-            ["static_peak_line_load_z", "z_st,max", "static: peak line load at z"],
-            ("m", "mm", 4),
-            |s| Some(load(s)?.peak.place.z),
-            "Where the greatest line load acts, along the axis from the middle of the \
-            common face.",
-            LOAD,
-        )
-        .signed(),
-    AT_REST.row(
-        ["static_peak_line_load_before_start", "w_st,DE", "static: peak line load before E"],
-        ("N/m", "N/mm", 5),
-        |s| load(s)?.before_start.map(line_load),
-        "The greatest force per width of the driven tip before E: that of the \
-            corner contact.",
-        LOAD,
-    ),
-    AT_REST.row(
-        ["static_peak_line_load_after_end", "w_st,B", "static: peak line load after B"],
-        ("N/m", "N/mm", 5),
-        |s| load(s)?.after_end.map(line_load),
-        "The greatest force per width of the driver's tip after B.",
-        LOAD,
-    ),
-    MOVING
-        .row(
-            ["dynamic_first_contact_z", "z_dyn", "dynamic: first contact at z"],
-            ("m", "mm", 4),
-            |s| Some(moving(s)?.first.z),
-            "The place of the first contact of the incoming tooth along the axis, from \
-            the middle of the common face.",
-            IN_MOTION,
-        )
-        .signed(),
-    MOVING.row(
-        ["dynamic_peak_line_load", "w_dyn,max", "dynamic: peak line load"],
-        ("N/m", "N/mm", 5),
-        |s| Some(line_load(moving(s)?.peak)),
-        "The greatest force per width of the incoming tooth.",
-        IN_MOTION,
-    ),
-    MOVING
-        .row(
-            ["dynamic_peak_line_load_z", "z_dyn,max", "dynamic: peak line load at z"],
-            ("m", "mm", 4),
-            |s| Some(moving(s)?.peak.place.z),
-            "Where the greatest line load acts, along the axis from the middle of the \
-            common face.",
-            IN_MOTION,
-        )
-        .signed(),
-    MOVING.row(
-        ["dynamic_peak_line_load_before_start", "w_dyn,DE", "dynamic: peak line load before E"],
-        ("N/m", "N/mm", 5),
-        |s| moving(s)?.before_start.map(line_load),
-        "The greatest force per width of the driven tip before E: that of the \
-            corner contact.",
-        IN_MOTION,
-    ),
-    MOVING.row(
-        ["dynamic_peak_line_load_after_end", "w_dyn,B", "dynamic: peak line load after B"],
-        ("N/m", "N/mm", 5),
-        |s| moving(s)?.after_end.map(line_load),
-        "The greatest force per width of the driver's tip after B.",
-        IN_MOTION,
-    ),
+    STATIC[1],
+    STATIC[2],
+    STATIC[3],
+    STATIC[4],
+    DYNAMIC[0],
+    DYNAMIC[1],
+    DYNAMIC[2],
+    DYNAMIC[3],
+    DYNAMIC[4],
     AT_REST
         .row(
             ["face_load_factor", "K_Hβ", "face load factor"],

@@ -101,11 +101,15 @@ impl Part {
 }
 
 impl Face {
-    /// Number of places in a base pitch at which the load is solved; more for narrow slices.
+    /// Number of places in a base pitch at which the load is solved; more for narrow slices. The slices
+    /// excite at their number in a base pitch: so many places keep this order out of the harmonics.
     fn steps(&self) -> usize {
         const LEAST: usize = 64;
+        const MOST: f64 = 128.0;
         const SLICES: usize = 4;
-        LEAST.max(self.slices.len() / SLICES)
+        let count = self.slices.len();
+        let order = count as f64 * self.mesh.base_pitch / (2.0 * self.reach);
+        LEAST.max(count / SLICES).max((order + 2.0 + HARMONICS as f64).min(MOST) as usize)
     }
 
     /// The path of a pair at a slice, in m.
@@ -245,7 +249,7 @@ impl Face {
     ///
     /// # Errors
     /// Those of [`Face::loads`].
-    pub(in crate::model) fn greatest_lead(&self, course: Option<&Course>) -> Result<f64, Refusal> {
+    pub(super) fn greatest_lead(&self, course: Option<&Course>) -> Result<f64, Refusal> {
         let (mesh, step) = (&self.mesh, self.mesh.base_pitch / self.steps() as f64);
         let (from, to) = (mesh.ends().0 - self.reach, self.reach);
         let count = ((to - from) / step).ceil() as usize;
