@@ -109,7 +109,9 @@ impl Face {
         const SLICES: usize = 4;
         let count = self.slices.len();
         let order = count as f64 * self.mesh.base_pitch / (2.0 * self.reach);
-        LEAST.max(count / SLICES).max((order + 2.0 + HARMONICS as f64).min(MOST) as usize)
+        // A higher order is that of a small helix angle, and weak.
+        let order = if order < MOST { order as usize } else { 0 };
+        LEAST.max(count / SLICES).max(order + 2 + HARMONICS)
     }
 
     /// The path of a pair at a slice, in m.
