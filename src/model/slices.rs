@@ -22,6 +22,10 @@ struct Slice {
     width: f64,
     /// Distance of the next slice; 0 at the last, in m.
     step: f64,
+    /// L²/step: what a difference of u to the slice before and after takes from one to the other, in m.
+    exchange: [f64; 2],
+    /// u of the slice before and after over that of this one, where no load acts on all slices beyond.
+    tail: [f64; 2],
     /// Path ahead of the middle of the face, in m.
     ahead: f64,
     /// Gap by misalignment and flank lines, in m.
@@ -34,7 +38,9 @@ impl Slice {
     /// The slice at z without its width.
     fn at(inputs: &FaceInputs, z: f64) -> Slice {
         let ends = [0, 1].map(|gear| inputs.end_factor(gear, z));
-        Slice { z, width: 0.0, step: 0.0, ahead: inputs.lead * z, gap: inputs.gap(z), ends }
+        let none = [0.0; 2];
+        let (ahead, gap) = (inputs.lead * z, inputs.gap(z));
+        Slice { z, width: 0.0, step: 0.0, exchange: none, tail: none, ahead, gap, ends }
     }
 }
 
@@ -78,9 +84,26 @@ impl Face {
             let z = places[number];
             let before = number.checked_sub(1).map_or(z, |before| places[before]);
             let after = places.get(number + 1).copied().unwrap_or(z);
-            Slice { width: 0.5 * (after - before), step: after - z, ..Slice::at(inputs, z) }
+            let square = inputs.coupling_length * inputs.coupling_length;
+            let exchange = |step: f64| if step > 0.0 { square / step } else { 0.0 };
+            Slice {
+                width: 0.5 * (after - before),
+                step: after - z,
+                exchange: [exchange(z - before), exchange(after - z)],
+                ..Slice::at(inputs, z)
+            }
         };
-        let slices: Vec<Slice> = (0..places.len()).map(slice).collect();
+        let mut slices: Vec<Slice> = (0..places.len()).map(slice).collect();
+        for side in [0, 1] {
+            let mut pivot = f64::INFINITY;
+            for at in 0..slices.len() {
+                let at = if side == 0 { at } else { slices.len() - 1 - at };
+                let slice = &mut slices[at];
+                slice.tail[side] = slice.exchange[side] / pivot;
+                let own = slice.width + slice.exchange[0] + slice.exchange[1];
+                pivot = own - slice.exchange[side] * slice.tail[side];
+            }
+        }
         Ok(Face {
             inputs: *inputs,
             mesh: Arc::clone(mesh),

@@ -428,72 +428,17 @@ impl Position<'_> {
         let has_load =
             |pair: &usize| touching[*pair..].iter().step_by(self.pairs).any(|touches| *touches);
         let active: Vec<usize> = (0..self.pairs).filter(has_load).collect();
+        let system = System::new(self, &active, touching)?;
         // The length of a matrix row is known to the compiler.
-        match active.len() {
-            0 | 1 => self.lines_of::<2>(&active, touching),
-            2 => self.lines_of::<3>(&active, touching),
-            3 => self.lines_of::<4>(&active, touching),
-            4 => self.lines_of::<5>(&active, touching),
-            5..8 => self.lines_of::<8>(&active, touching),
-            8..16 => self.lines_of::<16>(&active, touching),
-            _ => self.lines_of::<{ PAIRS + 1 }>(&active, touching),
+        match system.distance {
+            0 | 1 => system.lines::<2>(),
+            2 => system.lines::<3>(),
+            3 => system.lines::<4>(),
+            4 => system.lines::<5>(),
+            5..8 => system.lines::<8>(),
+            8..16 => system.lines::<16>(),
+            _ => system.lines::<{ PAIRS + 1 }>(),
         }
-    }
-
-    /// [`Position::lines`] with the pairs that have any touching slice, fewer than `ROW`.
-    fn lines_of<const ROW: usize>(
-        &self,
-        active: &[usize],
-        touching: &[bool],
-    ) -> Option<Vec<[f64; 2]>> {
-        let (face, pairs, count) = (self.face, self.pairs, active.len());
-        let factors = self.factors(active)?;
-        let length = face.inputs.coupling_length;
-        let mut rows = Rows::<f64, ROW>::with_capacity(face.slices.len() * count);
-        let mut sides = vec![[0.0; 2]; face.slices.len() * count];
-        // What a difference of u between a slice and the next takes from one to the other, L²/step.
-        let mut before = 0.0;
-        let of_slices = self.contacts.chunks(pairs.max(1)).zip(touching.chunks(pairs.max(1)));
-        for (number, (slice, (contacts, touching))) in face.slices.iter().zip(of_slices).enumerate()
-        {
-            let after = if slice.step > 0.0 { length * length / slice.step } else { 0.0 };
-            let base = number * count;
-            for _ in 0..count {
-                let mut entries = [0.0; ROW];
-                entries[0] = slice.width + before + after;
-                if number > 0 {
-                    entries[count] = -before;
-                }
-                rows.push(entries);
-            }
-            for (index, &pair) in active.iter().enumerate().filter(|(_, pair)| touching[**pair]) {
-                let Contact { gap, local, root, .. } = contacts[pair];
-                let factors = &factors[pair * count..=pair * count + index];
-                let push = slice.width * root / local;
-                for (row, factor) in factors.iter().enumerate() {
-                    let (push, entries) = (push * factor, &mut rows[base + row]);
-                    for (entry, other) in entries.iter_mut().zip(factors[..=row].iter().rev()) {
-                        *entry += push * root * other;
-                    }
-                    let side = &mut sides[base + row];
-                    *side = [side[0] + push, side[1] + push * gap];
-                }
-            }
-            before = after;
-        }
-        Banded::of(rows)?.solve(&mut sides);
-        let mut lines = Vec::with_capacity(self.contacts.len());
-        for (number, contacts) in self.contacts.chunks(pairs.max(1)).enumerate() {
-            let sides = &sides[number * count..][..count];
-            for (pair, Contact { root, gap, .. }) in contacts.iter().enumerate() {
-                let factors = factors[pair * count..][..count].iter().zip(sides);
-                let [moved, kept] = factors.fold([0.0; 2], |[one, other], (factor, side)| {
-                    [one + factor * side[0], other + factor * side[1]]
-                });
-                lines.push([1.0 - root * moved, gap - root * kept]);
-            }
-        }
-        Some(lines)
     }
 
     /// Row by row the factor C of κ = C Cᵀ of the active pairs, and the rows that the other pairs have
@@ -526,5 +471,131 @@ impl Position<'_> {
             let spring = contact.weight * width / contact.local;
             [slope + spring * lines[0], offset + spring * lines[1]]
         })
+    }
+}
+
+/// The equations of the touching slices in the coordinates y = Cᵀ u, one for each active pair. A
+/// coordinate is solved for from the first to the last slice at which a load acts on it, and decays
+/// beyond.
+struct System<'a> {
+    at: &'a Position<'a>,
+    active: &'a [usize],
+    touching: &'a [bool],
+    factors: Vec<f64>,
+    /// The first and the last slice of each coordinate.
+    spans: Vec<(usize, usize)>,
+    /// Greatest distance of coupled rows.
+    distance: usize,
+}
+
+impl<'a> System<'a> {
+    /// `None` if κ is not positive definite.
+    fn new(at: &'a Position<'a>, active: &'a [usize], touching: &'a [bool]) -> Option<System<'a>> {
+        let (count, factors) = (active.len(), at.factors(active)?);
+        let mut spans = vec![(usize::MAX, 0); count];
+        for &pair in active {
+            let mut of_pair = touching[pair..].iter().step_by(at.pairs).enumerate();
+            let mut next = || of_pair.find(|(_, touches)| **touches).map(|(slice, _)| slice);
+            let first = next()?;
+            let last = std::iter::from_fn(next).last().unwrap_or(first);
+            let of_factor = spans.iter_mut().zip(&factors[pair * count..]);
+            for (span, _) in of_factor.filter(|(_, factor)| **factor != 0.0) {
+                *span = (span.0.min(first), span.1.max(last));
+            }
+        }
+        let mut system = System { at, active, touching, factors, spans, distance: 0 };
+        let (mut row, mut distance, mut known) = (0, 0, vec![0; count]);
+        for number in 0..at.face.slices.len() {
+            let first = row;
+            for coordinate in system.here(number) {
+                let is_new = number == system.spans[coordinate].0;
+                distance = distance.max(row - if is_new { first } else { known[coordinate] });
+                known[coordinate] = row;
+                row += 1;
+            }
+        }
+        system.distance = distance;
+        Some(system)
+    }
+
+    /// The coordinates at a slice.
+    fn here(&self, slice: usize) -> impl Iterator<Item = usize> + '_ {
+        let spans = self.spans.iter().enumerate();
+        let here = spans.filter(move |(_, span)| span.0 <= slice && slice <= span.1);
+        here.map(|(coordinate, _)| coordinate)
+    }
+
+    /// See [`Position::lines`].
+    fn lines<const ROW: usize>(&self) -> Option<Vec<[f64; 2]>> {
+        let (slices, pairs, count) = (&self.at.face.slices, self.at.pairs.max(1), self.spans.len());
+        let (mut rows, mut sides) = (Rows::<f64, ROW>::new(), Vec::new());
+        let mut known = vec![0; count];
+        let of_slices = self.at.contacts.chunks(pairs).zip(self.touching.chunks(pairs));
+        for (number, (slice, (contacts, touching))) in slices.iter().zip(of_slices).enumerate() {
+            for coordinate in self.here(number) {
+                let ([before, after], (first, last)) = (slice.exchange, self.spans[coordinate]);
+                let mut entries = [0.0; ROW];
+                entries[0] = slice.width + before + after;
+                if number == first {
+                    entries[0] -= before * slice.tail[0];
+                } else {
+                    entries[rows.len() - known[coordinate]] = -before;
+                }
+                if number == last {
+                    entries[0] -= after * slice.tail[1];
+                }
+                known[coordinate] = rows.len();
+                rows.push(entries);
+                sides.push([0.0; 2]);
+            }
+            for &pair in self.active.iter().filter(|pair| touching[**pair]) {
+                let Contact { gap, local, root, .. } = contacts[pair];
+                let push = slice.width * root / local;
+                let factors = self.factors[pair * count..][..count].iter().zip(&known);
+                let factors = factors.filter(|(factor, _)| **factor != 0.0);
+                for (at, (factor, &row)) in factors.clone().enumerate() {
+                    let push = push * factor;
+                    for (other, before) in factors.clone().take(at + 1) {
+                        rows[row][row - before] += push * root * other;
+                    }
+                    sides[row] = [sides[row][0] + push, sides[row][1] + push * gap];
+                }
+            }
+        }
+        Banded::of(rows)?.solve(&mut sides);
+        let (mut all, mut solved) = (vec![[0.0; 2]; slices.len() * count], sides.into_iter());
+        for number in 0..slices.len() {
+            for (coordinate, value) in self.here(number).zip(&mut solved) {
+                all[number * count + coordinate] = value;
+            }
+        }
+        for (coordinate, &(first, last)) in self.spans.iter().enumerate() {
+            for number in (1..=first).rev() {
+                let decay = slices[number].tail[0];
+                all[(number - 1) * count + coordinate] =
+                    all[number * count + coordinate].map(|value| decay * value);
+            }
+            for number in last + 1..slices.len() {
+                let decay = slices[number - 1].tail[1];
+                all[number * count + coordinate] =
+                    all[(number - 1) * count + coordinate].map(|value| decay * value);
+            }
+        }
+        let mut lines = Vec::with_capacity(self.at.contacts.len());
+        for (number, contacts) in self.at.contacts.chunks(pairs).enumerate() {
+            let here = &all[number * count..][..count];
+            for (pair, Contact { root, gap, .. }) in contacts.iter().enumerate() {
+                if *gap == f64::INFINITY {
+                    lines.push([1.0, f64::INFINITY]);
+                    continue;
+                }
+                let factors = self.factors[pair * count..][..count].iter().zip(here);
+                let [moved, kept] = factors.fold([0.0; 2], |[one, other], (factor, side)| {
+                    [one + factor * side[0], other + factor * side[1]]
+                });
+                lines.push([1.0 - root * moved, gap - root * kept]);
+            }
+        }
+        Some(lines)
     }
 }
