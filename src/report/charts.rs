@@ -287,7 +287,7 @@ fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
     };
     let jumps: Vec<AtSpeed> = curve.jumps().copied().collect();
     let is_jump = |point: &AtSpeed| jumps.iter().any(|jump| jump == point);
-    let way = if jumps.is_empty() { "speed rising or falling" } else { "speed rising" };
+    let way = if jumps.is_empty() { "rising/falling" } else { "speed rising" };
     let down = curve.down.iter().map(|point| point.as_ref().filter(|point| is_jump(point)));
     let all = [
         Series {

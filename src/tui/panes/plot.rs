@@ -216,7 +216,17 @@ impl Plot {
     pub(crate) fn draw_cursor(&self, x: f64, theme: &Theme, buffer: &mut Buffer) {
         self.draw_upright(x, "┊", theme.faint, buffer);
         if let Some(column) = self.column(x) {
-            buffer.set_string(column, self.cells.bottom(), "▴", theme.focus);
+            let row = self.cells.bottom();
+            let is_letter = |column: u16| {
+                let cell = buffer.cell((column, row));
+                cell.is_some_and(|cell| cell.symbol().chars().all(char::is_alphabetic))
+            };
+            // A word on the axis stays legible.
+            let is_in_word =
+                is_letter(column) && (is_letter(column + 1) || is_letter(column.saturating_sub(1)));
+            if !is_in_word {
+                buffer.set_string(column, row, "▴", theme.focus);
+            }
         }
     }
 
