@@ -64,7 +64,7 @@ pub(crate) fn with_units(sentence: &str, most: usize) -> Vec<String> {
         let fits = |before: &String| count(before) + 1 + count(word) <= most;
         let is_unit = after_number && !word.is_empty();
         let is_sign = SIGNS.contains(&word);
-        let is_bound = is_unit || is_sign || after_sign;
+        let is_bound = is_unit || is_sign || after_sign || word.starts_with("%)");
         match words.last_mut().filter(|before| is_bound && fits(before)) {
             Some(before) => before.extend([" ", word]),
             None => words.push(word.to_owned()),
