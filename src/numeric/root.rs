@@ -112,8 +112,8 @@ impl Bracket {
     }
 
     /// Whether the best samples have the same value.
-    fn is_flat(&self, flat: f64) -> bool {
-        self.best.1 - self.third.1 <= flat * self.best.1.abs()
+    fn is_flat(&self) -> bool {
+        self.best.1 - self.third.1 <= ROUNDING * self.best.1.abs()
     }
 
     /// The peak in the range. The search ends early if the peak is below `least_value`.
@@ -132,12 +132,15 @@ impl Bracket {
         }
         let (mut step, mut earlier) = (self.width(), self.width());
         for _ in 0..STEPS {
-            if self.width() <= 4.0 * least || self.is_flat(flat) {
+            if self.width() <= 4.0 * least || self.is_flat() {
                 break;
             }
             let top = self.top();
-            let is_lower = |(_, rise): (f64, f64)| self.best.1 + SAFETY * rise < least_value;
-            if top.is_some_and(is_lower) {
+            let is_done = |(_, rise): (f64, f64)| {
+                let rise = SAFETY * rise;
+                self.best.1 + rise < least_value || rise < flat * self.best.1.abs()
+            };
+            if top.is_some_and(is_done) {
                 break;
             }
             let next = top.map(|(step, _)| step);
@@ -205,11 +208,11 @@ const LEAST: f64 = 1e-13;
 /// Parabolas and golden section: Brent 1973, "Algorithms for Minimization without Derivatives",
 /// chapter 5.
 pub fn greatest(known: &[Sample], at: impl Fn(f64) -> f64) -> Sample {
-    greatest_within(known, (LEAST, ROUNDING), at)
+    greatest_within(known, (LEAST, 0.0), at)
 }
 
 /// [`greatest`] with a place to the first tolerance, relative to the distance of the samples, or a
-/// value to the second, relative to itself.
+/// value to the second, relative to itself, by the rise of the parabola.
 pub fn greatest_within(
     known: &[Sample],
     (least, flat): (f64, f64),
@@ -219,7 +222,7 @@ pub fn greatest_within(
     tops.sort_by(|one, other| other.best.1.total_cmp(&one.best.1));
     let mut best = tops.first().map_or((0.0, f64::NEG_INFINITY), |top| top.best);
     for bracket in tops {
-        if bracket.limit > best.1 + flat * best.1.abs() {
+        if bracket.limit > best.1 + ROUNDING * best.1.abs() {
             let top = bracket.peak(best.1, (least, flat), &at);
             if top.1 > best.1 {
                 best = top;
