@@ -3,11 +3,12 @@
 #![allow(unsafe_code, reason = "the macros of PyO3 generate the interface of C")]
 #![allow(missing_docs, reason = "python/tipstrike/__init__.pyi documents the package")]
 
+use std::cell::{Cell, RefCell};
 use std::ffi::OsString;
 use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use pyo3::exceptions::{PyFileNotFoundError, PyKeyError, PyOSError, PyValueError};
@@ -16,25 +17,29 @@ use pyo3::types::{PyBool, PyByteArray, PyFloat, PyList};
 
 use crate::case::fields::{FIELDS, Kind, index_of};
 use crate::case::file::{Document, MOST_MODEL_BYTES, ReadError, read_bytes};
-use crate::case::{Case as Fields, Problem, rexs, unknown_quantity};
+use crate::case::{
+    Case as Fields, EXAMPLES, Example, Problem, put_field, rexs, unknown_quantity, violated_rule,
+};
 use crate::cli::{self, Arguments, Streams};
-use crate::model::slices::Face;
-use crate::model::{Inputs, Quantity, Refusal};
+use crate::model::inputs::Method;
+use crate::model::{Inputs, Quantity, Refusal, Stages};
 use crate::report::compare::{ComparedCase, Comparison};
+use crate::report::data::{stations, write_json};
 use crate::report::excitation::ExcitationReport;
 use crate::report::export::{format_of, render};
+use crate::report::pattern::Pattern;
 use crate::report::pictures::{NoPicture, find, pictures};
 use crate::report::relief::ReliefReport;
 use crate::report::results::{Named, Results};
 use crate::report::seek::SeekReport;
 use crate::report::solve::{Unsolved, compared};
-use crate::report::stations::columns;
 use crate::report::stiffness::StiffnessReport;
-use crate::report::table::{Cell, Table};
+use crate::report::sweep::table;
+use crate::report::table::{Cell as TableCell, Column as TableColumn, Table};
 use crate::report::tolerance::ToleranceReport;
-use crate::report::{Report, Selection, data, page, text};
+use crate::report::{Report, Selection, page, text};
 use crate::study::axis::{AxisRange, Sampling};
-use crate::study::batch::{Batch, Control, Points, Refusals, Row, solve_all};
+use crate::study::batch::{Batch, Control, Points, Refusals, solve_all};
 use crate::study::condition::{Condition, distinct, headline};
 use crate::study::excitation::{Excitation, POINTS};
 use crate::study::relief::{Criterion, Demand, NoRelief, demand, specify};
@@ -61,22 +66,21 @@ fn run<T: Send>(
     progress: Option<Py<PyAny>>,
     work: impl Send + FnOnce(&dyn Fn(usize, usize) -> bool) -> T,
 ) -> PyResult<T> {
-    let state = Mutex::new((Instant::now(), None));
-    let found = py.detach(|| {
-        work(&|done, of| {
-            let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
-            if state.1.is_some() || state.0.elapsed() < TICK {
-                return state.1.is_none();
+    py.detach(|| {
+        let (looked, error) = (Cell::new(Instant::now()), RefCell::new(None));
+        let found = work(&|done, of| {
+            if error.borrow().is_none() && looked.get().elapsed() >= TICK {
+                let look = |py: Python<'_>| {
+                    py.check_signals()?;
+                    progress.as_ref().map_or(Ok(()), |call| call.call1(py, (done, of)).map(drop))
+                };
+                error.replace(Python::attach(look).err());
+                looked.set(Instant::now());
             }
-            let looked = Python::attach(|py| {
-                py.check_signals()?;
-                progress.as_ref().map_or(Ok(()), |call| call.call1(py, (done, of)).map(drop))
-            });
-            *state = (Instant::now(), looked.err());
-            state.1.is_none()
-        })
-    });
-    state.into_inner().unwrap_or_else(PoisonError::into_inner).1.map_or(Ok(found), Err)
+            error.borrow().is_none()
+        });
+        error.into_inner().map_or(Ok(found), Err)
+    })
 }
 
 fn wrong(error: impl Display) -> PyErr {
@@ -123,64 +127,32 @@ fn quantities(names: &[String]) -> PyResult<Vec<&'static Quantity>> {
     Ok(distinct(named.collect::<PyResult<Vec<_>>>()?))
 }
 
-fn numbers(py: Python<'_>, values: impl Iterator<Item = f64>) -> Py<PyAny> {
+fn numbers(py: Python<'_>, (key, unit): (&str, &str), values: impl Iterator<Item = f64>) -> Column {
     let bytes: Vec<u8> = values.flat_map(f64::to_ne_bytes).collect();
-    PyByteArray::new(py, &bytes).into_any().unbind()
+    (key.to_owned(), unit.to_owned(), PyByteArray::new(py, &bytes).into_any().unbind())
 }
 
-fn words<T: AsRef<str>>(py: Python<'_>, texts: impl Iterator<Item = T>) -> PyResult<Py<PyAny>> {
-    let texts: Vec<String> = texts.map(|text| text.as_ref().to_owned()).collect();
-    Ok(PyList::new(py, texts)?.into_any().unbind())
-}
-
-/// The columns of a table; an absent number is NaN.
-fn table_columns(py: Python<'_>, table: &Table) -> PyResult<Vec<Column>> {
-    let column = |(at, column): (usize, &crate::report::table::Column)| {
+/// The columns of a table: numbers where every cell is a number or empty, else texts. An absent
+/// number is NaN.
+fn columns(py: Python<'_>, table: &Table) -> PyResult<Vec<Column>> {
+    let number = |cell: &TableCell| match cell {
+        TableCell::Number(value) | TableCell::Shown(value, _) => Some(*value),
+        TableCell::None(_) => Some(f64::NAN),
+        TableCell::Text(text) | TableCell::Default(text) if text.is_empty() => Some(f64::NAN),
+        TableCell::Text(text) | TableCell::Default(text) => text.parse().ok(),
+    };
+    let column = |(at, column): (usize, &TableColumn)| {
         let cells = || table.rows.iter().map(move |row| &row[at]);
-        let is_text = cells().any(|cell| matches!(cell, Cell::Text(_) | Cell::Default(_)));
-        let values = if is_text {
-            words(py, cells().map(Cell::text))?
-        } else {
-            numbers(
-                py,
-                cells().map(|cell| match cell {
-                    Cell::Number(value) | Cell::Shown(value, _) => *value,
-                    _ => f64::NAN,
-                }),
-            )
-        };
-        Ok((column.key.to_string(), column.unit.to_string(), values))
+        let name = (&*column.key, &*column.unit);
+        match cells().map(number).collect::<Option<Vec<f64>>>() {
+            Some(values) => Ok(numbers(py, name, values.into_iter())),
+            None => {
+                let texts = PyList::new(py, cells().map(TableCell::text))?;
+                Ok((name.0.to_owned(), name.1.to_owned(), texts.into_any().unbind()))
+            }
+        }
     };
     table.columns.iter().enumerate().map(column).collect()
-}
-
-/// The columns of the rows of a study: its points, the quantities in SI and the outcome.
-fn row_columns(
-    py: Python<'_>,
-    points: &dyn Points,
-    quantities: &[&Quantity],
-    rows: &[Row],
-) -> PyResult<Vec<Column>> {
-    let cells: Vec<Vec<String>> = (0..rows.len()).map(|index| points.cells(index)).collect();
-    let mut all = Vec::new();
-    for (at, (key, unit)) in points.columns().into_iter().enumerate() {
-        let texts = || cells.iter().map(move |row| row[at].as_str());
-        let read: Option<Vec<f64>> = texts()
-            .map(|text| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() })
-            .collect();
-        let values = match read {
-            Some(values) => numbers(py, values.into_iter()),
-            None => words(py, texts())?,
-        };
-        all.push((key, unit.to_owned(), values));
-    }
-    for (at, quantity) in quantities.iter().enumerate() {
-        let values = numbers(py, rows.iter().map(|row| row.values[at].unwrap_or(f64::NAN)));
-        all.push((quantity.key.to_owned(), quantity.unit.to_owned(), values));
-    }
-    let outcomes = words(py, rows.iter().map(|row| row.outcome.name()))?;
-    all.push(("outcome".to_owned(), String::new(), outcomes));
-    Ok(all)
 }
 
 /// A writer's output as text.
@@ -201,7 +173,7 @@ struct Case {
     document: Document,
     /// The changes of a call, for the place of an error.
     changes: Vec<(String, String)>,
-    inputs: OnceLock<Inputs>,
+    inputs: OnceLock<Result<Inputs, Vec<Problem>>>,
 }
 
 impl Case {
@@ -209,15 +181,37 @@ impl Case {
         Case { name, variant: None, document, changes, inputs: OnceLock::new() }
     }
 
+    fn read_inputs(&self) -> &Result<Inputs, Vec<Problem>> {
+        self.inputs.get_or_init(|| {
+            self.document.case.inputs().map_err(|mut problems| {
+                problems.sort_by_key(|problem| self.document.place(&problem.field));
+                problems
+            })
+        })
+    }
+
     fn inputs(&self) -> PyResult<&Inputs> {
-        if let Some(inputs) = self.inputs.get() {
-            return Ok(inputs);
+        self.read_inputs().as_ref().map_err(|problems| self.faulty(problems.clone()))
+    }
+
+    /// The inputs of a valid changed case, without reading the other fields again. `None` if every
+    /// field must be read.
+    fn changed_inputs(&self, case: &Fields, changes: &[(String, String)]) -> Option<Inputs> {
+        let before = self.read_inputs().as_ref().ok()?;
+        let mut inputs = before.clone();
+        for (key, _) in changes {
+            let field = index_of(key)?;
+            case.text(field)?;
+            put_field(case, field, &mut inputs).ok()?;
         }
-        let found = self.document.case.inputs().map_err(|mut problems| {
-            problems.sort_by_key(|problem| self.document.place(&problem.field));
-            self.faulty(problems)
-        })?;
-        Ok(self.inputs.get_or_init(|| found))
+        // Only `auto` needs the stages of the limits.
+        let is_auto = [before.method, inputs.method].map(|method| method == Method::Auto);
+        match is_auto {
+            [false, true] => return None,
+            [true, false] => inputs.needs = Stages::NONE,
+            _ => {}
+        }
+        violated_rule(&inputs).is_none().then_some(inputs)
     }
 
     /// Problems at the change that causes them, otherwise in the text.
@@ -255,16 +249,18 @@ impl Case {
 
     fn found(&self, py: Python<'_>, results: &dyn Results) -> PyResult<Found> {
         let write = |format| written(|out| self.named().write(results, format, out));
-        let columns = table_columns(py, &results.table())?;
+        let columns = columns(py, &results.table())?;
         Ok((columns, write(Format::Json)?, write(Format::Text)?, Vec::new()))
     }
 
-    /// The case with a value for a field that a study varies and that the case lacks.
-    fn with_varied(&self, key: &str, value: &str) -> Case {
+    /// The case with a value for each field that a study varies and that the case lacks.
+    fn with_varied(&self, fields: impl IntoIterator<Item = (usize, String)>) -> Case {
         let mut document = self.document.clone();
-        if index_of(key).is_some_and(|field| document.case.effective(field).is_none()) {
-            // An invalid value is reported with its point.
-            drop(document.case.set(key, value));
+        for (field, value) in fields {
+            if document.case.effective(field).is_none() {
+                // An invalid value is reported with its point.
+                let _ = document.case.set(FIELDS[field].key, &value);
+            }
         }
         Case::of(self.name.clone(), document, self.changes.clone())
     }
@@ -314,9 +310,14 @@ impl Case {
                 .set(key, value)
                 .map_err(|problem| bad_case(vec![(format!("{name}, {key}={value}"), problem)]))?;
         }
+        let inputs = match variant {
+            None => self.changed_inputs(&document.case, &changes),
+            Some(_) => None,
+        };
+        let inputs = inputs.map(Ok).map(OnceLock::from).unwrap_or_default();
         let changes = self.changes.iter().cloned().chain(changes).collect();
         let variant = variant.map(str::to_owned).or_else(|| self.variant.clone());
-        Ok(Case { variant, ..Case::of(name, document, changes) })
+        Ok(Case { variant, inputs, ..Case::of(name, document, changes) })
     }
 
     #[getter]
@@ -350,7 +351,7 @@ impl Case {
         let report = report.map_err(|refusal| self.refused(&refusal))?;
         match report.solution.withheld {
             Some(refusal) if report.values().count() < wanted => Err(self.refused(&refusal)),
-            _ => Ok(Solved { report }),
+            _ => Ok(Solved { report, stations }),
         }
     }
 
@@ -368,11 +369,7 @@ impl Case {
         let grid = Grid::parse(&vary, &points, log);
         let grid = grid
             .map_err(|(text, problem)| misused(text.split('=').next().unwrap_or(text), &problem))?;
-        let first = |case: Case, axis: &crate::study::axis::Axis| {
-            case.with_varied(axis.key(), &axis.with_unit(0))
-        };
-        let empty = self.with_varied("", "");
-        let case = grid.axes.iter().fold(empty, first);
+        let case = self.with_varied(grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0))));
         let mut quantities = quantities(&only)?;
         let stages = quantities.iter().map(|quantity| quantity.stage);
         let inputs = case.inputs()?.clone().needing(stages);
@@ -391,7 +388,7 @@ impl Case {
         let mut refusals = Refusals::default();
         refusals.count(0, &rows);
         let notes = refusals.0.iter().map(|refused| refused.sentence(&grid)).collect();
-        Ok((row_columns(py, &grid, &quantities, &rows)?, notes))
+        Ok((columns(py, &table(&grid, &quantities, 0, &rows))?, notes))
     }
 
     #[expect(clippy::too_many_arguments, reason = "the options of the command")]
@@ -428,7 +425,7 @@ impl Case {
             ToleranceReport { case, method: inputs.method, study: &study, samples: &found };
         let (_, json, text, _) = self.found(py, &report)?;
         let notes = found.refusals.0.iter().map(|refused| refused.sentence(points)).collect();
-        Ok((row_columns(py, points, quantities, &rows)?, json, text, notes))
+        Ok((columns(py, &table(points, quantities, 0, &rows))?, json, text, notes))
     }
 
     fn seek(
@@ -446,7 +443,7 @@ impl Case {
         let condition = Condition::parse(until).map_err(bad_condition)?;
         let scan =
             range.axis(Sampling { points: Some(points), is_log: false }).map_err(bad_range)?;
-        let case = self.with_varied(FIELDS[range.field].key, &scan.with_unit(0));
+        let case = self.with_varied([(range.field, scan.with_unit(0))]);
         let stages = condition.quantity().map(|quantity| quantity.stage);
         let inputs = case.inputs()?.clone().needing(stages);
         condition.check(inputs.method).map_err(bad_condition)?;
@@ -537,6 +534,8 @@ impl Case {
 #[pyclass(frozen, module = "tipstrike")]
 struct Solved {
     report: Report,
+    /// Whether the text has the stations.
+    stations: bool,
 }
 
 #[pymethods]
@@ -575,32 +574,30 @@ impl Solved {
 
     /// The line of `tipstrike solve --format json`.
     fn json(&self) -> PyResult<String> {
-        written(|out| data::write_json(&self.report, out))
+        written(|out| write_json(&self.report, out))
     }
 
     /// The text of `tipstrike solve`.
     fn text(&self, py: Python<'_>) -> String {
-        py.detach(|| text::render(&self.report.clone().with_others()))
+        let mut report = self.report.clone();
+        report.selection.stations = self.stations;
+        py.detach(|| text::render(&report.with_others()))
     }
 
-    fn stations(&self, py: Python<'_>) -> Vec<Column> {
-        let solution = &self.report.solution;
-        let rows = if self.report.selection.stations { solution.own_stations() } else { &[] };
-        let column = |known: &crate::report::stations::Column| {
-            let values = rows.iter().map(|row| known.of(solution, row).unwrap_or(f64::NAN));
-            (known.key.to_owned(), known.unit.to_owned(), numbers(py, values))
-        };
-        columns(solution.method).map(column).collect()
-    }
-
-    /// Path of the incoming tooth, places along the face, and its line load at each of both, in SI.
-    fn face(&self, py: Python<'_>) -> Option<[Py<PyAny>; 3]> {
-        let Report { inputs, solution, .. } = &self.report;
-        let (load, mesh) = (solution.face_load.as_ref()?, solution.mesh.as_ref()?);
-        let face = Face::new(&inputs.face()?, &solution.geometry, mesh).ok()?;
-        let pattern = load.pattern.iter().flatten().copied();
-        let path = numbers(py, load.paths.iter().copied());
-        Some([path, numbers(py, face.places()), numbers(py, pattern)])
+    /// The stations; of a pair in slices also the line load of the incoming tooth over angle and face.
+    fn stations(&self, py: Python<'_>) -> PyResult<Vec<Column>> {
+        let Report { inputs, solution, selection, .. } = &self.report;
+        if !selection.stations {
+            return Ok(Vec::new());
+        }
+        let mut all = columns(py, &stations(&self.report))?;
+        if let Some(pattern) = Pattern::of(inputs, solution) {
+            let (angles, places, loads) = pattern.grid();
+            all.push(numbers(py, ("line_load_roll_angle_driver", "rad"), angles.into_iter()));
+            all.push(numbers(py, ("line_load_z", "m"), places.iter().copied()));
+            all.push(numbers(py, ("line_load", "N/m"), loads));
+        }
+        Ok(all)
     }
 }
 
@@ -673,7 +670,13 @@ fn units() -> Vec<(&'static str, &'static str)> {
 /// The text of a built-in example.
 #[pyfunction]
 fn example(name: &str) -> PyResult<&'static str> {
-    crate::case::Example::find(name).map(|example| example.text).map_err(wrong)
+    Example::find(name).map(|example| example.text).map_err(wrong)
+}
+
+/// The names of the built-in examples.
+#[pyfunction]
+fn examples() -> Vec<&'static str> {
+    EXAMPLES.iter().map(|example| example.name).collect()
 }
 
 /// The command: its exit code. The workbench ends the process.
@@ -694,5 +697,5 @@ fn main(arguments: Vec<OsString>) -> u8 {
 #[pymodule]
 mod _tipstrike {
     #[pymodule_export]
-    use super::{Case, Solved, compare, example, main, report, units};
+    use super::{Case, Solved, compare, example, examples, main, report, units};
 }

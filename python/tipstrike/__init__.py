@@ -9,12 +9,30 @@
 Results are in SI units. A value of a field is a text with its unit ("3000 rpm"), a pair of number and
 unit ((3000, "rpm")), or a number in SI. The names are those of `tipstrike fields` and `tipstrike
 fields --results`.
+
+Parameters of most functions
+----------------------------
+case : Case, path or dict
+    The pair: `read`, `case` and `example` make a Case.
+method : str, optional
+    "paper", "exact", "static", "dynamic" or "auto", in place of the method of the case.
+only : str or list of str, optional
+    The quantities to compute; by default all, or the headline quantities of a study.
+variant : str, optional
+    A variant of the case.
+jobs : int, optional
+    The number of threads; by default one per core.
+progress : bool or function, optional
+    True shows a percentage on standard error; a function receives the done and all points.
+**changes
+    Values of fields in place of those of the case.
 """
 
 import json as _json
 import os as _os
 import sys as _sys
 from collections.abc import Mapping as _Mapping
+from importlib import machinery as _machinery
 
 try:
     import numpy as _np
@@ -43,10 +61,13 @@ class CaseError(ValueError):
 try:
     from . import _tipstrike
 except ImportError as error:
+    _name = f"{_sys.implementation.name} {_sys.version_info.major}.{_sys.version_info.minor} on {_sys.platform}"
     raise ImportError(
-        f"tipstrike has no wheel for this interpreter ({_sys.implementation.name} "
-        f"{_sys.version_info.major}.{_sys.version_info.minor}, {_sys.platform}): use CPython 3.9 or newer on "
-        f"Linux x86_64, or build it with Rust 1.89: pip install --no-binary tipstrike tipstrike ({error})"
+        f"tipstrike has no wheel for this interpreter ({_name}): use CPython 3.9 or newer on Linux x86_64, or build "
+        f"it with Rust 1.89: pip install --no-binary tipstrike tipstrike ({error})"
+        if _machinery.EXTENSION_SUFFIXES else
+        f"this interpreter ({_name}) loads no shared library, and so no wheel: use one with dynamic loading, such "
+        "as that of the system or of python.org"
     ) from error
 
 Case = _tipstrike.Case
@@ -139,17 +160,15 @@ class Result(_Mapping):
 
     @property
     def stations(self):
-        """The values of the incoming tooth from the first to the last contact, as columns."""
-        return Columns(self._solved.stations())
+        """The values of the incoming tooth from the first to the last contact, as columns.
 
-    @property
-    def face(self):
-        """Of a pair in slices: way, z and line_load, an array over both, in SI; else None."""
-        found = self._solved.face()
-        if found is None:
-            return None
-        way, z, loads = map(_array, found)
-        return {"way": way, "z": z, "line_load": loads.reshape(len(way), len(z))}
+        Of a pair in slices also `line_load`, over `line_load_roll_angle_driver` (of the middle of the face,
+        counted as `roll_angle_driver`) and `line_load_z`.
+        """
+        columns = Columns(self._solved.stations())
+        if "line_load" in columns:
+            columns["line_load"] = columns["line_load"].reshape(-1, len(columns["line_load_z"]))
+        return columns
 
     def to_json(self):
         """The line of `tipstrike solve --format json`."""
@@ -283,6 +302,11 @@ def case(data, name="case"):
     return Case.parse(name, data if isinstance(data, str) else _toml(data))
 
 
+def examples():
+    """The names of the built-in examples."""
+    return _tipstrike.examples()
+
+
 def example(name):
     """A built-in example, such as "zhou-chen-2014"."""
     return Case.parse(name, _tipstrike.example(name))
@@ -335,6 +359,9 @@ def sweep(case, vary, *, only=None, points=None, log=False, method=None, variant
     """A case over every combination of values: `vary` has a field's array in SI, (array, unit), or the
     text of the command, such as "500..3000 rpm" with `points`. The first field varies slowest."""
     opened = _opened(case, changes, variant, method)
+    twice = [key for key in vary if key in changes]
+    if twice:
+        raise ValueError(f"{twice[0]}: the sweep varies this field: leave one of both out")
     vary = [_varied(key, values) for key, values in vary.items()]
     points = [] if points is None else [int(count) for count in _np.ravel(points)]
     return Columns(*opened.sweep(vary, points, log, _names(only), jobs, _progress(progress)))

@@ -1,6 +1,6 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
-from typing import Any, Optional, TypedDict, Union
+from typing import Any, Optional, TypedDict, Union, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,19 +15,20 @@ _Only = Union[str, Sequence[str], None]
 #: True for a percentage on standard error, or a function of the done and all points.
 _Progress = Union[bool, None, Callable[[int, int], object]]
 
-class Problem(TypedDict):
+class _Problem(TypedDict):
     place: str
     field: str
     cause: str
     fix: str
 
 class CaseError(ValueError):
-    problems: list[Problem]
+    problems: list[_Problem]
     place: str
     field: str
     cause: str
     fix: str
 
+@final
 class Case:
     @property
     def name(self) -> str: ...
@@ -68,8 +69,6 @@ class Result(Mapping[str, Quantity]):
     def notes(self) -> dict[str, str]: ...
     @property
     def stations(self) -> Columns: ...
-    @property
-    def face(self) -> Optional[dict[str, _Array]]: ...
     def to_json(self) -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
 
@@ -104,6 +103,7 @@ class Picture(str):
 
 def read(path: Union[str, PathLike[str]]) -> Case: ...
 def case(data: Union[Mapping[str, Any], str], name: str = "case") -> Case: ...
+def examples() -> list[str]: ...
 def example(name: str) -> Case: ...
 def solve(
     case: _Source, method: Optional[str] = None, *, only: _Only = None, stations: Union[int, str, None] = None,

@@ -59,7 +59,8 @@ pub fn write_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// The stations of a solve.
-pub(super) fn stations(report: &Report) -> Table {
+#[must_use]
+pub fn stations(report: &Report) -> Table {
     let columns: Vec<_> = columns(report.solution.method).collect();
     let solution = &report.solution;
     let row =

@@ -53,6 +53,14 @@ impl<'a> Pattern<'a> {
         })
     }
 
+    /// The driver's roll angles in the middle of the face, counted from E against the rotation, in rad,
+    /// z of the slices, in m, and the line load at each angle and slice, in N/m.
+    #[must_use]
+    pub fn grid(&self) -> (Vec<f64>, &[f64], impl Iterator<Item = f64>) {
+        let angles = self.load.paths.iter().map(|path| 0.0 - path / self.radius).collect();
+        (angles, &self.places, self.load.pattern.iter().flatten().copied())
+    }
+
     /// The driver's angle by which the slice at z is ahead of the middle of the face, in rad.
     #[must_use]
     pub fn ahead(&self, z: f64) -> f64 {

@@ -11,7 +11,7 @@ use crate::case::changes::label;
 use crate::case::fields::index_of;
 use crate::case::units::{self, System};
 use crate::model::Quantity;
-use crate::study::batch::Row;
+use crate::study::batch::{Points, Row};
 use crate::study::shard::{Format, Kind, Study};
 use crate::study::sweep::Grid;
 
@@ -27,7 +27,7 @@ impl RowWriter<'_> {
     pub fn begin(self, out: &mut dyn Write) -> io::Result<()> {
         match self.0.request.format {
             Format::Json => Ok(()),
-            _ => self.table().write_csv_header(out),
+            _ => self.table(0, &[]).write_csv_header(out),
         }
     }
 
@@ -36,29 +36,35 @@ impl RowWriter<'_> {
     /// # Errors
     /// Errors of the writer.
     pub fn write(self, first: usize, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
-        let (Study { request, kind, quantities, .. }, mut rows) = (self.0, (first..).zip(rows));
-        if let (Kind::Sweep(grid), Format::Json) = (kind, request.format) {
-            return rows
-                .try_for_each(|(index, row)| write_line(&line(grid, quantities, index, row), out));
+        let Study { request, kind, quantities, .. } = self.0;
+        match (kind, request.format) {
+            (Kind::Sweep(grid), Format::Json) => (first..)
+                .zip(rows)
+                .try_for_each(|(index, row)| write_line(&line(grid, quantities, index, row), out)),
+            _ => self.table(first, rows).write_csv_rows(out),
         }
-        let points = self.0.points();
-        let cells = rows.map(|(index, row)| {
-            let point = points.cells(index).into_iter().map(Cell::Text);
-            let computed = row.values.iter().map(|&value| Cell::number(value, ""));
-            point.chain(computed).chain([row.outcome.name().into()]).collect()
-        });
-        self.table().with(cells).write_csv_rows(out)
     }
 
-    /// The columns: those of the points, the quantities in SI units, the outcome.
-    fn table(self) -> Table {
-        let points = self.0.points().columns().into_iter();
-        let points = points
-            .map(|(key, unit)| Column { unit: unit.to_owned().into(), ..Column::text(key, "") });
-        let computed = self.0.quantities.iter();
-        let computed = computed.map(|known| Column::si(known.key, known.unit));
-        Table::new("", points.chain(computed).chain([Column::text("outcome", "")]).collect())
+    fn table(self, first: usize, rows: &[Row]) -> Table {
+        table(self.0.points(), &self.0.quantities, first, rows)
     }
+}
+
+/// The rows of a study from an index on: the columns of the points, the quantities in SI units, the
+/// outcome.
+#[must_use]
+pub fn table(points: &dyn Points, quantities: &[&Quantity], first: usize, rows: &[Row]) -> Table {
+    let columns = points.columns().into_iter();
+    let columns =
+        columns.map(|(key, unit)| Column { unit: unit.to_owned().into(), ..Column::text(key, "") });
+    let computed = quantities.iter().map(|known| Column::si(known.key, known.unit));
+    let columns = columns.chain(computed).chain([Column::text("outcome", "")]).collect();
+    let cells = (first..).zip(rows).map(|(index, row)| {
+        let point = points.cells(index).into_iter().map(Cell::Text);
+        let computed = row.values.iter().map(|&value| Cell::number(value, ""));
+        point.chain(computed).chain([row.outcome.name().into()]).collect()
+    });
+    Table::new("", columns).with(cells)
 }
 
 /// A row of a sweep as a JSON object.
