@@ -7,20 +7,18 @@ pub mod evaluate;
 pub mod examples;
 pub mod fields;
 pub mod file;
-mod problem;
 pub mod rexs;
 pub mod sanitize;
 pub mod spread;
-pub mod stamp;
-pub(crate) mod suggest;
 pub mod units;
-pub mod variant;
 
 use std::sync::Arc;
 
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity};
 pub use changes::Change;
+pub use changes::{Override, Variant};
+pub use check::{Fix, NEWER_FORMAT, Problem};
 pub use check::{
     field_range, field_value, put as put_field, unknown_key, unknown_quantity, violated_rule,
 };
@@ -29,9 +27,7 @@ pub use evaluate::Evaluator;
 pub use examples::{EXAMPLES, Example};
 pub use fields::{FIELDS, Field};
 pub use file::Document;
-pub use problem::{Fix, NEWER_FORMAT, Problem};
 pub use spread::Spread;
-pub use variant::{Override, Variant};
 
 /// Start of the keys of the table `[about]`.
 const ABOUT: &str = "about.";
@@ -55,15 +51,15 @@ pub struct Case {
 /// The greatest allowed value of a quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Limit {
-    /// The quantity's key.
-    pub quantity: &'static str,
+    /// The limited quantity.
+    pub quantity: &'static Quantity,
     /// The text as the user wrote it.
     pub text: String,
     /// The value in SI, or the factor of another result; infinite while the text in a form is
     /// invalid.
     pub value: f64,
     /// The result to which the limit is relative.
-    pub of: Option<&'static str>,
+    pub of: Option<&'static Quantity>,
 }
 
 impl Limit {
@@ -78,17 +74,17 @@ impl Limit {
         let Some(known) = Quantity::find(quantity) else {
             return Err(check::unknown_quantity(&field, quantity));
         };
-        let (quantity, owned) = (known.key, text.to_owned());
+        let (key, owned) = (known.key, text.to_owned());
         if let Some((factor, other)) = relative(text) {
             let nominal = if known.unit == "N" { "mesh_force" } else { other };
             let other = if other == "nominal" { nominal } else { other };
             let of =
                 Quantity::named(other).ok_or_else(|| check::unknown_quantity(&field, other))?;
             if of.unit != known.unit || of.is_flag() {
-                let cause = format!("{} has another unit than {quantity}", of.key);
+                let cause = format!("{} has another unit than {key}", of.key);
                 return Err(Problem::new(&field, cause, "name a result in the same unit"));
             }
-            return Ok(Limit { quantity, text: owned, value: factor, of: Some(of.key) });
+            return Ok(Limit { quantity: known, text: owned, value: factor, of: Some(of) });
         }
         let dimension = units::Dimension::of_unit(known.unit).unwrap_or(units::Dimension::Number);
         let usual = if matches!(known.shown, "1" | "yes/no") { "" } else { known.shown };
@@ -100,18 +96,18 @@ impl Limit {
             }
             problem
         })?;
-        Ok(Limit { quantity, text: owned, value, of: None })
+        Ok(Limit { quantity: known, text: owned, value, of: None })
     }
 
     /// The greatest allowed value in SI, if the result to which it is relative has a value.
     pub fn bound(&self, value: impl Fn(&'static Quantity) -> Option<f64>) -> Option<f64> {
-        let base = self.of.map_or(Some(1.0), |of| value(Quantity::find(of)?));
+        let base = self.of.map_or(Some(1.0), value);
         Some(self.value * base?)
     }
 
     /// The limited quantity, and that to which the limit is relative.
     pub fn quantities(&self) -> impl Iterator<Item = &'static Quantity> + use<> {
-        [Some(self.quantity), self.of].into_iter().flatten().filter_map(Quantity::find)
+        [Some(self.quantity), self.of].into_iter().flatten()
     }
 }
 
@@ -124,7 +120,6 @@ fn relative(text: &str) -> Option<(f64, &str)> {
 
 impl Case {
     /// A case without any text.
-    #[must_use]
     pub fn empty() -> Case {
         Case {
             texts: Arc::new(vec![None; FIELDS.len()]),
@@ -136,13 +131,11 @@ impl Case {
     }
 
     /// Table 1 of Zhou & Chen 2014, from `cases/zhou-chen-2014.toml`.
-    #[must_use]
     pub fn table_1() -> Case {
         Document::table_1().case
     }
 
     /// A new case: only the method is set, and the required values are missing.
-    #[must_use]
     pub fn fresh() -> Case {
         let mut case = Case::empty();
         if let Some(method) = fields::index_of("model.method") {
@@ -153,7 +146,6 @@ impl Case {
 
     /// Whether the field is required and has no value. If two fields exclude each other, both are
     /// required while neither has a value.
-    #[must_use]
     pub fn lacks(&self, field: usize) -> bool {
         let is_empty = |field: usize| self.text(field).is_none();
         match FIELDS[field].absent {
@@ -166,7 +158,6 @@ impl Case {
     }
 
     /// Whether the alternative of the field replaces it, by its given or its default value.
-    #[must_use]
     pub fn is_replaced(&self, field: usize) -> bool {
         let has_default = |other: usize| matches!(FIELDS[other].absent, fields::Absent::Default(_));
         let stands = |other: usize| self.text(other).is_some() || has_default(other);
@@ -174,20 +165,17 @@ impl Case {
     }
 
     /// The value, in SI, that follows from other fields if the case does not give it.
-    #[must_use]
     pub fn derived(&self, field: usize, inputs: &Inputs) -> Option<f64> {
         let derived = FIELDS[field].derived.filter(|_| self.text(field).is_none())?;
         derived(inputs).filter(|value| value.is_finite())
     }
 
     /// The text of the field. `None` if the case does not give it.
-    #[must_use]
     pub fn text(&self, field: usize) -> Option<&str> {
         self.texts[field].as_deref()
     }
 
     /// The title, or an empty text.
-    #[must_use]
     pub fn title(&self) -> &str {
         let title = fields::index_of("title").and_then(|field| self.text(field));
         title.unwrap_or_default()
@@ -200,7 +188,6 @@ impl Case {
 
     /// The text of the field, or its default, or the words for a missing value. `None` if a
     /// required value is missing, or if the alternative replaces the field.
-    #[must_use]
     pub fn effective(&self, field: usize) -> Option<&str> {
         match FIELDS[field].absent {
             _ if self.texts[field].is_some() => self.text(field),
@@ -213,7 +200,6 @@ impl Case {
 
     /// The value in SI of a number field, given or by default. `None` if the model needs no value,
     /// or if the text is invalid.
-    #[must_use]
     pub fn value(&self, field: usize) -> Option<f64> {
         let text = self.effective(field)?;
         match FIELDS[field].kind {
@@ -227,9 +213,9 @@ impl Case {
 
     /// Writes the limit of a quantity, with a valid or an invalid text. An empty text leaves an
     /// empty limit until [`Case::drop_empty`].
-    pub fn write_limit(&mut self, quantity: &'static str, text: &str) {
+    pub fn write_limit(&mut self, quantity: &'static Quantity, text: &str) {
         let unread = Limit { quantity, text: text.to_owned(), value: f64::INFINITY, of: None };
-        let limit = Limit::new(quantity, text).unwrap_or(unread);
+        let limit = Limit::new(quantity.key, text).unwrap_or(unread);
         keep(&mut self.limits, limit, |held| held.quantity == quantity);
     }
 
@@ -243,7 +229,7 @@ impl Case {
 
     /// Removes the empty limits and distributions except that of the named quantity or field.
     pub fn drop_empty(&mut self, but: Option<&str>) {
-        self.limits.retain(|limit| !limit.text.is_empty() || Some(limit.quantity) == but);
+        self.limits.retain(|limit| !limit.text.is_empty() || Some(limit.quantity.key) == but);
         self.spread.retain(|spread| !spread.text.is_empty() || Some(spread.field) == but);
     }
 
@@ -266,7 +252,6 @@ impl Case {
 
     /// The inputs that can be read, enough for the relevance of fields, and all problems of the
     /// case, in the order of the fields.
-    #[must_use]
     pub fn read(&self) -> (Inputs, Vec<Problem>) {
         check::read(self, &[])
     }
@@ -300,7 +285,6 @@ impl Case {
     }
 
     /// Whether two keys exclude each other.
-    #[must_use]
     pub fn are_exclusive(key: &str, other: &str) -> bool {
         fields::index_of(key).is_some_and(|field| {
             let partner = FIELDS[field].partner();
@@ -314,10 +298,10 @@ impl Case {
     /// If the quantity does not exist, or the text is not a value of the quantity.
     pub fn set_limit(&mut self, quantity: &str, text: &str) -> Result<(), Problem> {
         if text.is_empty() && QUANTITIES.iter().any(|known| known.key == quantity) {
-            self.limits.retain(|limit| limit.quantity != quantity);
+            self.limits.retain(|limit| limit.quantity.key != quantity);
             return Ok(());
         }
-        keep(&mut self.limits, Limit::new(quantity, text)?, |held| held.quantity == quantity);
+        keep(&mut self.limits, Limit::new(quantity, text)?, |held| held.quantity.key == quantity);
         Ok(())
     }
 }

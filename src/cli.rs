@@ -16,11 +16,11 @@ use std::time::{Duration, Instant};
 use crate::case::fields::FIELDS;
 use crate::case::file::{Draft, MOST_MODEL_BYTES, ReadError, SaveError, read_bytes};
 use crate::case::rexs::{self, Imported};
-use crate::case::sanitize::sanitize;
-use crate::case::{Acting, Case, Document, Problem, partial_relevance, relevance, suggest};
+use crate::case::sanitize::{sanitize, suggestion};
+use crate::case::{Acting, Case, Document, Problem, partial_relevance, relevance};
 use crate::model::{Inputs, Quantity, Refusal};
-use crate::report::results::{Named, Results};
 use crate::report::solve::Unsolved;
+use crate::report::table::{Named, Results};
 use crate::study::batch::Stopped;
 use crate::study::shard::Format;
 use crate::system::files::is_same;
@@ -40,7 +40,6 @@ pub struct Streams<'a> {
 
 impl Streams<'static> {
     /// The streams of the process.
-    #[must_use]
     pub fn standard() -> Streams<'static> {
         Streams { output: Box::new(BufWriter::new(io::stdout())), errors: Box::new(io::stderr()) }
     }
@@ -104,7 +103,7 @@ fn no_command(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     }
     let known =
         command.get_subcommands().map(|known| known.get_name().to_owned()).collect::<Vec<_>>();
-    let fix = suggest::fix(first, known.iter().map(String::as_str), || {
+    let fix = suggestion(first, known.iter().map(String::as_str), || {
         "`tipstrike help` lists the commands".to_owned()
     });
     Some(format!("error: {first}: there is no such command: {fix}"))
@@ -213,8 +212,8 @@ impl Opened {
     }
 
     /// Why a study of the case has no result.
-    fn failed(&self, reason: &impl std::fmt::Display) -> Failure {
-        Failure::new(Exit::BadCase, format!("{}: {reason}", self.name))
+    fn failed(&self, reason: &impl fmt::Display) -> Failure {
+        Failure::of_case(&self.name, reason)
     }
 
     /// A problem of the case at its place.
@@ -394,63 +393,20 @@ impl From<ReadError> for Failure {
     }
 }
 
-/// The destination of the results of a study.
-enum Sink<'a> {
-    Stream(&'a mut dyn Write),
-    /// A signal stops the writing, so that the draft is deleted.
-    File(Box<BufWriter<Draft>>, Interrupt),
-}
+/// A draft that a signal keeps from being completed.
+struct Stoppable(Draft, Interrupt);
 
-impl<'a> Sink<'a> {
-    /// Opens a file, or the stream if no file is named or the name is `-`.
-    fn open(out: Option<&Path>, stream: &'a mut dyn Write) -> Result<Sink<'a>, SaveError> {
-        match file_of(out) {
-            Some(path) => {
-                let interrupt = Interrupt::install();
-                let draft = Draft::create(path)?;
-                Ok(Sink::File(Box::new(BufWriter::new(draft)), interrupt))
-            }
-            None => Ok(Sink::Stream(stream)),
-        }
-    }
-
-    /// Replaces the target by the complete file.
-    fn finish(self) -> Done {
-        if let Sink::File(mut writer, _interrupt) = self {
-            let flushed = writer.flush();
-            let (draft, _) = writer.into_parts();
-            flushed.map_err(|error| draft.unwritable(error))?;
-            draft.finish()?;
-        }
-        Ok(Exit::Done)
-    }
-
-    /// Converts an error of a write.
-    fn failure(&self, error: io::Error) -> Failure {
-        match self {
-            Sink::Stream(_) => error.into(),
-            Sink::File(_, interrupt) if !interrupt.go_on() => Failure::Interrupted,
-            Sink::File(writer, _) => writer.get_ref().unwritable(error).into(),
-        }
-    }
-}
-
-impl Write for Sink<'_> {
+impl Write for Stoppable {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self {
-            Sink::Stream(stream) => stream.write(bytes),
-            Sink::File(_, interrupt) if !interrupt.go_on() => {
-                Err(io::Error::other("a signal ends the program"))
-            }
-            Sink::File(writer, _) => writer.write(bytes),
+        if self.1.go_on() {
+            self.0.write(bytes)
+        } else {
+            Err(io::Error::other("a signal ends the program"))
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        match self {
-            Sink::Stream(stream) => stream.flush(),
-            Sink::File(writer, _) => writer.flush(),
-        }
+        self.0.flush()
     }
 }
 
@@ -477,11 +433,27 @@ fn check_out(out: Option<&Path>, inputs: &[&Path]) -> Result<(), Failure> {
 fn write_to(
     out: Option<&Path>,
     streams: &mut Streams,
-    write: impl FnOnce(&mut Sink) -> io::Result<()>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Done {
-    let mut sink = Sink::open(out, streams.output.as_mut())?;
-    write(&mut sink).map_err(|error| sink.failure(error))?;
-    sink.finish()
+    let Some(path) = file_of(out) else {
+        write(streams.output.as_mut())?;
+        return Ok(Exit::Done);
+    };
+    let interrupt = Interrupt::install();
+    let mut writer = BufWriter::new(Stoppable(Draft::create(path)?, interrupt));
+    let written = write(&mut writer).and_then(|()| writer.flush());
+    let (Stoppable(draft, interrupt), _) = writer.into_parts();
+    match written {
+        Ok(()) => draft.finish()?,
+        Err(_) if !interrupt.go_on() => return Err(Failure::Interrupted),
+        Err(error) => return Err(draft.unwritable(error).into()),
+    }
+    Ok(Exit::Done)
+}
+
+/// Writes a text to a file or to the stream.
+fn write_text(out: Option<&Path>, streams: &mut Streams, text: &str) -> Done {
+    write_to(out, streams, |sink| sink.write_all(text.as_bytes()))
 }
 
 /// Delay before the bar appears.
@@ -588,6 +560,11 @@ impl Failure {
     /// Wrong usage, with the reason.
     fn usage(line: String) -> Failure {
         Failure::new(Exit::Usage, line)
+    }
+
+    /// Why a case or a file of results has no result.
+    fn of_case(name: &str, reason: &impl fmt::Display) -> Failure {
+        Failure::new(Exit::BadCase, format!("{name}: {reason}"))
     }
 
     /// An invalid value of an option.

@@ -1,47 +1,34 @@
 //! Reports: the results of a solve as text, tables, data and pictures.
 
-pub mod absence;
 pub mod chart;
 pub mod charts;
 pub mod compare;
 pub mod data;
 pub mod digest;
-pub mod excitation;
 pub mod explain;
-pub mod export;
 pub mod fields;
-pub mod graphs;
-pub mod json;
-mod layout;
 pub mod page;
-pub mod pattern;
-pub mod pictures;
 pub mod relief;
-pub mod results;
-pub mod schema;
-pub mod seek;
 pub mod solve;
 pub mod stations;
-pub mod stiffness;
+pub mod studies;
 pub mod svg;
-pub mod sweep;
 pub mod table;
 pub mod teeth;
-pub mod text;
 pub mod tolerance;
 pub mod trade;
 pub mod verdict;
 
-use self::results::Named;
+use self::table::Named;
 use crate::case::Case;
 use crate::case::fields::index_of;
 use crate::case::units::{self, System};
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Solution, Stage, Stages};
 use crate::numeric::decimal::significant;
-#[cfg(all(unix, feature = "tui"))]
-pub(crate) use layout::with_units;
 use serde::{Serialize, Serializer};
+#[cfg(all(unix, feature = "tui"))]
+pub(crate) use table::with_units;
 
 /// A value as text with its unit.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -78,7 +65,6 @@ pub struct Selection {
 
 impl Selection {
     /// Whether every quantity is requested.
-    #[must_use]
     pub fn is_whole(&self) -> bool {
         self.only.is_empty()
     }
@@ -91,7 +77,6 @@ impl Selection {
     }
 
     /// The stages that the requested quantities need.
-    #[must_use]
     pub fn stages(&self) -> Stages {
         let stations = if self.stations { Stages::STATIONS } else { Stages::NONE };
         self.quantities().fold(stations, |stages, quantity| stages.and(Stages::of(quantity.stage)))
@@ -119,7 +104,6 @@ pub struct Report {
 
 impl Report {
     /// A report of an existing solution.
-    #[must_use]
     pub fn of(
         name: String,
         case: Case,
@@ -133,13 +117,11 @@ impl Report {
     }
 
     /// The case by its name and its title; not sanitized for a terminal.
-    #[must_use]
     pub fn named(&self) -> Named<'_> {
         Named { name: &self.name, title: self.case.title() }
     }
 
     /// The text of a field as the user wrote it, empty without one; not sanitized for a terminal.
-    #[must_use]
     pub fn text(&self, key: &str) -> &str {
         index_of(key).and_then(|field| self.case.text(field)).unwrap_or_default()
     }
@@ -167,7 +149,6 @@ const GENERAL_NOTES: [&str; 4] =
     ["impact-outlasts-approach", "impulse-ratio", "gap-left-open", "no-end-of-impact"];
 
 /// Whether a note says the same for almost every case.
-#[must_use]
 pub fn is_general(note: &Note) -> bool {
     GENERAL_NOTES.contains(&note.code)
 }
@@ -178,13 +159,11 @@ fn case_notes(notes: &[Note]) -> impl Iterator<Item = &Note> {
 }
 
 /// Formats a value in SI with its usual metric unit.
-#[must_use]
 pub fn shown(quantity: &Quantity, value: f64) -> Shown {
     shown_in(quantity, value, System::Metric)
 }
 
 /// Formats a value in SI in metric or inch units.
-#[must_use]
 pub fn shown_in(quantity: &Quantity, value: f64, system: System) -> Shown {
     if quantity.is_flag() {
         return Shown { number: if value == 0.0 { "no" } else { "yes" }.to_owned(), unit: "" };
@@ -194,7 +173,6 @@ pub fn shown_in(quantity: &Quantity, value: f64, system: System) -> Shown {
 }
 
 /// The common unit of several values of a quantity, chosen for the greatest of them.
-#[must_use]
 pub fn common_unit(
     quantity: &Quantity,
     values: impl Iterator<Item = f64>,
@@ -205,7 +183,6 @@ pub fn common_unit(
 }
 
 /// Formats a value in SI in a unit.
-#[must_use]
 pub fn shown_with(quantity: &Quantity, value: f64, unit: &'static str) -> Shown {
     if quantity.is_flag() {
         return shown(quantity, value);
@@ -214,13 +191,11 @@ pub fn shown_with(quantity: &Quantity, value: f64, unit: &'static str) -> Shown 
 }
 
 /// The value of a quantity in SI, if any: finite, and zero without a sign.
-#[must_use]
 pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
     quantity.finite_value(solution)
 }
 
 /// The value of a quantity in SI as another method defines the quantity, for a comparison of both.
-#[must_use]
 pub fn value_as_in(quantity: &Quantity, solution: &Solution, other: Method) -> Option<f64> {
     match quantity.key {
         "equivalent_error" => {
@@ -231,7 +206,6 @@ pub fn value_as_in(quantity: &Quantity, solution: &Solution, other: Method) -> O
 }
 
 /// Formats a value in SI in another unit, with `digits` significant digits.
-#[must_use]
 pub fn number(value: f64, unit: &str, digits: usize) -> String {
     significant(value / units::factor(unit).unwrap_or(1.0), digits)
 }
@@ -289,13 +263,11 @@ impl Group {
     }
 
     /// Whether the group belongs to the free impact while the method resolves the impact.
-    #[must_use]
     pub fn is_beside(&self, method: Method) -> bool {
         method.shares_load() && self.quantities().any(Quantity::is_of_free_impact)
     }
 
     /// The heading in the results of a method.
-    #[must_use]
     pub fn heading(&self, method: Method) -> String {
         let beside = if self.is_beside(method) { FREE_IMPACT } else { "" };
         format!("{beside}{}", self.title)
@@ -322,7 +294,6 @@ impl Group {
 }
 
 /// The groups in the order of a method.
-#[must_use]
 pub fn groups(method: Method) -> Vec<&'static Group> {
     let mut groups: Vec<&Group> = GROUPS.iter().collect();
     groups.sort_by_key(|group| group.rank(method));

@@ -2,14 +2,11 @@
 
 pub mod axis;
 pub mod batch;
-pub mod condition;
 pub mod excitation;
 pub mod relief;
-pub mod sample;
 pub mod seek;
 pub mod shard;
 pub mod statistics;
 pub mod stiffness;
-pub mod sweep;
 pub mod tolerance;
 pub mod trade;

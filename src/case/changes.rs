@@ -1,10 +1,11 @@
-//! Differences between two cases, field by field, and their application to a case.
+//! Differences between two cases, their application to a case, and variants, which are named ones.
 
-use serde::{Deserialize, Serialize};
-
-use super::fields::{self, FIELDS};
-use super::{Case, Override, Problem, Spread, Variant, spread, variant};
+use super::check::unknown_key;
+use super::{ABOUT, Case, Problem, Spread, keep, spread};
+use crate::case::fields::{self, FIELDS, index_of};
+use crate::case::sanitize::{quoted, suggestion};
 use crate::model::Quantity;
+use serde::{Deserialize, Serialize};
 
 /// A text that differs between two cases.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -19,7 +20,6 @@ pub struct Change {
 
 /// The changes from one case to another, in the order of the fields, the limits and the
 /// distributions.
-#[must_use]
 pub fn between(from: &Case, to: &Case) -> Vec<Change> {
     let (old, new) = (texts(from), texts(to));
     let find = |texts: &[(String, String)], key: &str| {
@@ -38,14 +38,12 @@ pub fn between(from: &Case, to: &Case) -> Vec<Change> {
 }
 
 /// The text of a case under a key. `None` if the case does not have it.
-#[must_use]
 pub fn text_of(case: &Case, key: &str) -> Option<String> {
     texts(case).into_iter().find(|(own, _)| own == key).map(|(_, text)| text)
 }
 
 /// The label of a key: the label of the field, with its gear if both gears have the field. A limit
 /// includes its quantity, a distribution its field.
-#[must_use]
 pub fn label(key: &str) -> String {
     let of_field = |key: &str| fields::index_of(key).map(|field| FIELDS[field].full_label());
     let of_limit = || {
@@ -66,7 +64,7 @@ impl Case {
     /// If the key does not exist, or a limit or a distribution is invalid. The case is then
     /// unchanged.
     pub fn apply(&mut self, key: &str, text: Option<&str>) -> Result<(), Problem> {
-        if let Some(path) = key.strip_prefix(variant::PREFIX) {
+        if let Some(path) = key.strip_prefix(PREFIX) {
             return self.apply_override(path, text);
         }
         let text = text.unwrap_or_default();
@@ -76,11 +74,11 @@ impl Case {
         if let Some(field) = key.strip_prefix("spread.") {
             return self.set_spread(field.trim_matches('"'), text);
         }
-        if let Some(name) = key.strip_prefix(super::ABOUT) {
+        if let Some(name) = key.strip_prefix(ABOUT) {
             self.write_about(name, text);
             return Ok(());
         }
-        let field = fields::index_of(key).ok_or_else(|| super::check::unknown_key(key))?;
+        let field = fields::index_of(key).ok_or_else(|| unknown_key(key))?;
         self.write(field, text);
         Ok(())
     }
@@ -90,7 +88,7 @@ impl Case {
             self.spread.retain(|held| held.field != field);
             return Ok(());
         }
-        super::keep(&mut self.spread, Spread::new(field, text)?, |held| held.field == field);
+        keep(&mut self.spread, Spread::new(field, text)?, |held| held.field == field);
         Ok(())
     }
 }
@@ -98,7 +96,6 @@ impl Case {
 impl Variant {
     /// The variant with the changes from one case to another. If two fields exclude each other, the
     /// override of one replaces the other.
-    #[must_use]
     pub fn between(name: &str, from: &Case, to: &Case) -> Variant {
         let changes = between(from, to);
         let is_replaced = |key: &str| {
@@ -110,7 +107,7 @@ impl Variant {
         };
         let overrides = changes
             .iter()
-            .filter(|change| !change.key.starts_with(variant::PREFIX))
+            .filter(|change| !change.key.starts_with(PREFIX))
             .filter(|change| change.to.is_some() || !is_replaced(&change.key))
             .map(|change| Override {
                 key: change.key.clone(),
@@ -126,16 +123,144 @@ pub(super) fn texts(case: &Case) -> Vec<(String, String)> {
         .iter()
         .enumerate()
         .filter_map(|(index, field)| Some((field.key.to_owned(), case.text(index)?.to_owned())));
-    let limits =
-        case.limits.iter().map(|limit| (format!("limits.{}", limit.quantity), limit.text.clone()));
+    let limits = case
+        .limits
+        .iter()
+        .map(|limit| (format!("limits.{}", limit.quantity.key), limit.text.clone()));
     let spreads = case.spread.iter().map(|held| (spread::place(held.field), held.text.clone()));
     let overrides = case.variants.iter().flat_map(|variant| {
         let of = |change: &Override| (variant.place(&change.key), change.text.clone());
         variant.overrides.iter().map(of)
     });
     let about = case.about.iter();
-    let about = about.map(|(name, text)| (format!("{}{name}", super::ABOUT), text.clone()));
+    let about = about.map(|(name, text)| (format!("{}{name}", ABOUT), text.clone()));
     fields.chain(limits).chain(spreads).chain(overrides).chain(about).collect()
+}
+
+/// Greatest length of the name of a variant, in characters.
+const LONGEST_NAME: usize = 40;
+
+/// A named set of overrides.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Variant {
+    /// The name: letters, digits, `-` and `_`.
+    pub name: String,
+    /// The overrides, in the order of the fields, then limits and distributions.
+    pub overrides: Vec<Override>,
+}
+
+/// A value that replaces the case's value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Override {
+    /// The field's key, or `limits.…` or `spread."…"`.
+    pub key: String,
+    /// The new text. An empty text removes the key.
+    pub text: String,
+}
+
+impl Variant {
+    /// A variant whose overrides are in the order of the fields.
+    pub fn new(name: &str, mut overrides: Vec<Override>) -> Variant {
+        overrides.sort_by_key(|change| {
+            let place = index_of(&change.key).unwrap_or(FIELDS.len());
+            (place, change.key.clone())
+        });
+        Variant { name: name.to_owned(), overrides }
+    }
+
+    /// Checks the name of a variant.
+    ///
+    /// # Errors
+    /// If the name is empty, too long, or has an invalid character.
+    pub fn check_name(name: &str) -> Result<(), Problem> {
+        let is_allowed = |letter: char| letter.is_alphanumeric() || "-_".contains(letter);
+        let count = name.chars().count();
+        if (1..=LONGEST_NAME).contains(&count) && name.chars().all(is_allowed) {
+            return Ok(());
+        }
+        Err(Problem::new(
+            &format!("{PREFIX}{name}"),
+            format!("{} is no name of a variant", quoted(name)),
+            format!("use 1 to {LONGEST_NAME} letters, digits, - or _"),
+        ))
+    }
+
+    /// Whether the variant overrides a key.
+    pub fn overrides(&self, key: &str) -> bool {
+        self.overrides.iter().any(|change| change.key == key)
+    }
+
+    /// The key of one of its overrides in the case file, such as
+    /// `variants.relieved.driven.tip_relief`.
+    pub fn place(&self, key: &str) -> String {
+        format!("{PREFIX}{}.{key}", self.name)
+    }
+}
+
+/// How the keys of variants begin.
+pub(super) const PREFIX: &str = "variants.";
+
+impl Case {
+    /// The variant with this name.
+    ///
+    /// # Errors
+    /// If the case has no such variant.
+    pub fn variant(&self, name: &str) -> Result<&Variant, Problem> {
+        let found = self.variants.iter().find(|variant| variant.name == name);
+        found.ok_or_else(|| {
+            let known = || self.variants.iter().map(|variant| variant.name.as_str());
+            let all: Vec<&str> = known().collect();
+            let fix = if all.is_empty() {
+                format!("add a table [{PREFIX}{name}]")
+            } else {
+                suggestion(name, known(), || format!("use one of {}", all.join(", ")))
+            };
+            Problem::new(
+                &format!("{PREFIX}{name}"),
+                format!("the case has no variant {}", quoted(name)),
+                fix,
+            )
+        })
+    }
+
+    /// The case with the overrides of a variant.
+    pub fn with(&self, variant: &Variant) -> Case {
+        let mut case = self.clone();
+        for change in &variant.overrides {
+            if let Some(other) = index_of(&change.key).and_then(|field| FIELDS[field].partner())
+                && !change.text.is_empty()
+            {
+                case.write(other, "");
+            }
+            // Reading checked every override.
+            drop(case.apply(&change.key, Some(&change.text)));
+        }
+        case
+    }
+
+    /// Adds a variant to the case, or replaces the variant with the same name.
+    pub fn keep_variant(&mut self, variant: Variant) {
+        let name = variant.name.clone();
+        keep(&mut self.variants, variant, |known| known.name == name);
+    }
+
+    /// Writes or removes an override by its key after `variants.`, such as
+    /// `relieved.driven.tip_relief`. Removes a variant without overrides.
+    pub(super) fn apply_override(&mut self, path: &str, text: Option<&str>) -> Result<(), Problem> {
+        let unknown = || unknown_key(&format!("{PREFIX}{path}"));
+        let (name, key) = path.split_once('.').ok_or_else(unknown)?;
+        Variant::check_name(name)?;
+        let known = self.variants.iter().find(|variant| variant.name == name);
+        let mut overrides = known.map_or_else(Vec::new, |variant| variant.overrides.clone());
+        overrides.retain(|change| change.key != key);
+        if let Some(text) = text {
+            Case::empty().apply(key, Some(text))?;
+            overrides.push(Override { key: key.to_owned(), text: text.to_owned() });
+        }
+        self.keep_variant(Variant::new(name, overrides));
+        self.variants.retain(|variant| !variant.overrides.is_empty());
+        Ok(())
+    }
 }
 
 #[cfg(test)]
@@ -214,5 +339,53 @@ mod tests {
         );
         assert_ne!(label("driver.teeth"), label("driven.teeth"));
         assert_eq!(label("limits.impact_force"), "limit of impact force");
+    }
+}
+
+#[cfg(test)]
+mod variant_tests {
+    use super::*;
+
+    fn edited(edits: &[(&str, &str)]) -> Case {
+        let mut case = Case::table_1();
+        for (key, value) in edits {
+            case.set(key, value).expect("a value of the field");
+        }
+        case
+    }
+
+    #[test]
+    fn a_variant_of_the_edits_gives_the_edited_case() {
+        for edits in [
+            &[("driven.tip_relief", "48 um"), ("pair.module", "6 mm")][..],
+            &[("operation.torque", "80 N m")],
+            &[("model.deflection", ""), ("limits.impact_force", "900 N")],
+            &[("operation.power", "20 kW"), ("title", "a = \"b\"")],
+        ] {
+            let (base, case) = (Case::table_1(), edited(edits));
+            let variant = Variant::between("edited", &base, &case);
+            assert_eq!(variant.overrides.len(), edits.len(), "{variant:?}");
+            assert_eq!(base.with(&variant), case);
+        }
+    }
+
+    #[test]
+    fn an_unknown_variant_is_refused_with_a_suggestion() {
+        let mut case = Case::table_1();
+        let variant =
+            Variant::between("relieved", &case, &edited(&[("driven.tip_relief", "1 um")]));
+        assert!(
+            case.variant("relieved")
+                .is_err_and(|problem| problem.fix.to_string().contains("[variants.relieved]"))
+        );
+        case.keep_variant(variant);
+        assert!(
+            case.variant("releived")
+                .is_err_and(|problem| problem.fix.to_string().contains("relieved"))
+        );
+        assert!(case.variant("relieved").is_ok());
+        for name in ["", "a b", "a.b", "\u{1b}[2J", &"x".repeat(41)] {
+            assert!(Variant::check_name(name).is_err(), "{name}");
+        }
     }
 }

@@ -1,15 +1,118 @@
-//! Converts texts to the inputs of the model: each field alone, then rules between fields.
+//! Problems of a case, and its check: each field alone, then rules between fields.
 
-use super::fields::{Absent, FIELDS, Field, index_of};
-use super::problem::MISSING;
-use super::{Case, Fix, Limit, Problem, Spread};
-use crate::case::fields::{AUTO, Kind, List, Range, Value};
-use crate::case::sanitize::{cut, quoted};
-use crate::case::suggest;
+use super::{Case, Limit, Spread};
+use crate::case::fields::{
+    AUTO, Absent, FIELDS, Field, Kind, List, Range, Value, index_of, key_of,
+};
+use crate::case::sanitize::{cut, quoted, sanitize, suggestion};
 use crate::case::units::{self, Dimension};
 use crate::model::inputs::{Gear, Method, ToothCompliance};
-use crate::model::{Inputs, QUANTITIES, Quantity};
+use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
 use crate::numeric::decimal::{shortest, significant};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+
+/// A problem at one place: the cause and the fix.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Problem {
+    /// The field's key, or an unknown key as written.
+    pub field: String,
+    /// The name of a kind of problem whose sentences differ only in their numbers, or empty.
+    pub code: Box<str>,
+    /// The cause.
+    pub cause: String,
+    /// How to fix it.
+    pub fix: Fix,
+}
+
+/// The code of a required value that is missing.
+pub(super) const MISSING: &str = "missing";
+/// The code of a file of a newer format.
+pub const NEWER_FORMAT: &str = "newer-format";
+
+/// How to fix a problem.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Fix {
+    /// Write a value of a field, such as this example in TOML.
+    Assign {
+        /// The key of the field.
+        key: &'static str,
+        /// The example.
+        example: String,
+    },
+    /// Any other fix.
+    Text(String),
+}
+
+impl Problem {
+    /// A problem of a field without a code.
+    pub fn new(field: &str, cause: impl Into<String>, fix: impl Into<Fix>) -> Problem {
+        Problem { field: field.to_owned(), code: "".into(), cause: cause.into(), fix: fix.into() }
+    }
+
+    /// The same problem with a code.
+    pub(super) fn coded(self, code: &str) -> Problem {
+        Problem { code: code.into(), ..self }
+    }
+
+    /// The same problem of another field.
+    pub fn at(self, field: &str) -> Problem {
+        Problem { field: field.to_owned(), ..self }
+    }
+
+    /// Whether another problem differs at most in its numbers.
+    pub fn is_like(&self, other: &Problem) -> bool {
+        let is_same = if self.code.is_empty() { self.fix == other.fix } else { true };
+        (&self.field, &self.code) == (&other.field, &other.code) && is_same
+    }
+}
+
+impl From<&Refusal> for Problem {
+    fn from(refusal: &Refusal) -> Problem {
+        let field = key_of(refusal.at());
+        Problem::new(field, refusal.to_string(), refusal.fix()).coded(refusal.code())
+    }
+}
+
+impl<T: Into<String>> From<T> for Fix {
+    fn from(text: T) -> Fix {
+        Fix::Text(text.into())
+    }
+}
+
+impl Serialize for Fix {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Fix {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Fix, D::Error> {
+        String::deserialize(deserializer).map(Fix::Text)
+    }
+}
+
+/// One line: `field: cause: fix`.
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Problem { field, cause, fix, .. } = self;
+        write!(f, "{}: {}: {}", sanitize(field), sanitize(cause), sanitize(&fix.to_string()))
+    }
+}
+
+impl fmt::Display for Fix {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Fix::Text(text) => f.write_str(text),
+            Fix::Assign { key, example } => match key.split_once('.') {
+                None => write!(f, "write {key} = {example}"),
+                Some((table, name)) => write!(f, "write {name} = {example} under [{table}]"),
+            },
+        }
+    }
+}
+
+impl std::error::Error for Problem {}
 
 /// The inputs that can be read, and all problems of the case. Skips the fields in `wrong`.
 pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
@@ -35,7 +138,7 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
     // Valid limits and distributions are not read again.
     let unread = case.limits.iter().filter(|limit| limit.value.is_infinite());
     let unread = unread.filter(|limit| !limit.text.is_empty());
-    problems.extend(unread.filter_map(|limit| Limit::new(limit.quantity, &limit.text).err()));
+    problems.extend(unread.filter_map(|limit| Limit::new(limit.quantity.key, &limit.text).err()));
     let unread = case.spread.iter().filter(|spread| spread.width == 0.0);
     let unread = unread.filter(|spread| !spread.text.is_empty());
     problems.extend(unread.filter_map(|spread| Spread::new(spread.field, &spread.text).err()));
@@ -132,7 +235,6 @@ pub fn field_value(field: usize, text: &str) -> Result<Value, Problem> {
 }
 
 /// The least and the greatest value of a number field, in SI.
-#[must_use]
 pub fn field_range(field: usize) -> (f64, f64) {
     let Some(range) = FIELDS[field].range() else { return (0.0, 0.0) };
     let factor = units::factor(range.unit).unwrap_or(1.0);
@@ -244,12 +346,11 @@ fn choice(known: &Field, text: &str, names: &'static [&'static str]) -> Result<u
         return Ok(index);
     }
     let fix =
-        suggest::fix(name, names.iter().copied(), || format!("use one of {}", names.join(", ")));
+        suggestion(name, names.iter().copied(), || format!("use one of {}", names.join(", ")));
     Err(Problem::new(known.key, format!("unknown choice {}", quoted(name)), fix))
 }
 
 /// The first rule between fields that these inputs violate.
-#[must_use]
 pub fn violated_rule(inputs: &Inputs) -> Option<Problem> {
     rules(inputs).next()
 }
@@ -441,7 +542,6 @@ impl Height<'_> {
 
 impl Problem {
     /// The problem at the diameter if the inputs give the diameter instead of the coefficient.
-    #[must_use]
     pub fn at_given_diameter(self, inputs: &Inputs) -> Problem {
         let is_it = |height: &Height| {
             FIELDS[height.coefficient()].key == self.field && height.given_diameter().is_some()
@@ -453,7 +553,6 @@ impl Problem {
     }
 
     /// The problem at the alternative of its field if the case gives the alternative.
-    #[must_use]
     pub fn at_given(self, case: &Case) -> Problem {
         let field = index_of(&self.field).filter(|&field| case.is_replaced(field));
         let given = field.and_then(|field| FIELDS[field].partner());
@@ -470,7 +569,6 @@ fn in_mm(metres: f64) -> f64 {
 }
 
 /// The refusal of an unknown key.
-#[must_use]
 pub fn unknown_key(key: &str) -> Problem {
     let known = FIELDS.iter().map(|field| field.key);
     let name = key.rsplit('.').next().unwrap_or(key);
@@ -479,13 +577,12 @@ pub fn unknown_key(key: &str) -> Problem {
         .find(|field| field.name() == name)
         .map(|field| format!("did you mean {}?", field.key));
     let fix = same_name.unwrap_or_else(|| {
-        suggest::fix(key, known, || "`tipstrike fields` lists every key".to_owned())
+        suggestion(key, known, || "`tipstrike fields` lists every key".to_owned())
     });
     Problem::new(key, format!("unknown key {}", quoted(key)), fix)
 }
 
 /// The refusal of a limit on a quantity that does not exist.
-#[must_use]
 pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
     let name = quantity.trim();
     let unknown =
@@ -503,7 +600,7 @@ pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
             "write names with commas between them, such as impact_force,contact_ratio",
         ),
         None if name.contains(' ') => unknown("put commas between names".to_owned()),
-        None => unknown(suggest::fix(quantity, QUANTITIES.iter().map(|known| known.key), || {
+        None => unknown(suggestion(quantity, QUANTITIES.iter().map(|known| known.key), || {
             "`tipstrike fields --results` lists every quantity".to_owned()
         })),
     }

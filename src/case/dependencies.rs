@@ -29,7 +29,6 @@ pub struct Step {
 /// The fields that a quantity depends on, in the order of the form: fields that a stage of the
 /// quantity reads and whose change alters `own`, the value of the quantity with these inputs. A
 /// flag, and a quantity without a value, depend on every field that these stages read.
-#[must_use]
 pub fn fields_of(
     quantity: &Quantity,
     case: &Case,
@@ -76,7 +75,6 @@ fn quickest_of(quantity: &Quantity, inputs: &Inputs, own: Option<f64>) -> Inputs
 }
 
 /// The value of a quantity with these inputs, in SI.
-#[must_use]
 pub fn value_of(quantity: &Quantity, inputs: &Inputs) -> Option<f64> {
     solved(quantity, inputs).ok().flatten()
 }
@@ -174,7 +172,6 @@ fn within(range: Range, share: f64) -> f64 {
 
 /// The stages that read a field in a case with these inputs: the stages whose inputs change, or
 /// that no longer run, if the field has another value.
-#[must_use]
 pub fn stages_of(field: usize, inputs: &Inputs) -> Stages {
     let others = with_other_values(field, inputs);
     let reads = |stage: &Stage| {
@@ -187,7 +184,6 @@ pub fn stages_of(field: usize, inputs: &Inputs) -> Stages {
 }
 
 /// Whether any stage reads a field in a case with these inputs.
-#[must_use]
 pub fn is_read(field: usize, inputs: &Inputs) -> bool {
     stages_of(field, inputs) != Stages::NONE
 }
@@ -218,7 +214,6 @@ pub enum Acting {
 const NO_REASON: &str = "no result of this case depends on it";
 
 /// Whether the field has an effect in a case with these inputs.
-#[must_use]
 pub fn relevance(field: usize, inputs: &Inputs) -> Acting {
     if acts(field, inputs) {
         return Acting::Yes;
@@ -232,7 +227,6 @@ pub fn relevance(field: usize, inputs: &Inputs) -> Acting {
 }
 
 /// The reason why results depend less on a field than expected, in a case with these inputs.
-#[must_use]
 pub fn partial_relevance(field: usize, inputs: &Inputs) -> Option<&'static str> {
     let reason = |reason: &Reason| match *reason {
         Reason::Partly(when, why) if when(inputs) => Some(why),

@@ -1,7 +1,7 @@
 //! The example cases of the program, from the folder `cases`, each with its source.
 
 use super::Document;
-use super::suggest::fix;
+use super::sanitize::suggestion;
 
 /// An example case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,14 +40,13 @@ impl Example {
         let name = name.strip_suffix(".toml").unwrap_or(name);
         let found = EXAMPLES.iter().find(|example| example.name == name);
         found.ok_or_else(|| {
-            fix(name, EXAMPLES.iter().map(|example| example.name), || {
+            suggestion(name, EXAMPLES.iter().map(|example| example.name), || {
                 "use one of the list".to_owned()
             })
         })
     }
 
     /// The example as a document without a file.
-    #[must_use]
     pub fn document(&self) -> Document {
         Document::parse(self.name, self.text).unwrap_or_else(|_| Document::table_1())
     }

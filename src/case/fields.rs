@@ -113,32 +113,27 @@ pub enum Absent {
 
 impl Field {
     /// The usual unit of the field. Empty for a bare number, a count, a choice and text.
-    #[must_use]
     pub fn usual_unit(&self) -> &'static str {
         let is_number = matches!(self.kind, Kind::Number(..));
         self.example().split_once(' ').filter(|_| is_number).map_or("", |(_, unit)| unit)
     }
 
     /// The index of its alternative in [`FIELDS`].
-    #[must_use]
     pub fn partner(&self) -> Option<usize> {
         self.alternative.and_then(index_of)
     }
 
     /// The table of the case file with this field. Empty for the top level.
-    #[must_use]
     pub fn table(&self) -> &'static str {
         self.key.split_once('.').map_or("", |(table, _)| table)
     }
 
     /// Whether the field describes one of the gears.
-    #[must_use]
     pub fn is_of_gear(&self) -> bool {
         matches!(self.table(), "driver" | "driven")
     }
 
     /// The label, with the gear if both gears have the field: `driven tip relief`.
-    #[must_use]
     pub fn full_label(&self) -> String {
         if self.is_of_gear() {
             format!("{} {}", self.table(), self.label)
@@ -148,7 +143,6 @@ impl Field {
     }
 
     /// The key within its table.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         self.key.split_once('.').map_or(self.key, |(_, name)| name)
     }
@@ -204,7 +198,6 @@ impl Field {
     }
 
     /// A number as a value of this field; every value of a list.
-    #[must_use]
     pub fn value_of(&self, number: f64) -> Value {
         match self.kind {
             Kind::Text => Value::Text,
@@ -216,37 +209,31 @@ impl Field {
     }
 
     /// The names of a choice, otherwise none.
-    #[must_use]
     pub fn choices(&self) -> &'static [&'static str] {
         if let Kind::Choice(names, _) = self.kind { names } else { &[] }
     }
 
     /// Whether the value is true or false.
-    #[must_use]
     pub fn is_flag(&self) -> bool {
         self.choices() == FLAG
     }
 
     /// Whether the value is one of several names.
-    #[must_use]
     pub fn is_choice(&self) -> bool {
         matches!(self.kind, Kind::Choice(..))
     }
 
     /// Whether the word "auto" can replace the number.
-    #[must_use]
     pub fn takes_auto(&self) -> bool {
         matches!(self.key, "model.stations" | "model.slices")
     }
 
     /// Whether a file contains the value without quotes.
-    #[must_use]
     pub fn is_bare(&self) -> bool {
         self.is_flag() || matches!(self.kind, Kind::Count(..) | Kind::Number(Dimension::Number, ..))
     }
 
     /// A valid text of the field, as an example.
-    #[must_use]
     pub fn example(&self) -> &'static str {
         match (self.absent, self.kind) {
             (Absent::Default(text), _) if !text.is_empty() => text,
@@ -257,7 +244,6 @@ impl Field {
     }
 
     /// The range of a number or a count.
-    #[must_use]
     pub fn range(&self) -> Option<Range> {
         match self.kind {
             Kind::Number(_, range, _) => Some(range),
@@ -267,7 +253,6 @@ impl Field {
     }
 
     /// The range as text, or the names of a choice. Empty for free text.
-    #[must_use]
     pub fn range_text(&self) -> String {
         let Some(Range { from, to, unit }) = self.range() else {
             return match self.kind {
@@ -282,13 +267,11 @@ impl Field {
 }
 
 /// The index of a key in [`FIELDS`].
-#[must_use]
 pub fn index_of(key: &str) -> Option<usize> {
     FIELDS.iter().position(|field| field.key == key)
 }
 
 /// The key of a member of the inputs, of one gear or of the pair.
-#[must_use]
 pub fn key_of((gear, name): Member) -> &'static str {
     let table = gear.map(|gear| if gear == GearSide::Driver { "driver" } else { "driven" });
     let has_table =

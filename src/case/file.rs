@@ -3,21 +3,20 @@
 mod read;
 mod save;
 
-use std::fmt;
-use std::fs::{self, File};
-use std::io::{self, ErrorKind, Read};
-use std::ops::Range;
-use std::path::{Path, PathBuf};
-
-use thiserror::Error;
-use toml_edit::{Item, Key, RawString, Table, TomlError};
-
-use super::sanitize::{cut, sanitize};
-use super::stamp::Stamp;
 use super::{Case, NEWER_FORMAT, Problem};
+use crate::case::sanitize::{cut, sanitize};
 use crate::system::files;
 pub use save::{Draft, followed, write};
 use save::{are_same, render, target_of, template};
+use siphasher::sip::SipHasher24;
+use std::fmt;
+use std::fs::{self, File};
+use std::hash::Hasher;
+use std::io::{self, ErrorKind, Read};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+use toml_edit::{Item, Key, RawString, Table, TomlError};
 
 /// The format of case files that this version reads and writes.
 pub const FORMAT: u32 = 1;
@@ -128,20 +127,17 @@ impl Document {
     }
 
     /// A document without a file: the case as commented text with every field.
-    #[must_use]
     pub fn new(case: Case) -> Document {
         Document::commented("new case".to_owned(), case, &[])
     }
 
     /// A document without a file, with additional comments at the named fields.
-    #[must_use]
     pub fn commented(name: String, case: Case, comments: &[(&str, String)]) -> Document {
         let text = template(&case, comments);
         Document::with(name, case, &text)
     }
 
     /// Table 1 of the paper, from its file in `cases/`.
-    #[must_use]
     pub fn table_1() -> Document {
         Document::parse("zhou-chen-2014.toml", TABLE_1)
             .unwrap_or_else(|_| Document::new(Case::empty()))
@@ -192,43 +188,36 @@ impl Document {
     }
 
     /// Whether the text has a newer format, which this version reads only in part.
-    #[must_use]
     pub fn is_newer(&self) -> bool {
         self.is_newer
     }
 
     /// The file name of the document.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// The file that the document was read from or saved to, after resolution of links.
-    #[must_use]
     pub fn path(&self) -> Option<&Path> {
         self.origin.as_deref()
     }
 
     /// The stamp of the text that was read or saved last.
-    #[must_use]
     pub fn stamp(&self) -> Stamp {
         self.stamp
     }
 
     /// The case of the text that was read or saved last.
-    #[must_use]
     pub fn loaded(&self) -> &Case {
         &self.loaded
     }
 
     /// Whether the case differs from the text that was read or saved last.
-    #[must_use]
     pub fn is_changed(&self) -> bool {
         self.case != self.loaded
     }
 
     /// The text to save: the original text with only the changed values replaced.
-    #[must_use]
     pub fn render(&self) -> String {
         if self.is_changed() {
             render(&self.text, &self.loaded, &self.case)
@@ -239,19 +228,16 @@ impl Document {
 
     /// Line and column, from 1, of a field's value. If the text does not have the field, the place
     /// of its table or the end.
-    #[must_use]
     pub fn place(&self, key: &str) -> (usize, usize) {
         place(&self.text, Layout::of(&self.text).unwrap_or_default().place(key))
     }
 
     /// A later problem, such as a refusal of the model, at its place in the file.
-    #[must_use]
     pub fn fault(&self, problem: Problem) -> Fault {
         Fault::new(&self.name, self.place(&problem.field), problem)
     }
 
     /// Later problems at their places in the file, sorted by place.
-    #[must_use]
     pub(crate) fn faults(&self, problems: Vec<Problem>) -> Vec<Fault> {
         let mut faults: Vec<Fault> =
             problems.into_iter().map(|problem| self.fault(problem)).collect();
@@ -756,7 +742,6 @@ fn named(key: &Key) -> Named {
 
 /// The file without comments, empty lines, and headers of empty tables. Keeps all lines of a
 /// multi-line string.
-#[must_use]
 pub fn without_comments(text: &str) -> String {
     let layout = Layout::of(text).unwrap_or_default();
     let strings: Vec<_> = layout
@@ -786,6 +771,29 @@ pub fn without_comments(text: &str) -> String {
     lines.join("\n")
 }
 
+/// Length and hash of a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stamp {
+    /// Length in bytes.
+    pub length: u64,
+    /// SipHash-2-4 of the bytes.
+    pub hash: u64,
+}
+
+impl Stamp {
+    /// The stamp of a text.
+    pub fn of(bytes: &[u8]) -> Stamp {
+        Stamp { length: bytes.len() as u64, hash: hash(bytes) }
+    }
+}
+
+/// SipHash-2-4 with a key of zeros: the same on every machine and in every version.
+pub fn hash(bytes: &[u8]) -> u64 {
+    let mut hasher = SipHasher24::new();
+    hasher.write(bytes);
+    hasher.finish()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -798,5 +806,16 @@ mod tests {
             without_comments(text),
             "format = 1\nnotes = \"\"\"one\n# two\n\n[three]\n\"\"\"\n[driver]\nteeth = 20 # z1"
         );
+    }
+}
+
+#[cfg(test)]
+mod stamp_tests {
+    use super::*;
+
+    #[test]
+    fn the_hash_never_changes() {
+        // SipHash-2-4 (Aumasson & Bernstein 2012) of an empty text with a key of zeros.
+        assert_eq!(hash(b""), 0x1e92_4b9d_7377_00d7);
     }
 }

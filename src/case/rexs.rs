@@ -50,7 +50,6 @@ pub struct Stage {
 
 impl Stage {
     /// The id and the name of the stage.
-    #[must_use]
     pub fn label(&self) -> String {
         if self.name.is_empty() { self.id.clone() } else { format!("{} {:?}", self.id, self.name) }
     }
@@ -80,7 +79,6 @@ fn within(count: usize, most: usize, parts: &str) -> Result<(), Refusal> {
 }
 
 /// Whether the file name belongs to a REXS model.
-#[must_use]
 pub fn is_model(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     ends_with_any(&name, &[".rexs", ".rexsj", ".rexsz", ".rexs.zip"])
@@ -92,7 +90,6 @@ fn ends_with_any(name: &str, endings: &[&str]) -> bool {
 }
 
 /// The path of the case file beside a model. For a case, the path itself.
-#[must_use]
 pub fn case_path(path: &Path) -> PathBuf {
     if is_model(path) { path.with_extension("toml") } else { path.to_owned() }
 }

@@ -1,10 +1,9 @@
-//! Makes foreign text safe to show: removes terminal control characters.
+//! Foreign text: made safe to show, and the known name nearest to a mistyped one.
 
 /// Greatest number of characters of a foreign text in a message.
 const MOST: usize = 60;
 
 /// The text with control, direction and zero-width characters escaped, such as `\u{1b}`.
-#[must_use]
 pub fn sanitize(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for c in text.chars() {
@@ -18,14 +17,12 @@ pub fn sanitize(text: &str) -> String {
 }
 
 /// The sanitized text on one line: a space replaces each line break and the spaces around it.
-#[must_use]
 pub fn one_line(text: &str) -> String {
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     sanitize(&lines.collect::<Vec<_>>().join(" "))
 }
 
 /// The sanitized text for a message, cut if it is long.
-#[must_use]
 pub fn cut(text: &str) -> String {
     let mut shown: String = text.chars().take(MOST).collect();
     if shown.len() < text.len() {
@@ -35,13 +32,11 @@ pub fn cut(text: &str) -> String {
 }
 
 /// The text from [`cut`] in backquotes.
-#[must_use]
 pub fn quoted(text: &str) -> String {
     format!("`{}`", cut(text))
 }
 
 /// Whether a character controls the screen or is invisible.
-#[must_use]
 pub fn is_hidden(c: char) -> bool {
     c.is_control() || HIDDEN.iter().any(|&(from, to)| (from..=to).contains(&c))
 }
@@ -67,6 +62,47 @@ const HIDDEN: [(char, char); 18] = [
     ('\u{e0000}', '\u{e0fff}'), // tags and selectors
 ];
 
+/// Length limit of a mistyped name, because a comparison of long texts is slow.
+const LONGEST: usize = 64;
+
+/// The nearest known name if it is near enough.
+pub(crate) fn nearest<'n>(typed: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    if typed.len() > LONGEST {
+        return None;
+    }
+    let short = typed.chars().count() <= 2;
+    let limit = if short { 0.4 } else { 0.65 };
+    let likeness = |name: &str| {
+        let same_letters = typed.eq_ignore_ascii_case(name);
+        if same_letters {
+            1.0
+        } else {
+            strsim::normalized_damerau_levenshtein(&typed.to_lowercase(), &name.to_lowercase())
+        }
+    };
+    let letters = sorted(typed);
+    // With equal distances, prefers the name with the same letters: "mu" is a transposed "um", not
+    // "m".
+    let known = known.map(|name| (likeness(name), sorted(name) == letters, name));
+    let near = known.filter(|&(likeness, ..)| likeness >= limit);
+    near.min_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1))).map(|(.., name)| name)
+}
+
+fn sorted(name: &str) -> Vec<char> {
+    let mut letters: Vec<char> = name.to_lowercase().chars().collect();
+    letters.sort_unstable();
+    letters
+}
+
+/// "did you mean X?" if a name is near enough, otherwise the fallback.
+pub(crate) fn suggestion<'n>(
+    typed: &str,
+    known: impl Iterator<Item = &'n str>,
+    fallback: impl FnOnce() -> String,
+) -> String {
+    nearest(typed, known).map_or_else(fallback, |name| format!("did you mean {name}?"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::{quoted, sanitize};
@@ -85,5 +121,19 @@ mod tests {
     #[test]
     fn a_long_text_is_cut() {
         assert_eq!(quoted(&"x".repeat(1000)).chars().count(), 63);
+    }
+}
+
+#[cfg(test)]
+mod suggest_tests {
+    use super::nearest;
+
+    #[test]
+    fn a_misspelling_finds_its_name_and_another_word_finds_none() {
+        let known = ["module", "pressure_angle", "centre_distance"];
+        assert_eq!(nearest("modul", known.into_iter()), Some("module"));
+        assert_eq!(nearest("center_distance", known.into_iter()), Some("centre_distance"));
+        assert_eq!(nearest("colour", known.into_iter()), None);
+        assert_eq!(nearest("mu", ["mm", "um", "m"].into_iter()), Some("um"));
     }
 }

@@ -2,9 +2,9 @@
 
 use super::Problem;
 use super::fields::{FIELDS, Field, Kind, index_of};
-use super::sanitize::quoted;
+use super::sanitize::{quoted, suggestion};
 use super::units::Dimension;
-use super::{check, suggest, units};
+use super::{check, units};
 use crate::model::deviation::TOLERANCE_CLASSES;
 
 /// The shape of a distribution around the value of a field.
@@ -29,7 +29,6 @@ impl Shape {
         [Shape::Normal, Shape::Uniform, Shape::Triangular, Shape::Truncated, Shape::Grade];
 
     /// The name in a case file.
-    #[must_use]
     pub fn name(self) -> &'static str {
         ["normal", "uniform", "triangular", "truncated", "grade"][self as usize]
     }
@@ -71,14 +70,12 @@ impl Spread {
     }
 
     /// The width as the user wrote it.
-    #[must_use]
     pub fn written_width(&self) -> &str {
         parts(&self.text).1
     }
 
     /// The problem of an entry without exactly one shape and one width. `shape` is the name of its
     /// only member.
-    #[must_use]
     pub fn malformed(key: &str, shape: Option<&str>) -> Problem {
         let problem = match (spreadable(key), shape.map(named)) {
             (Err(problem), _) | (_, Some(Err(problem))) => problem,
@@ -170,7 +167,7 @@ fn named(name: &str) -> Result<Shape, Problem> {
     Shape::ALL.into_iter().find(|shape| shape.name() == name).ok_or_else(|| {
         let known = Shape::ALL.into_iter().map(Shape::name);
         let all: Vec<&str> = known.clone().collect();
-        let fix = suggest::fix(name, known, || format!("use one of {}", all.join(", ")));
+        let fix = suggestion(name, known, || format!("use one of {}", all.join(", ")));
         Problem::new("", format!("unknown distribution {}", quoted(name)), fix)
     })
 }

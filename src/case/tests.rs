@@ -3,10 +3,15 @@
 
 use super::fields::{FIELDS, index_of};
 use super::{Case, Document, Problem};
+use crate::model::Quantity;
 use crate::model::inputs::Drive;
 
 fn field(key: &str) -> usize {
     index_of(key).unwrap()
+}
+
+fn quantity(key: &str) -> &'static Quantity {
+    Quantity::find(key).unwrap()
 }
 
 fn with(changes: &[(&str, &str)]) -> Case {
@@ -162,7 +167,8 @@ fn set_accepts_the_keys_of_the_command_line() {
     assert_eq!((inputs.module, inputs.driver.profile_shift), (4e-3, 0.3));
     assert_eq!(inputs.drive, Drive::Torque(70.0));
     assert_eq!(inputs.deflection, None);
-    let limits: Vec<_> = case.limits.iter().map(|limit| (limit.quantity, limit.value)).collect();
+    let limits: Vec<_> =
+        case.limits.iter().map(|limit| (limit.quantity.key, limit.value)).collect();
     assert_eq!(limits, [("impact_force", 3000.0), ("dynamic_factor", 1.5)]);
 }
 
@@ -198,8 +204,11 @@ fn a_relative_limit_is_saved_and_read_again() {
         [("mesh_force", "2 x impact_force"), ("dynamic_factor", "3 x contact_ratio")]
     {
         case.set_limit(quantity, text).unwrap();
-        let limit = case.limits.iter().find(|limit| limit.quantity == quantity).unwrap();
-        assert_eq!((limit.value, limit.of), (text[..1].parse().unwrap(), Some(&text[4..])));
+        let limit = case.limits.iter().find(|limit| limit.quantity.key == quantity).unwrap();
+        assert_eq!(
+            (limit.value, limit.of.map(|of| of.key)),
+            (text[..1].parse().unwrap(), Some(&text[4..]))
+        );
     }
     let text = Document::new(case.clone()).render();
     assert_eq!(Document::parse("case.toml", &text).unwrap().case.limits, case.limits);
@@ -208,15 +217,15 @@ fn a_relative_limit_is_saved_and_read_again() {
 #[test]
 fn a_form_accepts_an_incomplete_limit() {
     let mut case = Case::table_1();
-    case.write_limit("impact_force", "2600");
+    case.write_limit(quantity("impact_force"), "2600");
     assert_eq!(case.limits[0].value, f64::INFINITY);
     let problem = only_problem(&case);
     assert_eq!(problem.field, "limits.impact_force");
     assert!(problem.fix.to_string().contains("\"2600 N\""), "{}", problem.fix);
     assert_eq!(case, case.clone());
-    case.write_limit("impact_force", "2600 N");
+    case.write_limit(quantity("impact_force"), "2600 N");
     assert_eq!((case.limits.len(), case.limits[0].value), (1, 2600.0));
-    case.write_limit("normal_velocity", "");
+    case.write_limit(quantity("normal_velocity"), "");
     assert!(case.inputs().is_ok());
     case.drop_empty(Some("normal_velocity"));
     assert_eq!(case.limits.len(), 2);

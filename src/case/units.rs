@@ -3,8 +3,8 @@
 
 use std::f64::consts::TAU;
 
-use super::sanitize::{cut, quoted};
-use super::{Problem, suggest};
+use super::Problem;
+use super::sanitize::{cut, nearest, quoted};
 use crate::numeric::decimal::significant;
 
 /// The physical dimension of a field or a quantity.
@@ -50,7 +50,6 @@ pub enum Dimension {
 
 impl Dimension {
     /// The dimension of a unit. "1" and "" are the bare number.
-    #[must_use]
     pub fn of_unit(unit: &str) -> Option<Dimension> {
         if matches!(unit, "" | "1") {
             return Some(Dimension::Number);
@@ -59,13 +58,11 @@ impl Dimension {
     }
 
     /// The name of a value with its article, such as "a length".
-    #[must_use]
     pub fn name(self) -> &'static str {
         UNITS[self as usize].1
     }
 
     /// The SI unit; empty for the bare number.
-    #[must_use]
     pub fn si_unit(self) -> &'static str {
         let mut units = units_of(self).iter();
         units.find(|unit| matches!(unit.scale, Scale::Ten(0))).map_or("", |unit| unit.symbol)
@@ -78,13 +75,11 @@ impl Dimension {
 }
 
 /// The usual spelling of a unit. `None` for an unknown unit.
-#[must_use]
 pub fn symbol(unit: &str) -> Option<&'static str> {
     known(unit).map(|(_, unit)| unit.symbol)
 }
 
 /// The SI value of one unit. `None` for an unknown unit. "1" and "" have the factor 1.
-#[must_use]
 pub fn factor(unit: &str) -> Option<f64> {
     if matches!(unit, "" | "1") {
         return Some(1.0);
@@ -129,7 +124,6 @@ pub fn split<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str), Probl
 
 /// The shortest text in the unit that [`parse`] converts to the same value, or to the nearest value
 /// possible in this unit.
-#[must_use]
 pub fn text(value: f64, unit: &str) -> String {
     let number = number(value, unit);
     if matches!(unit, "" | "1") { number } else { format!("{number} {unit}") }
@@ -137,7 +131,6 @@ pub fn text(value: f64, unit: &str) -> String {
 
 /// A value in SI as a number of a unit, without the rounding error of a division: 0.0508, not
 /// 0.050800000000000005.
-#[must_use]
 pub fn in_unit(value: f64, unit: &str) -> f64 {
     number(value, unit).parse().unwrap_or(value)
 }
@@ -240,8 +233,8 @@ fn unit_wrong(unit: &str, dimension: Dimension) -> Problem {
         .iter()
         .flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases))
         .copied();
-    let near = suggest::nearest(&plain_spelling(unit), spellings)
-        .and_then(|near| find(near, units_of(dimension)));
+    let near =
+        nearest(&plain_spelling(unit), spellings).and_then(|near| find(near, units_of(dimension)));
     let fix = near.map(|near| near.symbol).map_or_else(
         || format!("use one of {fitting}"),
         |near| format!("did you mean {near}? Units here: {fitting}"),
@@ -418,7 +411,6 @@ fn plain(value: f64, exponent: i32) -> String {
 /// incomplete unit. `usual` is the unit of a bare number, and has priority for an incomplete unit;
 /// otherwise only one unit may fit. `None` if the text is a value already, or cannot become one in
 /// this way.
-#[must_use]
 pub fn ending(typed: &str, dimension: Dimension, usual: &str) -> Option<String> {
     let begun = begun_unit(typed, dimension)?;
     if begun.trim_end().is_empty() {
@@ -444,7 +436,6 @@ pub enum Open {
 }
 
 /// How further typing can change a text into a value or another value. `None` if it cannot.
-#[must_use]
 pub fn open(typed: &str, dimension: Dimension) -> Option<Open> {
     let is_begun = |begun: &&str| {
         !begun.is_empty() && units_of(dimension).iter().any(|unit| rest(unit, begun).is_some())
@@ -456,7 +447,6 @@ pub fn open(typed: &str, dimension: Dimension) -> Option<Open> {
 }
 
 /// The unit of a value as written. `None` if the text is not a value.
-#[must_use]
 pub fn written_unit(text: &str, dimension: Dimension) -> Option<&str> {
     parse(text, dimension, "").ok()?;
     split_number(text.trim(), "").ok().map(|(_, unit)| unit).filter(|unit| !unit.is_empty())
@@ -692,7 +682,6 @@ impl System {
     pub const ALL: [System; 2] = [System::Metric, System::Inch];
 
     /// The name in settings and messages.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             System::Metric => "metric",
@@ -701,13 +690,11 @@ impl System {
     }
 
     /// The system with this name.
-    #[must_use]
     pub fn find(name: &str) -> Option<System> {
         System::ALL.into_iter().find(|system| system.name() == name)
     }
 
     /// The other system.
-    #[must_use]
     pub fn other(self) -> System {
         match self {
             System::Metric => System::Inch,
@@ -716,7 +703,6 @@ impl System {
     }
 
     /// The unit of this system that corresponds to a written unit. Other units stay unchanged.
-    #[must_use]
     pub fn unit(self, written: &str) -> &str {
         let inch = PAIRS.iter().find(|(from, _)| *from == written);
         match inch {
@@ -746,7 +732,6 @@ const NEXT: [(&str, &str); 14] = [
 
 /// The unit in which this system shows a value in SI: the corresponding unit, or a larger unit if
 /// the number would have more integer places than digits.
-#[must_use]
 pub fn unit_for(value: f64, metric: &'static str, digits: usize, system: System) -> &'static str {
     let mut unit = system.unit(metric);
     while has_more_places(value, unit, digits) {
@@ -765,7 +750,6 @@ fn per(value: f64, unit: &str) -> f64 {
 
 /// A value in SI converted to a unit, with exactly this many significant digits, with an exponent
 /// if needed.
-#[must_use]
 pub fn counted(value: f64, unit: &str, digits: usize) -> String {
     let number = per(value, unit);
     if has_more_places(value, unit, digits) {
@@ -784,7 +768,6 @@ fn has_more_places(value: f64, unit: &str, digits: usize) -> bool {
 
 /// A value in SI as this system shows it: the number with this many significant digits, and its
 /// unit, empty for a bare number.
-#[must_use]
 pub fn shown(
     value: f64,
     metric: &'static str,
@@ -796,7 +779,6 @@ pub fn shown(
 }
 
 /// A unit after a number. Empty for a bare number.
-#[must_use]
 pub fn named(unit: &'static str) -> &'static str {
     if unit == "1" { "" } else { unit }
 }
@@ -816,7 +798,6 @@ const BESIDE: [(&str, &str); 2] = [("rpm", "rad/s"), ("deg", "rad")];
 ///
 /// Shows one digit more than typed, at least five and at most fifteen, rounded and without trailing
 /// zeros. A typed number is exact, so that "20 hp" has the digits of a result.
-#[must_use]
 pub fn converted(
     typed: &str,
     dimension: Dimension,

@@ -7,9 +7,9 @@ use super::{Done, Failure, Opened, Streams, check_out, each, open};
 use crate::case::{Case, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
-use crate::report::export::{format_of, is_picture};
+use crate::report::page::{format_of, is_picture};
 use crate::study::batch::Control;
-use crate::study::condition::distinct;
+use crate::study::seek::distinct;
 use crate::study::shard::{Format, Shard};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::{Error, ErrorKind};
@@ -39,7 +39,6 @@ pub(super) struct Only {
 
 impl Only {
     /// The quantities without duplicates; empty if the user names none.
-    #[must_use]
     pub(super) fn quantities(&self) -> Vec<&'static Quantity> {
         distinct(self.only.iter().flatten().copied())
     }
@@ -108,7 +107,6 @@ pub(super) struct Changes {
 
 impl Changes {
     /// The variant and the fields; the method is the last field.
-    #[must_use]
     pub(super) fn edits(&self) -> Edits {
         let mut edits = self.edits.clone();
         edits.settings.extend(by_method(self.method));
@@ -294,11 +292,11 @@ impl Destination {
         self.out.as_deref().is_some_and(is_picture)
     }
 
-    /// Refuses a file whose extension names another format.
-    pub(super) fn fits(&self, format: Format) -> Result<(), Failure> {
+    /// Refuses a file whose extension names another format; a picture, unless the results can be drawn.
+    pub(super) fn fits(&self, format: Format, is_drawable: bool) -> Result<(), Failure> {
         let Some(out) = &self.out else { return Ok(()) };
         let is_other = format_of(out).is_some_and(|of_file| of_file != format);
-        if !is_other && !self.is_picture() {
+        if !is_other && (is_drawable || !self.is_picture()) {
             return Ok(());
         }
         let name = format.to_possible_value().map_or(String::new(), |name| name.get_name().into());

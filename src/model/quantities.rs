@@ -72,6 +72,13 @@ pub struct Quantity {
     pub by_dynamic: Option<&'static str>,
 }
 
+/// A row is the only one with its key.
+impl PartialEq for Quantity {
+    fn eq(&self, other: &Quantity) -> bool {
+        self.key == other.key
+    }
+}
+
 /// An input that is not required in a case but that a quantity needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Need {

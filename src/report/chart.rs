@@ -116,7 +116,6 @@ const ALIKE: f64 = 1e-3;
 
 impl Chart {
     /// The ranges of both axes.
-    #[must_use]
     pub fn spans(&self) -> (Span, Span) {
         if let Some(map) = &self.map {
             let half = |span: Span| if span.is_empty() { 0.5 } else { 0.0 };
@@ -141,13 +140,11 @@ impl Chart {
     }
 
     /// Whether the chart has bars at whole numbers.
-    #[must_use]
     pub fn has_bars(&self) -> bool {
         self.series.iter().any(|series| series.kind == Kind::Bars)
     }
 
     /// The quantities of the axes as a title.
-    #[must_use]
     pub fn quantities(&self) -> String {
         let [across, up] = [&self.across, &self.up].map(Axis::in_unit);
         match &self.map {
@@ -159,7 +156,6 @@ impl Chart {
 
 impl Map {
     /// The cell nearest to a point.
-    #[must_use]
     pub fn at(&self, x: f64, y: f64) -> Cell {
         let [column, row] =
             [(0, x), (1, y)].map(|(axis, place)| nearest(&self.places[axis], place));
@@ -167,7 +163,6 @@ impl Map {
     }
 
     /// The shade of a value, of so many.
-    #[must_use]
     pub fn level(&self, value: f64, shades: usize) -> usize {
         let span =
             self.ends.as_ref().map_or(Span::NONE, |[least, most]| Span::new(least.0, most.0));
@@ -176,7 +171,6 @@ impl Map {
     }
 
     /// Whether the value exceeds the limit.
-    #[must_use]
     pub fn is_above(&self, cell: Cell) -> bool {
         let limit = self.limit.as_ref().map(|limit| limit.0);
         matches!((cell, limit), (Cell::Value(value), Some(limit)) if value > limit)
@@ -190,14 +184,12 @@ impl Map {
 
 impl Cell {
     /// Whether the teeth touch before E.
-    #[must_use]
     pub fn is_contact(self) -> bool {
         matches!(self, Cell::Blank | Cell::Value(_))
     }
 }
 
 /// The index of the number nearest to a place, in rising numbers.
-#[must_use]
 pub fn nearest(places: &[f64], place: f64) -> usize {
     let after = places.partition_point(|other| *other < place).min(places.len().max(1) - 1);
     let is_before = after > 0 && place - places[after - 1] < places[after] - place;
@@ -206,14 +198,12 @@ pub fn nearest(places: &[f64], place: f64) -> usize {
 
 impl Axis {
     /// An axis of numbers in a unit.
-    #[must_use]
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Axis {
         let unit = Some(unit.into()).filter(|unit| unit != "1");
         Axis { name: name.into(), unit: unit.unwrap_or_default(), labels: Labels::new() }
     }
 
     /// The name with the unit.
-    #[must_use]
     pub fn in_unit(&self) -> String {
         if self.unit.is_empty() {
             self.name.clone()
@@ -223,7 +213,6 @@ impl Axis {
     }
 
     /// An axis of logarithms to base 10, with a label for the number at each power of ten.
-    #[must_use]
     pub fn logarithmic(
         name: impl Into<String>,
         logarithms: impl Iterator<Item = f64>,
@@ -240,13 +229,11 @@ impl Axis {
     }
 
     /// The range of the labels.
-    #[must_use]
     pub fn span(&self) -> Span {
         Span::of(self.labels.iter().map(|label| label.0))
     }
 
     /// Labels of at most `most` intervals of a range.
-    #[must_use]
     pub fn ticks(&self, span: Span, most: u16) -> Labels {
         match self.labels.len().checked_sub(1) {
             None => span.ticks(most),
@@ -261,7 +248,6 @@ impl Axis {
 impl Series {
     /// The width of a bar and the distance of its left edge from its number, for the series with
     /// this index among all series.
-    #[must_use]
     pub fn bar(at: usize, all: usize) -> (f64, f64) {
         let width = BARS / all.max(1) as f64;
         (width, width * at as f64 - 0.5 * BARS)
@@ -273,7 +259,6 @@ impl Span {
     pub const NONE: Span = Span { from: f64::INFINITY, to: f64::NEG_INFINITY };
 
     /// The range between two ends.
-    #[must_use]
     pub fn new(from: f64, to: f64) -> Span {
         Span { from, to }
     }
@@ -284,69 +269,58 @@ impl Span {
     }
 
     /// The length of the range.
-    #[must_use]
     pub fn length(self) -> f64 {
         self.to - self.from
     }
 
     /// The range times a factor above 0.
-    #[must_use]
     pub fn scaled(self, factor: f64) -> Span {
         Span { from: factor * self.from, to: factor * self.to }
     }
 
     /// The range shifted by a length.
-    #[must_use]
     pub fn shifted(self, by: f64) -> Span {
         Span { from: self.from + by, to: self.to + by }
     }
 
     /// Whether the range is empty or a single point.
-    #[must_use]
     pub fn is_empty(self) -> bool {
         self.length().is_nan() || self.length() <= 0.0
     }
 
     /// The range extended to a point.
-    #[must_use]
     pub fn with(self, value: f64) -> Span {
         Span { from: self.from.min(value), to: self.to.max(value) }
     }
 
     /// The range that covers both.
-    #[must_use]
     pub fn and(self, other: Span) -> Span {
         Span { from: self.from.min(other.from), to: self.to.max(other.to) }
     }
 
     /// Whether the range contains the other.
-    #[must_use]
     pub fn covers(self, other: Span) -> bool {
         self.from <= other.from && other.to <= self.to
     }
 
     /// The position of a value, 0 at the lower end and 1 at the upper end.
-    #[must_use]
     pub fn part(self, value: f64) -> f64 {
         if self.is_empty() { 0.0 } else { (value - self.from) / self.length() }
     }
 
     /// The range, shifted into a longer one.
-    #[must_use]
     pub fn within(self, other: Span) -> Span {
         let from = self.from.min(other.to - self.length()).max(other.from);
         Span { from, to: (from + self.length()).min(other.to) }
     }
 
     /// An axis with round ends that covers the values; empty if there are no values.
-    #[must_use]
     pub fn axis(self) -> Span {
         self.axis_near(FAR_FROM_ZERO)
     }
 
     /// Such an axis that includes 0 only if the values have both signs or are alike, so that the
     /// differences of compared curves are visible.
-    #[must_use]
     pub fn close_axis(self) -> Span {
         self.axis_near(0.0)
     }
@@ -357,7 +331,6 @@ impl Span {
     }
 
     /// Ticks at multiples of 1, 2 or 5, with at most `most` intervals but at least two ticks.
-    #[must_use]
     pub fn ticks(self, most: u16) -> Labels {
         let greatest = self.from.abs().max(self.to.abs());
         let intervals =

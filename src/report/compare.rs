@@ -3,9 +3,9 @@
 
 use std::io::{self, Write};
 
-use super::json::{Json, json, measured, object, reason, write_line};
-use super::layout::{WIDTH, item, plain_markdown};
 use super::table::{Cell, Column, Table, text, widths};
+use super::table::{Json, json, measured, object, reason, write_line};
+use super::table::{WIDTH, item, plain_markdown};
 use super::{Report, Selection, common_unit, digest, groups, shown_with, value, value_as_in};
 use crate::case::changes::{between, label, text_of};
 use crate::case::fields::index_of;
@@ -403,14 +403,12 @@ const MOST_TIMES: f64 = 10.0;
 pub const UNCHANGED: &str = "unchanged";
 
 /// Whether two values differ only by rounding.
-#[must_use]
 pub fn is_unchanged(now: f64, base: f64) -> bool {
     now.to_bits() == base.to_bits() || ((now - base) / base).abs() < NO_DIFFERENCE
 }
 
 /// The difference in percent of the reference. `None` if the quantity can be negative, or if the
 /// reference is close to 0 compared with the value.
-#[must_use]
 pub fn percent(quantity: &Quantity, now: f64, base: f64) -> Option<f64> {
     let part = (now - base) / base;
     let has_meaning = !quantity.is_signed && !quantity.is_flag() && base > 0.0 && now >= 0.0;
@@ -418,7 +416,6 @@ pub fn percent(quantity: &Quantity, now: f64, base: f64) -> Option<f64> {
 }
 
 /// A percentage with its sign, at most nine characters wide.
-#[must_use]
 pub fn in_percent(percent: f64) -> String {
     match percent.abs() {
         size if size >= 100.0 => format!("{percent:+.0} %"),
@@ -428,7 +425,6 @@ pub fn in_percent(percent: f64) -> String {
 }
 
 /// The difference of two values: in percent, otherwise with its sign in the unit of the values.
-#[must_use]
 pub fn difference(quantity: &Quantity, now: f64, base: f64, unit: &'static str) -> String {
     if is_unchanged(now, base) {
         return UNCHANGED.to_owned();

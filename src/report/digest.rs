@@ -1,7 +1,7 @@
 //! Sentences about a solved case: the verdict, other methods, resonance, and a summary.
 
-use super::absence::{listed, without_contact_in_full};
 use super::verdict::{self, Standing};
+use super::verdict::{listed, without_contact_in_full};
 use super::{case_notes, shown_in, value};
 use crate::case::Case;
 use crate::case::fields::index_of;
@@ -36,7 +36,6 @@ pub struct Digest {
 
 impl Digest {
     /// The digest of a case from its solution or refusal.
-    #[must_use]
     pub fn of(
         case: &Case,
         inputs: &Inputs,
@@ -90,7 +89,6 @@ fn text(case: &Case, key: &str) -> String {
 /// The verdict in one sentence: whether the tip strikes, its force before E, the greatest force of
 /// a tooth, and the relief that prevents the contact, each if its stage ran. `pending` is the
 /// present relief of the driven gear, in m, while the required relief is being computed.
-#[must_use]
 pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> String {
     let most = match solution.method {
         Method::Static => printed("static_peak_force", solution, system),
@@ -153,7 +151,6 @@ fn times(solution: &Solution, force: &str, reference: &str) -> Option<String> {
 }
 
 /// Other methods with another outcome, and why the governing method counts.
-#[must_use]
 pub fn differing(governing: &Solution, others: &[&Solution]) -> Option<String> {
     let differs = |other: &&&Solution| other.outcome != governing.outcome;
     let names: Vec<&str> = others.iter().filter(differs).map(|other| other.method.name()).collect();
@@ -174,7 +171,6 @@ pub fn differing(governing: &Solution, others: &[&Solution]) -> Option<String> {
 
 /// The result of method `exact` beside a method that shares the load, as an estimate of the free
 /// impact, or beside `paper`.
-#[must_use]
 pub fn free_impact(
     governing: &Solution,
     exact: &Solution,
@@ -206,7 +202,6 @@ const RELIEF_UNIT: &str = "um";
 
 /// The tip relief of the driven gear that prevents the contact; `None` without corner contact, or
 /// if it is unknown.
-#[must_use]
 pub fn relief(solution: &Solution, system: System, pending: Option<f64>) -> Option<String> {
     let unit = system.unit(RELIEF_UNIT);
     let least = of("clearing_relief", solution).zip(solution.clearing);
@@ -240,7 +235,6 @@ fn rounded_up(least: f64, given: f64, system: System) -> [String; 2] {
 
 /// The mesh frequency, the greatest dynamic factor over the speed, and the speed of N = 1; `None`
 /// if the method has no mesh.
-#[must_use]
 pub fn whine(solution: &Solution) -> Option<String> {
     let shown = |key| printed(key, solution, System::Metric);
     let (frequency, speed) = (shown("mesh_frequency")?, shown("resonance_speed")?);

@@ -5,25 +5,25 @@
 //! [`QUANTITIES`](crate::model::QUANTITIES).
 
 mod derivation;
-mod effects;
-mod text;
 
-use std::io::{self, Write};
-
-use crate::case::Case;
+use super::{Shown, shown, value, value_as_in};
+use crate::case::dependencies::{Dependence, fields_of, value_of};
+use crate::case::fields::index_of;
+use crate::case::sanitize::sanitize;
 use crate::case::units::System;
+use crate::case::{Case, FIELDS};
+use crate::model::compliance::model_of;
 use crate::model::explanation::{Context, Finding};
+use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
-use crate::model::{Inputs, Quantity, Solution, auto};
-use crate::report::absence::Absence;
-use crate::report::json::{json, write_line};
-use crate::report::verdict::Beside;
-use crate::report::{Shown, shown, value};
-use derivation::Known;
+use crate::model::{self, Inputs, Quantity, Solution, Stage, Stages, auto};
+use crate::numeric::decimal::significant;
+use crate::report::table::{Cell, Column, Table, WIDTH, count, flow, json, write_line};
+use crate::report::verdict::{Absence, Beside};
+use derivation::{GLUE, Known, factor};
 pub use derivation::{How, Leaf, STEP_UNITS, Token, Work, tokens};
-pub use effects::Effect;
 use serde::Serialize;
-pub use text::{Kind, Line, lines, render};
+use std::io::{self, Write};
 
 /// An explained quantity.
 #[derive(Debug, Clone)]
@@ -67,7 +67,6 @@ pub struct Page {
 }
 
 /// Explains a quantity of a solved case. The solution must include the stage of the quantity.
-#[must_use]
 pub fn explain(
     quantity: &'static Quantity,
     case: &Case,
@@ -99,8 +98,8 @@ pub fn explain(
         corrections: quantity.corrections.iter().filter_map(correction_of).collect(),
         assumptions: quantity.assumptions_in(&used),
         validity: quantity.checks.iter().filter_map(|check| check(&known.context)).collect(),
-        accuracy: effects::accuracy_of(quantity, &known),
-        effects: effects::effects_of(quantity, &known),
+        accuracy: accuracy_of(quantity, &known),
+        effects: effects_of(quantity, &known),
     }
 }
 
@@ -257,4 +256,420 @@ pub static CORRECTIONS: &[Correction] = &[
 /// The correction of an equation.
 fn correction_of(equation: &&str) -> Option<&'static Correction> {
     CORRECTIONS.iter().find(|correction| correction.equation == *equation)
+}
+
+/// The tolerance of the motion at which a small step is distinguishable.
+const FINE: f64 = 1e-6;
+
+/// A field and the change of the quantity for a small step of the field.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Effect {
+    /// The field's key.
+    pub key: &'static str,
+    /// The field's symbol.
+    #[serde(skip)]
+    pub symbol: &'static str,
+    /// The field's text.
+    pub text: String,
+    /// The step; empty for a choice or a field without a value.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub step: String,
+    /// The change of the quantity; empty without a change.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub change: String,
+}
+
+/// The fields behind a quantity, in the order of the form. For method `auto`, the tolerance follows
+/// from `model.within`.
+pub(super) fn effects_of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
+    // Every step would need a motion at every speed, and the greatest of them moves from speed to
+    // speed.
+    if quantity.stage == Stage::SpeedRun {
+        return Vec::new();
+    }
+    // The change must exceed the error of the motion, and a step must not switch the stiffness
+    // model.
+    let tolerance = known.context.inputs.tolerance.min(FINE);
+    let fixed = Inputs {
+        tooth_compliance: Some(model_of(known.context.inputs)),
+        tolerance,
+        ..known.context.inputs.clone()
+    };
+    let is_coarse = quantity.stage == Stage::Dynamic && tolerance < known.context.inputs.tolerance;
+    let own = value(quantity, known.context.solution);
+    let own = if is_coarse { value_of(quantity, &fixed) } else { own };
+    let [within, tolerance] = ["model.within", "model.tolerance"].map(index_of);
+    let by_auto = |dependence: Dependence| {
+        if known.context.given.method == Method::Auto && Some(dependence.field) == tolerance {
+            let step = None;
+            within.map(|field| Dependence { field, step })
+        } else {
+            Some(dependence)
+        }
+    };
+    let noise = noise(quantity, &fixed);
+    fields_of(quantity, known.case, &fixed, own)
+        .into_iter()
+        .filter_map(by_auto)
+        .map(|dependence| effect(quantity, &dependence, known, own, noise))
+        .collect()
+}
+
+fn effect(
+    quantity: &Quantity,
+    dependence: &Dependence,
+    known: &Known,
+    own: Option<f64>,
+    noise: f64,
+) -> Effect {
+    let (case, field) = (known.case, &FIELDS[dependence.field]);
+    let text = case.effective(dependence.field).map(sanitize).unwrap_or_default();
+    let step = dependence.step.as_ref();
+    let change = own.zip(step).map(|(own, step)| change(quantity, own, step.value, noise));
+    Effect {
+        key: field.key,
+        symbol: field.symbol,
+        text,
+        step: step.map(|step| step.text.to_owned()).unwrap_or_default(),
+        change: change.unwrap_or_default(),
+    }
+}
+
+/// A change of the value, relative or in the unit of the quantity.
+fn change(quantity: &Quantity, own: f64, found: Option<f64>, noise: f64) -> String {
+    let Some(found) = found else {
+        return "no value".to_owned();
+    };
+    let change = found - own;
+    if quantity.is_flag() {
+        let becomes = || format!("becomes {}", shown(quantity, found));
+        return if change == 0.0 { String::new() } else { becomes() };
+    }
+    if change.abs() <= noise * own.abs() {
+        return String::new();
+    }
+    let sign = if change > 0.0 { "+" } else { "-" };
+    if own == 0.0 {
+        let in_unit = change.abs() / factor(quantity.shown).unwrap_or(1.0);
+        return format!("{sign}{} {}", significant(in_unit, 3), quantity.shown);
+    }
+    format!("{sign}{} %", significant(100.0 * change.abs() / own.abs(), 3))
+}
+
+/// The relative change below which a value is unchanged: rounding, or the step error of the motion.
+fn noise(quantity: &Quantity, inputs: &Inputs) -> f64 {
+    const ROUNDING: f64 = 1e-11;
+    const AT_REST: f64 = 1e-10;
+    const STEPS: f64 = 10.0;
+    const CLOSENESS: f64 = 1e-4;
+    const STEADY: f64 = 1e-5;
+    match quantity.stage {
+        Stage::Dynamic => STEPS * inputs.tolerance,
+        Stage::Clearing if inputs.method.shares_load() => CLOSENESS,
+        Stage::SteadyMotion | Stage::SpeedRun => STEADY,
+        Stage::Mesh | Stage::Static | Stage::Resonance | Stage::StaticSpectrum => AT_REST,
+        _ => ROUNDING,
+    }
+}
+
+/// Sentences on the accuracy of a quantity.
+pub(super) fn accuracy_of(quantity: &Quantity, known: &Known) -> Vec<String> {
+    let Some(own) = value(quantity, known.context.solution) else {
+        return Vec::new();
+    };
+    let spread = (!quantity.is_flag()).then(|| over_models(quantity, own, known)).flatten();
+    [numerical(quantity, known), spread, over_methods(quantity, known)]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+fn numerical(quantity: &Quantity, known: &Known) -> Option<String> {
+    let inputs = known.context.inputs;
+    let error = match quantity.stage {
+        _ if quantity.is_flag() => return None,
+        Stage::Dynamic => format!("at most {} of the peak force", tolerance(known)),
+        Stage::Clearing if inputs.method.shares_load() => {
+            "with 1/20,000 less relief the tooth touches".to_owned()
+        }
+        Stage::SteadyMotion => "at most 1e-5 of the greatest amplitude".to_owned(),
+        Stage::SpeedRun => "the speeds are 1/120 of their range apart".to_owned(),
+        Stage::Static | Stage::StaticSpectrum => "at most 1e-11 of the value".to_owned(),
+        _ if inputs.accurate => "at most 1e-13 of the value".to_owned(),
+        _ => "below 1e-12 of the value in most cases, at most 1e-9".to_owned(),
+    };
+    let digits = quantity.digits;
+    Some(format!("Numerical error: {error}; {digits} digits shown."))
+}
+
+/// The tolerance of the motion and its origin.
+fn tolerance(known: &Known) -> String {
+    let given = known.context.given;
+    let used = known.context.inputs.tolerance;
+    if given.method == Method::Auto {
+        let (within, tolerance) = (given.within, given.tolerance);
+        format!(
+            "{used:e} (chosen by auto for model.within = {within}; model.tolerance = \
+                {tolerance:e} is not used)"
+        )
+    } else {
+        format!("model.tolerance = {used:e}")
+    }
+}
+
+/// The values of the quantity by every stiffness model that covers the pair.
+fn over_models(quantity: &Quantity, own: f64, known: &Known) -> Option<String> {
+    let inputs = known.context.inputs;
+    let found = StiffnessModels::covering(inputs)
+        .filter_map(|models| value_of(quantity, &models.in_place_of(inputs)));
+    let (least, most) =
+        found.fold((own, own), |(least, most), value| (least.min(value), most.max(value)));
+    let share = |value: f64| format!("{:+.1} %", 100.0 * (value - own) / own.abs());
+    (most - least > noise(quantity, inputs) * own.abs()).then(|| {
+        format!(
+            "Other stiffness models: {} to {} ({} to {}). docs/validation.md compares \
+             the stiffness with published figures.",
+            shown(quantity, least),
+            shown(quantity, most),
+            share(least),
+            share(most)
+        )
+    })
+}
+
+/// The values by other methods, if they differ.
+fn over_methods(quantity: &Quantity, known: &Known) -> Option<String> {
+    let inputs = known.context.inputs;
+    let by = |method: Method| {
+        let inputs = Inputs { method, ..inputs.clone() };
+        let solution = model::solve(&inputs, Stages::of(quantity.stage)).ok()?;
+        let own = known.context.solution.method;
+        Some((method, value_as_in(quantity, &solution, own)?))
+    };
+    let own = Some(inputs.method).filter(|method| !Method::CLOSED_FORM.contains(method));
+    let found: Vec<(Method, f64)> =
+        Method::CLOSED_FORM.into_iter().chain(own).filter_map(by).collect();
+    let (&(_, first), others) = found.split_first()?;
+    let differs =
+        |(_, value): &(Method, f64)| (value - first).abs() > noise(quantity, inputs) * first.abs();
+    let listed: Vec<String> = found
+        .iter()
+        .map(|&(method, value)| format!("{} {}", name(quantity, method), shown(quantity, value)))
+        .collect();
+    others.iter().any(differs).then(|| format!("Methods: {}.", listed.join(", ")))
+}
+
+/// The name of the method. A free impact in a method that resolves the impact is the closed form
+/// with the deflection of that method.
+fn name(quantity: &Quantity, method: Method) -> String {
+    let is_beside = method.shares_load() && quantity.is_of_free_impact();
+    if is_beside {
+        format!("exact with the deflection that {} computes", method.name())
+    } else {
+        method.name().to_owned()
+    }
+}
+
+/// The kind of a line, which decides its style.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// The quantity and its value.
+    Title,
+    /// The name of a section.
+    Heading,
+    /// A formula in symbols.
+    Formula,
+    /// A formula with numbers, or its result.
+    Numbers,
+    /// Sentences and tables.
+    Text,
+    /// A validity range that does not contain the case.
+    Outside,
+}
+
+/// A line of a page.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Line {
+    /// The kind of the line.
+    pub kind: Kind,
+    /// The text of the line.
+    pub text: String,
+}
+
+/// The page as text, 80 columns wide.
+pub fn render(page: &Page, name: &str) -> String {
+    let lines = lines(page, name, WIDTH);
+    lines.iter().map(|line| line.text.trim_end().to_owned() + "\n").collect()
+}
+
+/// The page as lines of at most `width` columns; `name` is the name of the case.
+pub fn lines(page: &Page, name: &str, width: usize) -> Vec<Line> {
+    let mut out = Writer { width: width.max(20), lines: Vec::new() };
+    out.head(page, name);
+    out.section("Formula", |out| page.derivation.iter().for_each(|work| out.worked(work)));
+    out.section("Values used", |out| out.leaves(&page.leaves));
+    out.section("Source", |out| out.paragraph(page.source, 2));
+    out.section("Corrections to the paper", |out| out.corrections(&page.corrections));
+    out.section("Validity", |out| out.validity(page));
+    out.section("Accuracy", |out| page.accuracy.iter().for_each(|line| out.paragraph(line, 2)));
+    out.section("Sensitivity", |out| out.effects(&page.effects));
+    out.lines
+}
+
+/// The lines of a page so far.
+struct Writer {
+    width: usize,
+    lines: Vec<Line>,
+}
+
+impl Writer {
+    fn push(&mut self, kind: Kind, text: impl Into<String>) {
+        self.lines.push(Line { kind, text: text.into() });
+    }
+
+    /// Adds words wrapped into lines: the first starts with `lead`, the others with `more`.
+    fn block(&mut self, kind: Kind, text: &str, lead: &str, more: &str) {
+        let room = self.width.saturating_sub(count(lead).max(count(more))).max(8);
+        let rows = flow(text.split(' ').filter(|word| !word.is_empty()), room);
+        for (at, row) in rows.iter().enumerate() {
+            let start = if at == 0 { lead } else { more };
+            self.push(kind, start.to_owned() + &row.replace(GLUE, " "));
+        }
+    }
+
+    fn paragraph(&mut self, text: &str, indent: usize) {
+        let lead = " ".repeat(indent);
+        self.block(Kind::Text, text, &lead, &lead);
+    }
+
+    /// Adds a heading before the lines of a section, unless there are none.
+    fn section(&mut self, title: &str, write: impl FnOnce(&mut Writer)) {
+        let start = self.lines.len();
+        write(self);
+        if self.lines.len() > start {
+            let head = [(Kind::Text, ""), (Kind::Heading, title)];
+            let head = head.map(|(kind, text)| Line { kind, text: text.to_owned() });
+            self.lines.splice(start..start, head);
+        }
+    }
+
+    fn head(&mut self, page: &Page, name: &str) {
+        let quantity = page.quantity;
+        let (comma, equals) = if page.symbol.is_empty() { ("", "") } else { (", ", " = ") };
+        let title = format!("{}{comma}{} ({})", page.label, page.symbol, quantity.equation);
+        let value = match (&page.shown, &page.missing) {
+            (Some(shown), _) => format!("{}{equals}{shown}", page.symbol),
+            (None, reason) => reason.clone().unwrap_or_default(),
+        };
+        let by = if page.is_by_auto { ", chosen by auto" } else { "" };
+        let of = format!("{} · {} · method {}{by}", quantity.key, sanitize(name), page.method);
+        self.block(Kind::Title, &title, "", "");
+        self.block(Kind::Title, &value, "", "  ");
+        self.block(Kind::Text, &of, "", "");
+        self.push(Kind::Text, "");
+        self.paragraph(&page.meaning, 0);
+        if let Some(beside) = &page.beside {
+            self.paragraph(beside, 0);
+        }
+    }
+
+    /// Adds a value, its formula and its numbers.
+    fn worked(&mut self, work: &Work) {
+        let Work { symbol, meaning, formula, how, .. } = work;
+        let sign = match how {
+            How::Equals => " = ",
+            How::Solves => " from ",
+            How::Described => ": ",
+        };
+        let (lead, deep) = (format!("  {symbol}{sign}"), " ".repeat(count(symbol) + 3));
+        let more = format!("{deep}  ");
+        if *how == How::Described && !meaning.is_empty() {
+            self.block(Kind::Formula, &format!("{meaning}; {formula}"), &lead, &more);
+        } else {
+            self.block(Kind::Formula, formula, &lead, &more);
+            self.meaning(meaning, &more);
+        }
+        let shown = work.shown.as_ref().map(|shown| shown.to_string().replace(' ', GLUE));
+        let numbers = work.numbers.clone().filter(|numbers| Some(numbers) != shown.as_ref());
+        let parts: Vec<String> = numbers.into_iter().chain(shown).collect();
+        let parts = parts.join(&format!(" ={GLUE}"));
+        self.block(Kind::Numbers, &parts, &format!("{deep}= "), &more);
+        self.block(Kind::Text, work.residual.as_deref().unwrap_or_default(), &more, &more);
+    }
+
+    /// Adds the meaning of a step to the right of its formula, or below it if it does not fit.
+    fn meaning(&mut self, meaning: &str, more: &str) {
+        const COLUMN: usize = 38;
+        let room = self.lines.last().map_or(0, |line| count(&line.text) + 2).max(COLUMN);
+        match self.lines.last_mut() {
+            _ if meaning.is_empty() => {}
+            Some(line) if line.kind == Kind::Formula && room + count(meaning) <= self.width => {
+                line.text = format!("{:room$}{meaning}", line.text);
+            }
+            _ => self.block(Kind::Text, meaning, more, more),
+        }
+    }
+
+    fn leaves(&mut self, leaves: &[Leaf]) {
+        let columns = ["symbol", "value", "meaning"].map(|key| Column::text(key, "").wide(2, 0));
+        let rows = leaves.iter().map(|leaf| {
+            let meaning = format!("{} ({})", leaf.meaning, leaf.key);
+            vec![leaf.symbol.into(), leaf.shown.as_str().into(), meaning.into()]
+        });
+        let table = Table::new("", columns.to_vec()).with(rows);
+        table.wrapped(self.width).into_iter().for_each(|line| self.push(Kind::Text, line));
+    }
+
+    fn corrections(&mut self, corrections: &[&Correction]) {
+        if corrections.is_empty() {
+            self.paragraph("None.", 2);
+        }
+        for Correction { equation, error, used } in corrections {
+            let text = format!("{equation}: {error}. Used: {used}.");
+            self.block(Kind::Text, &text, "  ", "    ");
+        }
+    }
+
+    fn validity(&mut self, page: &Page) {
+        self.paragraph(page.assumptions, 2);
+        for Finding { range, here, inside } in &page.validity {
+            let (kind, mark) =
+                if *inside { (Kind::Text, "  ok   ") } else { (Kind::Outside, "  NOT  ") };
+            self.block(kind, &format!("{range}. Here: {here}."), mark, "       ");
+        }
+    }
+
+    fn effects(&mut self, effects: &[Effect]) {
+        let (acting, idle): (Vec<&Effect>, Vec<&Effect>) =
+            effects.iter().partition(|effect| !effect.change.is_empty());
+        let column = Column::text("", "").wide(2, 0);
+        let number = column.clone().to_the_right();
+        let columns = vec![column.clone(), column.clone(), column, number.clone(), number];
+        let row = |effect: &&Effect| {
+            let Effect { key, symbol, text, step, change } = effect;
+            [symbol, key, text.as_str(), step, change].map(Cell::from).to_vec()
+        };
+        let table = Table::new("", columns).with(acting.iter().map(row));
+        let fits = |lines: &Vec<String>| lines.iter().all(|line| count(line) <= self.width);
+        let rows = [table.lines(), table.of(&[1, 2, 3, 4]).lines()].into_iter().find(fits);
+        match rows {
+            Some(rows) => rows.into_iter().for_each(|row| self.push(Kind::Text, row)),
+            None => {
+                for Effect { key, text, step, change, .. } in &acting {
+                    self.paragraph(&format!("{key} = {text}: {step} gives {change}"), 2);
+                }
+            }
+        }
+        if !idle.is_empty() {
+            let lead = if acting.is_empty() {
+                "Fields read:"
+            } else {
+                "Other inputs (choices, defaults, or fields without effect in this case):"
+            };
+            let field =
+                |effect: &&Effect| format!("{} = {}", effect.key, effect.text).replace(' ', GLUE);
+            self.paragraph(lead, 2);
+            self.paragraph(&idle.iter().map(field).collect::<Vec<_>>().join(", "), 4);
+        }
+    }
 }

@@ -1,10 +1,14 @@
-//! The lists of the fields of a case and of the quantities of a result, for readers and scripts.
+//! The fields of a case and the quantities of a result, as lists and as JSON Schemas.
 
-use super::json::{json, write_line};
-use super::table::{Cell, Column, Table};
-use crate::case::fields::Absent;
-use crate::case::{FIELDS, Field};
-use crate::model::{QUANTITIES, Quantity};
+use crate::case::fields::{AUTO, Absent, FIELDS, Field, GROUPS, Kind};
+use crate::case::file::FORMAT;
+use crate::case::spread::Shape;
+use crate::case::units::Dimension;
+use crate::model::inputs::Method;
+use crate::model::{Outcome, QUANTITIES, Quantity, Stage};
+use crate::report::stations::COLUMNS;
+use crate::report::table::{Cell, Column, Table, json, write_line};
+use serde_json::{Map, Value};
 use std::io::{self, Write};
 
 /// Greatest width of a line of a list.
@@ -118,10 +122,220 @@ fn default(field: &Field) -> &'static str {
     }
 }
 
+const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
+
+/// A number followed by a unit.
+const MEASURE: &str = r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*[^\s0-9].*$";
+
+/// Writes the schema of a case file.
+///
+/// # Errors
+/// Errors of the writer.
+pub fn write_case(out: &mut dyn Write) -> io::Result<()> {
+    let mut tables = Map::new();
+    tables.insert("format".to_owned(), json!({"const": FORMAT}));
+    for (table, title) in GROUPS {
+        let fields = FIELDS.iter().filter(|field| field.table() == table);
+        let members = fields.map(|field| (field.name().to_owned(), of_field(field)));
+        if table.is_empty() {
+            tables.extend(members);
+        } else {
+            let members: Map<String, Value> = members.collect();
+            tables.insert(table.to_owned(), object(title, members));
+        }
+    }
+    let limits = QUANTITIES.iter().map(|known| (known.key.to_owned(), of_limit(known)));
+    let help = "Greatest allowed value of any quantity of the results.";
+    tables.insert("limits".to_owned(), object(help, limits.collect()));
+    let spread = FIELDS.iter().filter_map(|field| Some((field.key.to_owned(), of_spread(field)?)));
+    let help = "Distribution of a field around its value.";
+    tables.insert("spread".to_owned(), object(help, spread.collect()));
+    tables.insert("variants".to_owned(), of_variants(&tables));
+    let help = "Texts for the page of a report, such as project, author, date and drawing.";
+    let any = json!({"type": ["string", "number"]});
+    let about = json!({"description": help, "type": "object", "additionalProperties": any});
+    tables.insert("about".to_owned(), about);
+    let mut schema = object("A case of tipstrike: a gear pair in operation.", tables);
+    schema["$schema"] = DRAFT.into();
+    schema["required"] = json!(["format"]);
+    print(schema, out)
+}
+
+/// Writes the schema of a line of `solve --format json`.
+///
+/// # Errors
+/// Errors of the writer.
+pub fn write_results(out: &mut dyn Write) -> io::Result<()> {
+    let quantities = QUANTITIES.iter().map(|known| (known.key.to_owned(), of_quantity(known)));
+    let help = "Values in SI units; a quantity without a value is absent.";
+    let columns = COLUMNS.iter().map(|column| {
+        let about = format!("in {}", column.unit);
+        (column.key.to_owned(), json!({"type": "number", "description": about}))
+    });
+    let stages: Vec<&str> = Stage::ALL.into_iter().map(Stage::name).collect();
+    let outcomes = [Outcome::CornerContact, Outcome::NoCornerContact].map(Outcome::name);
+    let methods = Method::ALL.map(Method::name);
+    let note = json!({
+        "type": "object",
+        "properties": {"code": {"type": "string"}, "message": {"type": "string"}},
+        "required": ["code", "message"],
+    });
+    let schema = json!({
+        "$schema": DRAFT,
+        "description": "What `tipstrike solve --format json` prints for a case.",
+        "type": "object",
+        "properties": {
+            "case": {"type": "string"},
+            "title": {"type": "string"},
+            "format": {"const": FORMAT},
+            "version": {"type": "string"},
+            "method": {"enum": methods},
+            "outcome": {"enum": outcomes},
+            "quantities": object(help, quantities.collect()),
+            "stations": {"type": "array", "items": object("One station.", columns.collect())},
+            "stages": {"type": "array", "items": {"enum": stages}},
+            "notes": {"type": "array", "items": note},
+        },
+        "required": ["case", "format", "version", "method", "outcome", "quantities", "stages", "notes"],
+    });
+    print(schema, out)
+}
+
+fn print(mut schema: Value, out: &mut dyn Write) -> io::Result<()> {
+    schema.sort_all_objects();
+    serde_json::to_writer_pretty(&mut *out, &schema)?;
+    writeln!(out)
+}
+
+/// An object with these members and no others.
+fn object(description: &str, members: Map<String, Value>) -> Value {
+    let mut schema = json!({
+        "description": description,
+        "type": "object",
+        "additionalProperties": false,
+    });
+    schema["properties"] = Value::Object(members);
+    schema
+}
+
+fn of_field(field: &Field) -> Value {
+    let mut schema = match field.kind {
+        Kind::Text => json!({"type": "string"}),
+        Kind::List(_) => json!({"type": "array", "items": {"type": "number"}}),
+        Kind::Choice(..) if field.is_flag() => json!({"type": "boolean"}),
+        Kind::Choice(names, _) => json!({"enum": names}),
+        Kind::Count(from, to, _) => {
+            let number = json!({"type": "integer", "minimum": from, "maximum": to});
+            if field.takes_auto() { json!({"anyOf": [number, {"const": AUTO}]}) } else { number }
+        }
+        Kind::Number(Dimension::Number, range, _) => {
+            json!({"type": "number", "minimum": range.from, "maximum": range.to})
+        }
+        Kind::Number(..) => {
+            json!({"type": "string", "pattern": MEASURE, "examples": [field.example()]})
+        }
+    };
+    let range = field.range_text();
+    let about = if range.is_empty() || matches!(field.kind, Kind::Choice(..)) {
+        format!("{}. {}", field.label, field.help)
+    } else {
+        format!("{}, {range}. {}", field.label, field.help)
+    };
+    schema["description"] = about.into();
+    if let Absent::Default(text) = field.absent
+        && !text.is_empty()
+    {
+        schema["default"] = if field.is_bare() {
+            serde_json::from_str(text).unwrap_or_else(|_| text.into())
+        } else {
+            text.into()
+        };
+    }
+    schema
+}
+
+fn of_limit(quantity: &Quantity) -> Value {
+    let value = if quantity.unit == "1" {
+        json!({"type": "number"})
+    } else {
+        json!({"type": "string", "pattern": MEASURE})
+    };
+    let relative = json!({"type": "string", "pattern": r"^\s*[0-9.eE+-]+ x [a-z0-9_]+\s*$"});
+    let description = format!("{} {}", quantity.label, quantity.symbol);
+    json!({"description": description, "anyOf": [value, relative]})
+}
+
+fn of_quantity(quantity: &Quantity) -> Value {
+    let kind = if quantity.is_flag() { "boolean" } else { "number" };
+    json!({
+        "description": format!("{} {}", quantity.label, quantity.symbol),
+        "type": "object",
+        "properties": {
+            "value": {"type": kind},
+            "unit": {"const": quantity.unit},
+            "of": {"type": "string"},
+        },
+        "required": ["value", "unit"],
+        "additionalProperties": false,
+    })
+}
+
+/// The variants: tables of a case without required keys, or dotted keys. An empty text removes a
+/// key.
+fn of_variants(tables: &Map<String, Value>) -> Value {
+    let or_empty = |value: &Value| json!({"anyOf": [value, {"const": ""}]});
+    let mut members = Map::new();
+    for (name, of_table) in tables.iter().filter(|(name, _)| *name != "format") {
+        let Some(keys) = of_table["properties"].as_object() else {
+            members.insert(name.clone(), of_table.clone());
+            continue;
+        };
+        let mut table = Map::new();
+        for (key, value) in keys {
+            table.insert(key.clone(), or_empty(value));
+            members.insert(format!("{name}.{key}"), or_empty(value));
+        }
+        members.insert(name.clone(), object(name, table));
+    }
+    let mut variant = object("Values that replace those of the case.", members);
+    variant["minProperties"] = 1.into();
+    json!({
+        "description": "Named overrides of the case.",
+        "type": "object",
+        // ASCII is limited to letters, digits, _ and -. Validators in Python do not know \p{L}.
+        "propertyNames": {"pattern": r"^[^\x00-,./:-@\[-^`{-\x7f]{1,40}$"},
+        "additionalProperties": variant,
+    })
+}
+
+/// The distributions that a field accepts.
+fn of_spread(field: &Field) -> Option<Value> {
+    let Kind::Number(dimension, ..) = field.kind else {
+        return None;
+    };
+    let width = if dimension == Dimension::Number {
+        json!({"type": "number", "exclusiveMinimum": 0})
+    } else {
+        json!({"type": "string", "pattern": MEASURE})
+    };
+    let shapes = Shape::ALL.into_iter().filter_map(|shape| {
+        let width = match shape {
+            Shape::Grade if field.name() != "base_pitch" => return None,
+            Shape::Grade => json!({"type": "integer", "minimum": 1, "maximum": 11}),
+            _ => width.clone(),
+        };
+        Some((shape.name().to_owned(), width))
+    });
+    let mut schema = object(field.label, shapes.collect());
+    schema["minProperties"] = 1.into();
+    schema["maxProperties"] = 1.into();
+    Some(schema)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::layout::count;
+    use crate::report::table::count;
 
     #[test]
     fn every_field_is_listed_within_the_width() {

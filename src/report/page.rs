@@ -1,16 +1,8 @@
 //! Solved cases side by side as one page: HTML with charts, or Markdown. The first sheet has the
 //! verdict, the inputs, the main results and charts; the appendix has the rest.
 
-use std::fmt::Write;
-
-use super::charts::NamedCase;
-use super::compare::{ComparedCase, Comparison};
-use super::pictures::{Picture, find, pictures};
-use super::solve::Subject;
-use super::table::{Cell, Column, Table};
-use super::tolerance::{distributions, probabilities, samples as samples_of};
-use super::verdict::verdicts;
-use super::{Report, case_notes, common_unit, groups, is_default, shown_with, text, value};
+use super::data::{self, verdict};
+use super::{Report, case_notes, common_unit, groups, is_default, shown_with, value};
 use crate::case::fields::{Absent, index_of};
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
@@ -18,10 +10,21 @@ use crate::case::units::System;
 use crate::case::{Case, FIELDS, units};
 use crate::model::Quantity;
 use crate::model::explanation::tidy;
-use crate::study::condition::distinct;
+use crate::report::charts::NamedCase;
+use crate::report::charts::{Picture, find, pictures};
+use crate::report::compare::{ComparedCase, Comparison};
+use crate::report::solve::Subject;
+use crate::report::table::{Cell, Column, Table};
+use crate::report::tolerance::{distributions, probabilities, samples as samples_of};
+use crate::report::verdict::verdicts;
+use crate::study::seek::distinct;
+use crate::study::shard::Format;
 use crate::study::statistics::PERCENTILES;
 use crate::study::tolerance::{Samples, Tolerance};
 use askama::Template;
+use std::fmt::Write;
+use std::io;
+use std::path::Path;
 
 /// What a page shows.
 #[derive(Debug, Clone, Default)]
@@ -117,7 +120,6 @@ pub struct Page<'a> {
 
 impl<'a> Page<'a> {
     /// The page of some cases; empty without cases.
-    #[must_use]
     pub fn of(subjects: &'a [Subject], settings: &Settings) -> Page<'a> {
         let cases: Vec<PageCase> = subjects.iter().filter_map(PageCase::of).collect();
         let title = match (&settings.title, cases.as_slice()) {
@@ -204,7 +206,7 @@ impl PageCase<'_> {
         Some(PageCase {
             report,
             title: report.named().heading(),
-            verdict: text::verdict(report),
+            verdict: verdict(report),
             limits: limits.collect(),
             notes: case_notes(&report.notes).map(|note| sanitize(&note.message)).collect(),
             studies: tables(subject, &report.case),
@@ -359,7 +361,7 @@ fn results(cases: &[PageCase]) -> (Table, Vec<Table>) {
         if quantity.is_of_free_impact() { quantity.by(method) } else { Some(quantity) }
     };
     let limited = cases.iter().flat_map(|case| &case.report.case.limits);
-    let limited = limited.filter_map(|limit| Quantity::find(limit.quantity));
+    let limited = limited.map(|limit| limit.quantity);
     let main = distinct(MAIN_RESULTS.iter().filter_map(own).chain(limited));
     let main = table(String::new()).with(main.into_iter().filter_map(row));
     (main, all.filter(|table| !table.rows.is_empty()).collect())
@@ -421,4 +423,43 @@ fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples) -> Table {
         notes: [spread].into_iter().chain(chances).collect(),
         ..Table::new(title, columns).with(rows)
     }
+}
+
+/// The extensions of reports, as an error message lists them.
+pub const ENDINGS: &str = ".html, .md, .csv or .json";
+
+/// Whether the file extension selects a picture.
+pub fn is_picture(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"))
+}
+
+/// The format of a report with this file extension.
+pub fn format_of(path: &Path) -> Option<Format> {
+    let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+    Some(match ending.as_str() {
+        "html" | "htm" => Format::Html,
+        "md" | "markdown" => Format::Md,
+        "csv" => Format::Csv,
+        "json" | "jsonl" => Format::Json,
+        _ => return None,
+    })
+}
+
+/// Renders cases in a format.
+///
+/// # Errors
+/// Errors of a template or a value that cannot be written.
+pub fn render(format: Format, subjects: &[Subject], settings: &Settings) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    for (at, report) in subjects.iter().filter_map(Subject::own).enumerate() {
+        match format {
+            Format::Html => return Page::of(subjects, settings).html().map_err(io::Error::other),
+            Format::Md | Format::Text => {
+                return Page::of(subjects, settings).markdown().map_err(io::Error::other);
+            }
+            Format::Csv => data::write_csv(report, at == 0, &mut bytes)?,
+            Format::Json => data::write_json(report, &mut bytes)?,
+        }
+    }
+    String::from_utf8(bytes).map_err(io::Error::other)
 }

@@ -1,10 +1,10 @@
 //! The tip relief to specify as text, JSON or CSV, and the diagram of reliefs over the roll angle.
 
 use super::chart::{Axis, Chart, Kind, Series};
-use super::json::{Json, json};
-use super::layout::{WIDTH, item};
-use super::results::{Named, Results};
 use super::table::{Cell, Column, Table};
+use super::table::{Json, json};
+use super::table::{Named, Results};
+use super::table::{WIDTH, item};
 use crate::case::fields::index_of;
 use crate::case::spread::Shape;
 use crate::case::{Case, units};
@@ -18,20 +18,11 @@ use crate::study::relief::{
     Begin, Choice, Criterion, Figures, MOST_LOAD, MapPoint, Off, Specification, TipReliefs,
 };
 
-/// A relief to specify with the method of its case.
-#[derive(Clone, Copy)]
-pub struct ReliefReport<'a> {
-    /// The method of the case.
-    pub method: Method,
-    /// The specification.
-    pub found: &'a Specification,
-}
-
-impl ReliefReport<'_> {
+impl Specification {
     /// The specification with one of its choices: rows of tables of at most 80 columns, and
     /// unwrapped sentences.
     pub fn of_choice(&self, at: usize) -> Vec<String> {
-        let found = self.found;
+        let found = self;
         let is_moving = found.method == Method::Dynamic;
         let (figure, greatest) = (self.figure(), percent(found.demand.greatest_load()));
         let within = match found.demand.minimise.worth() {
@@ -90,11 +81,11 @@ impl ReliefReport<'_> {
     }
 
     fn demand(&self) -> String {
-        let Specification { demand, torque, method, .. } = self.found;
+        let Specification { demand, torque, method, .. } = self;
         // Why the method is not that of the case.
-        let reason = match self.method {
+        let reason = match self.asked {
             own if own == *method => String::new(),
-            _ if self.found.is_over_face => ", over the face width".to_owned(),
+            _ if self.is_over_face => ", over the face width".to_owned(),
             Method::Auto => ", chosen by auto".to_owned(),
             own => {
                 let own = own.name();
@@ -119,24 +110,24 @@ impl ReliefReport<'_> {
 
     /// The figure to minimise.
     fn criterion(&self) -> String {
-        match self.found.demand.minimise {
-            Criterion::Peak if self.found.is_over_face => "peak line load".to_owned(),
+        match self.demand.minimise {
+            Criterion::Peak if self.is_over_face => "peak line load".to_owned(),
             other => other.to_string(),
         }
     }
 
     fn tolerance_length(&self) -> f64 {
-        self.found.demand.tolerance_length.unwrap_or_default()
+        self.demand.tolerance_length.unwrap_or_default()
     }
 
     /// The figure over the loads.
     fn figure(&self) -> &'static str {
-        if self.found.demand.spectrum.is_empty() { "greatest" } else { "mean" }
+        if self.demand.spectrum.is_empty() { "greatest" } else { "mean" }
     }
 
     /// What a drawing states of a choice.
     fn drawing(&self, at: usize) -> Table {
-        let Specification { choices, demand, geometry, is_over_face, .. } = self.found;
+        let Specification { choices, demand, geometry, is_over_face, .. } = self;
         let (reliefs, off) = (choices[at].reliefs, self.tolerance_length());
         let shorter = TipReliefs { lengths: reliefs.lengths.map(|own| own - off), ..reliefs };
         let ends = [reliefs, shorter].map(|reliefs| reliefs.begins(geometry));
@@ -173,7 +164,7 @@ impl ReliefReport<'_> {
 
     /// Margin, gain, cost and alternative of a choice.
     fn sentences(&self, at: usize) -> Vec<String> {
-        let found = self.found;
+        let found = self;
         let (case, own) = (&found.choices[0], &found.choices[at]);
         let greatest = found.demand.greatest_load();
         let load = match own.greatest_load {
@@ -238,7 +229,7 @@ impl ReliefReport<'_> {
 
     /// The choice with the best figure, if it is another one than `own`.
     fn alternative(&self, own: &Choice) -> Option<String> {
-        let Specification { choices, demand, .. } = self.found;
+        let Specification { choices, demand, .. } = self;
         let figure = |choice: &Choice| choice.worst.of(demand.minimise);
         let best = choices.iter().filter(|choice| !choice.worst.strikes);
         let best = best.min_by(|one, other| figure(one).total_cmp(&figure(other)))?;
@@ -259,7 +250,7 @@ impl ReliefReport<'_> {
     /// The figures with the relief of the case, with a choice, and at the limits of its tolerances.
     fn before_and_after(&self, at: usize) -> Table {
         type Value<'v> = &'v dyn Fn(&Figures) -> Option<f64>;
-        let Specification { choices, mesh_force, is_over_face, .. } = self.found;
+        let Specification { choices, mesh_force, is_over_face, .. } = self;
         let (case, own) = (&choices[0], &choices[at]);
         let error = format!("{} TE over the loads, um", self.figure());
         let gap = if *is_over_face { "gap before E at rest, um" } else { BOTH_GAPS };
@@ -286,7 +277,7 @@ impl ReliefReport<'_> {
     pub fn gains(&self) -> Table {
         let [amounts, lengths] = KEYS;
         let reliefs = [amounts[0], lengths[0], amounts[1], lengths[1]].into_iter();
-        let crowning = self.found.is_over_face.then_some(CROWNING);
+        let crowning = self.is_over_face.then_some(CROWNING);
         let errors = ["transmission_error", "change", "worst_transmission_error"];
         self.of_choices(&reliefs.chain(crowning).chain(errors).collect::<Vec<_>>())
     }
@@ -306,13 +297,13 @@ impl ReliefReport<'_> {
     }
 
     fn marked(&self, at: usize) -> String {
-        let mark = if at == self.found.best { '*' } else { ' ' };
-        format!("{mark} {}", self.found.choices[at].name)
+        let mark = if at == self.best { '*' } else { ' ' };
+        format!("{mark} {}", self.choices[at].name)
     }
 
     /// The columns of numbers of the pair.
     fn numbers(&self) -> &'static [Numbers] {
-        if self.found.is_over_face { &NUMBERS } else { &NUMBERS[..NUMBERS.len() - OVER_FACE] }
+        if self.is_over_face { &NUMBERS } else { &NUMBERS[..NUMBERS.len() - OVER_FACE] }
     }
 
     /// Every result of each choice.
@@ -323,7 +314,7 @@ impl ReliefReport<'_> {
         let columns = numbers.map(|&(key, title, unit, shown, _)| {
             Column::number(key, title, unit, shown).wide(1, 0)
         });
-        let found = self.found;
+        let found = self;
         let rows = found.choices.iter().enumerate().map(|(at, choice)| {
             let best = if at == found.best { "true" } else { "false" };
             let texts = [choice.name, best, name(choice.reliefs.shape)].map(Cell::from);
@@ -343,8 +334,8 @@ impl ReliefReport<'_> {
 
     /// One row per choice: the transmission error over the load.
     fn harris(&self) -> Table {
-        let loads = self.found.loads.iter().map(|&load| format!("{} %", percent(load)));
-        let rows = self.found.choices.iter().enumerate().map(|(at, choice)| {
+        let loads = self.loads.iter().map(|&load| format!("{} %", percent(load)));
+        let rows = self.choices.iter().enumerate().map(|(at, choice)| {
             let errors = choice.errors.iter().map(|error| tidy(error * 1e6, 3));
             [self.marked(at)].into_iter().chain(errors).collect()
         });
@@ -354,7 +345,7 @@ impl ReliefReport<'_> {
     /// One row per length: the figure of the transmission error by amount. The amounts are in one
     /// row, or in one per gear.
     fn map(&self) -> Table {
-        let (found, chosen) = (self.found, self.found.chosen().reliefs);
+        let (found, chosen) = (self, self.chosen().reliefs);
         let near = |one: [f64; 2], other: [f64; 2]| (one[0] - other[0]).abs() < 1e-9;
         let cell = |point: &MapPoint| {
             let error =
@@ -383,8 +374,8 @@ impl ReliefReport<'_> {
 
     /// A relief with the points at which it begins.
     fn relief(&self, reliefs: &TipReliefs) -> Json {
-        let begins = reliefs.begins(&self.found.geometry);
-        let crowning = self.found.is_over_face.then_some(reliefs.crowning);
+        let begins = reliefs.begins(&self.geometry);
+        let crowning = self.is_over_face.then_some(reliefs.crowning);
         let gear = |at: usize| {
             json!({
                 "tip_relief": reliefs.amounts[at],
@@ -399,7 +390,7 @@ impl ReliefReport<'_> {
 
     /// A choice as values of the fields of a case, rounded as the report prints them.
     pub fn settings(&self, at: usize) -> Vec<(&'static str, String)> {
-        let ([amounts, lengths], reliefs) = (KEYS, &self.found.choices[at].reliefs);
+        let ([amounts, lengths], reliefs) = (KEYS, &self.choices[at].reliefs);
         let mut settings = vec![("model.relief_shape", name(reliefs.shape).to_owned())];
         for at in 0..2 {
             let has_relief = reliefs.amounts[at] > 0.0;
@@ -407,7 +398,7 @@ impl ReliefReport<'_> {
             settings.push((amounts[at], format!("{} um", um(reliefs.amounts[at]))));
             settings.push((lengths[at], if has_relief { in_mm } else { String::new() }));
         }
-        if self.found.is_over_face {
+        if self.is_over_face {
             settings.push((CROWNING, format!("{} um", um(reliefs.crowning))));
         }
         settings
@@ -418,24 +409,24 @@ impl ReliefReport<'_> {
     /// # Errors
     /// As [`relief_chart`].
     pub fn chart(&self, inputs: &Inputs) -> Result<Chart, String> {
-        let (amount, length) = (self.found.demand.tolerance, self.tolerance_length());
-        let reliefs = self.found.chosen().reliefs.of(inputs).reliefs();
-        relief_chart(&reliefs, &self.found.geometry, [amount, amount, length, length])
+        let (amount, length) = (self.demand.tolerance, self.tolerance_length());
+        let reliefs = self.chosen().reliefs.of(inputs).reliefs();
+        relief_chart(&reliefs, &self.geometry, [amount, amount, length, length])
     }
 }
 
-impl Results for ReliefReport<'_> {
+impl Results for Specification {
     fn lines(&self, case: Named) -> Vec<String> {
         // Rows of tables fit; only sentences are wrapped.
         let is_short = |line: &String| line.chars().count() <= WIDTH;
-        let lines = self.of_choice(self.found.best).into_iter();
+        let lines = self.of_choice(self.best).into_iter();
         let lines =
             lines.flat_map(|line| if is_short(&line) { vec![line] } else { item("", &line) });
         std::iter::once(case.heading()).chain(lines).collect()
     }
 
     fn json(&self) -> Json {
-        let found = self.found;
+        let found = self;
         // The reliefs have members of their own.
         let results: Vec<usize> = (7..3 + self.numbers().len()).collect();
         let results = self.choices().of(&results).objects();
@@ -481,8 +472,8 @@ impl Results for ReliefReport<'_> {
     /// The choices, then the map over amount and length.
     fn table(&self) -> Table {
         let mut table = self.choices();
-        for MapPoint { reliefs, error, margin } in self.found.map.iter().flatten() {
-            let begins = reliefs.begins(&self.found.geometry);
+        for MapPoint { reliefs, error, margin } in self.map.iter().flatten() {
+            let begins = reliefs.begins(&self.geometry);
             let known = [
                 (KEYS[0][0], reliefs.amounts[0]),
                 (KEYS[0][1], reliefs.amounts[1]),

@@ -10,7 +10,7 @@ use crate::model::solve::speeds;
 use crate::model::speeds::{SPEEDS, SpeedCurve};
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Stage, Stages};
 use crate::study::batch::Control;
-use crate::study::condition::{distinct, headline};
+use crate::study::seek::{distinct, headline};
 use crate::study::shard::Format;
 use crate::study::stiffness::{
     FLANK_POINTS, Flanks, PATH_POINTS, PathComparison, compare_flanks, compare_path,
@@ -36,7 +36,6 @@ impl Report {
 
     /// The report with the load at rest, if `dynamic` governs, and the free impact by `exact`. A
     /// method that refuses the case is left out.
-    #[must_use]
     pub fn with_others(mut self) -> Report {
         let governing = self.solution.method;
         let stages = Stages::of(Stage::Static).and(Stages::of(Stage::Impact));
@@ -55,7 +54,6 @@ impl Report {
 }
 
 /// Solves a case for a comparison.
-#[must_use]
 pub fn compared(name: String, case: Case, selection: &Selection) -> ComparedCase {
     let found = case.inputs().and_then(|inputs| {
         Report::solve(name.clone(), case.clone(), inputs, selection.clone())
@@ -66,7 +64,6 @@ pub fn compared(name: String, case: Case, selection: &Selection) -> ComparedCase
 
 /// Solves a case as far as its digest needs it: verdict, notes and limits; without the relief of a
 /// motion, which takes long. Returns `None` if `go_on` returns false.
-#[must_use]
 pub fn digest(
     case: &Case,
     inputs: &Inputs,
@@ -148,13 +145,11 @@ type GoOn<'a> = &'a dyn Fn(usize, usize) -> bool;
 
 impl Subject {
     /// The results of one report.
-    #[must_use]
     pub fn of(report: Report, file: String) -> Subject {
         Subject { reports: vec![report], file, ..Subject::default() }
     }
 
     /// The solve by the method of the case.
-    #[must_use]
     pub fn own(&self) -> Option<&Report> {
         self.reports.first()
     }

@@ -1,14 +1,18 @@
-//! A table of results: columns, rows and notes, with writers for text, CSV, JSON, Markdown and
-//! HTML.
+//! Tables and objects of results, with the writers of text, CSV, JSON, Markdown and HTML.
 
-use std::borrow::Cow;
-use std::io::{self, Write};
-
-use csv::{ErrorKind, Writer};
-
-use super::json::{Json, json};
-use super::layout::{count, flow, plain_markdown};
 use super::number;
+use crate::case::Problem;
+use crate::case::sanitize::{is_hidden, sanitize};
+use crate::model::Quantity;
+use crate::study::shard::Format;
+use csv::{ErrorKind, Writer};
+use serde::Serialize;
+use serde_json::ser::Formatter;
+pub use serde_json::{Value as Json, json};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::io::{self, Write};
 
 /// Columns, rows and notes. A row has one cell per column.
 #[derive(Debug, Clone, Default)]
@@ -82,13 +86,11 @@ impl Column {
     }
 
     /// The same column, aligned to the right.
-    #[must_use]
     pub fn to_the_right(self) -> Column {
         Column { is_right: true, ..self }
     }
 
     /// The same column with other blanks before it and another least width.
-    #[must_use]
     pub fn wide(self, gap: usize, least: usize) -> Column {
         Column { gap, least, ..self }
     }
@@ -117,13 +119,11 @@ impl Column {
 
 impl Cell {
     /// A number, or the mark of its absence.
-    #[must_use]
     pub fn number(value: Option<f64>, mark: &'static str) -> Cell {
         value.map_or(Cell::None(mark.into()), Cell::Number)
     }
 
     /// The text for a reader; empty for a number that its column would format.
-    #[must_use]
     pub fn text(&self) -> &str {
         match self {
             Cell::Shown(_, text) | Cell::Text(text) | Cell::Default(text) => text,
@@ -157,7 +157,6 @@ impl<T: Into<String>> From<T> for Cell {
 }
 
 /// The widths of the columns of tables with the same columns.
-#[must_use]
 pub fn widths(tables: &[Table]) -> Vec<usize> {
     let columns = tables.first().map_or(&[][..], |table| &table.columns);
     let width = |(at, column): (usize, &Column)| {
@@ -170,7 +169,6 @@ pub fn widths(tables: &[Table]) -> Vec<usize> {
 
 /// The lines of tables with the same columns, whose widths they share. A title is in the line of
 /// the headers if it ends before the first of them.
-#[must_use]
 pub fn text(tables: &[Table]) -> Vec<Vec<String>> {
     let Some(Table { columns, .. }) = tables.first() else { return Vec::new() };
     let widths = widths(tables);
@@ -202,13 +200,11 @@ pub fn text(tables: &[Table]) -> Vec<Vec<String>> {
 
 impl Table {
     /// A table without rows.
-    #[must_use]
     pub fn new(title: impl Into<String>, columns: Vec<Column>) -> Table {
         Table { title: title.into(), columns, ..Table::default() }
     }
 
     /// A table of texts: the first column is aligned to the left, the others to the right.
-    #[must_use]
     pub fn of_texts(head: Vec<String>, rows: impl IntoIterator<Item = Vec<String>>) -> Table {
         let column = |(at, title)| match at {
             0 => Column { gap: 0, ..Column::text("", title) },
@@ -220,13 +216,11 @@ impl Table {
     }
 
     /// The table with these rows.
-    #[must_use]
     pub fn with(self, rows: impl IntoIterator<Item = Vec<Cell>>) -> Table {
         Table { rows: rows.into_iter().collect(), ..self }
     }
 
     /// The table with only these columns.
-    #[must_use]
     pub fn of(&self, columns: &[usize]) -> Table {
         let row = |row: &Vec<Cell>| columns.iter().map(|&at| row[at].clone()).collect();
         Table {
@@ -238,13 +232,11 @@ impl Table {
     }
 
     /// The lines of the table for a reader.
-    #[must_use]
     pub fn lines(&self) -> Vec<String> {
         text(std::slice::from_ref(self)).concat()
     }
 
     /// The lines of the table with its last column wrapped at a width.
-    #[must_use]
     pub fn wrapped(&self, width: usize) -> Vec<String> {
         let Some((last, before)) = self.columns.split_last() else { return Vec::new() };
         let all: Vec<usize> = (0..before.len()).collect();
@@ -298,7 +290,6 @@ impl Table {
     }
 
     /// The rows as objects in SI units.
-    #[must_use]
     pub fn objects(&self) -> Vec<Json> {
         let cells = |row| {
             let row: &Vec<Cell> = row;
@@ -308,7 +299,6 @@ impl Table {
     }
 
     /// The table in Markdown, without its title and notes.
-    #[must_use]
     pub fn markdown(&self) -> String {
         let title = |column: &Column| match &*column.title {
             "" => " |".to_owned(),
@@ -327,7 +317,6 @@ impl Table {
 
     /// The table as HTML, with headers if `has_head`: the class of a cell is `number`, or the key
     /// of its column.
-    #[must_use]
     pub fn html(&self, has_head: bool) -> String {
         let cell = |tag: &str, column: &Column, faint: &str, text: &str| {
             let class = if column.is_right { "number" } else { &column.key };
@@ -370,6 +359,232 @@ pub(super) fn write_records<R: IntoIterator<Item = String>>(
     writer.flush()
 }
 
+/// A case by its name, as the user gave it, and its title, empty without one.
+#[derive(Debug, Clone, Copy)]
+pub struct Named<'a> {
+    /// The name.
+    pub name: &'a str,
+    /// The title.
+    pub title: &'a str,
+}
+
+/// Results of a study.
+pub trait Results {
+    /// The results as text.
+    fn lines(&self, case: Named) -> Vec<String>;
+
+    /// The members of the JSON object after those of the case.
+    fn json(&self) -> Json;
+
+    /// The rows of CSV, if the results have this format.
+    fn table(&self) -> Table {
+        Table::default()
+    }
+}
+
+impl Named<'_> {
+    /// The title, or the name of a case without one.
+    pub fn heading(&self) -> String {
+        sanitize(if self.title.is_empty() { self.name } else { self.title })
+    }
+
+    /// The title and the name with the subject of the results, wrapped.
+    pub fn headings(&self, subject: &str) -> Vec<String> {
+        let title = if self.title.is_empty() { "Case without a title" } else { self.title };
+        let name = format!("{} · {subject}", sanitize(self.name));
+        let lines = [sanitize(title), name];
+        lines.iter().flat_map(|line| flow(line.split_whitespace(), WIDTH)).collect()
+    }
+
+    /// Writes results in a format.
+    ///
+    /// # Errors
+    /// Errors of the writer.
+    pub fn write(
+        self,
+        results: &dyn Results,
+        format: Format,
+        out: &mut dyn Write,
+    ) -> io::Result<()> {
+        match format {
+            Format::Json => write_line(&self.json(results), out),
+            Format::Csv => results.table().write_csv(out),
+            _ => writeln!(out, "{}", results.lines(self).join("\n")),
+        }
+    }
+
+    /// Results as one JSON object.
+    pub fn json(self, results: &dyn Results) -> Json {
+        let Named { name, title } = self;
+        let version = env!("CARGO_PKG_VERSION");
+        let mut line = json!({"case": name, "title": title, "version": version});
+        if let (Json::Object(line), Json::Object(more)) = (&mut line, results.json()) {
+            line.extend(more);
+        }
+        line
+    }
+}
+
+/// An object, whose members [`write_line`] omits if they are null.
+pub fn object<K: Into<String>>(members: impl IntoIterator<Item = (K, Json)>) -> Json {
+    members.into_iter().collect()
+}
+
+/// An object with its members in the order of their names.
+pub fn sorted<K: Into<String>>(members: impl IntoIterator<Item = (K, Json)>) -> Json {
+    let members = members.into_iter().map(|(key, value)| (key.into(), value));
+    object(members.collect::<BTreeMap<String, Json>>())
+}
+
+/// A value of a quantity in SI with its unit. `of` names the subject of the value, if it differs
+/// from the result of the method.
+pub fn measured(quantity: &Quantity, value: f64, of: Option<&'static str>) -> Json {
+    let number = if quantity.is_flag() { json!(value != 0.0) } else { json!(value) };
+    json!({"value": number, "unit": quantity.unit, "of": of})
+}
+
+/// Why a case or a point has no result.
+pub fn reason(Problem { field, cause, fix, .. }: &Problem) -> Json {
+    json!({"field": field, "cause": cause, "fix": fix.to_string()})
+}
+
+/// Writes a value as one line of JSON that is safe to print on a terminal. Members without a value
+/// are omitted; a number that is not finite has none.
+///
+/// # Errors
+/// Errors of the writer.
+pub fn write_line(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
+    let mut value = serde_json::to_value(value)?;
+    omit_absent(&mut value);
+    value.serialize(&mut serde_json::Serializer::with_formatter(&mut *out, Safe))?;
+    out.write_all(b"\n")
+}
+
+fn omit_absent(value: &mut Json) {
+    match value {
+        Json::Object(members) => {
+            members.retain(|_, member| !member.is_null());
+            members.values_mut().for_each(omit_absent);
+        }
+        Json::Array(values) => values.iter_mut().for_each(omit_absent),
+        _ => {}
+    }
+}
+
+/// Compact JSON that also escapes the characters that a terminal interprets or hides.
+struct Safe;
+
+impl Formatter for Safe {
+    fn write_string_fragment<W: ?Sized + Write>(
+        &mut self,
+        writer: &mut W,
+        fragment: &str,
+    ) -> io::Result<()> {
+        let mut written = 0;
+        for (at, hidden) in fragment.match_indices(is_hidden) {
+            writer.write_all(&fragment.as_bytes()[written..at])?;
+            hidden.encode_utf16().try_for_each(|unit| write!(writer, "\\u{unit:04x}"))?;
+            written = at + hidden.len();
+        }
+        writer.write_all(&fragment.as_bytes()[written..])
+    }
+}
+
+/// Greatest width of a line of a text report.
+pub(super) const WIDTH: usize = 80;
+
+/// Wraps words into lines of at most `width` characters; a longer word is cut.
+pub(super) fn flow<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for piece in words.into_iter().flat_map(|word| pieces(word, width)) {
+        match lines.last_mut() {
+            Some(line) if count(line) + 1 + count(piece) <= width => {
+                line.push(' ');
+                line.push_str(piece);
+            }
+            _ => lines.push(piece.to_owned()),
+        }
+    }
+    lines
+}
+
+/// Escapes the marks of Markdown and HTML, so that the text appears unchanged.
+pub(super) fn plain_markdown(text: &str) -> String {
+    let mut plain = String::new();
+    for letter in text.chars() {
+        if "\\|*`<>[]#".contains(letter) {
+            plain.push('\\');
+        }
+        plain.push(letter);
+    }
+    plain
+}
+
+/// Escapes the values of templates of Markdown.
+#[derive(Clone, Copy)]
+pub(super) struct Markdown;
+
+impl askama::filters::Escaper for Markdown {
+    fn write_escaped_str<W: fmt::Write>(&self, mut out: W, text: &str) -> fmt::Result {
+        out.write_str(&plain_markdown(text))
+    }
+}
+
+/// Wraps a sentence behind a mark; further lines are indented by the width of the mark.
+pub(super) fn item(mark: &str, sentence: &str) -> Vec<String> {
+    let indent = count(mark);
+    let width = WIDTH.saturating_sub(indent);
+    let sentence = sentence.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = with_units(&sentence, width);
+    let lines = flow(words.iter().map(String::as_str), width);
+    let lead = |index| {
+        if index == 0 { mark.to_owned() } else { " ".repeat(indent) }
+    };
+    lines.iter().enumerate().map(|(index, line)| lead(index) + line).collect()
+}
+
+/// The words of a sentence. A number with its unit, and with the symbol and relation sign before
+/// it, is one word, unless it is longer than `most`.
+pub(crate) fn with_units(sentence: &str, most: usize) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    let (mut after_number, mut after_sign) = (false, false);
+    for word in sentence.split(' ') {
+        let fits = |before: &String| count(before) + 1 + count(word) <= most;
+        let is_unit = after_number && !word.is_empty();
+        let is_sign = SIGNS.contains(&word);
+        let is_bound = is_unit || is_sign || after_sign || word.starts_with("%)");
+        match words.last_mut().filter(|before| is_bound && fits(before)) {
+            Some(before) => before.extend([" ", word]),
+            None => words.push(word.to_owned()),
+        }
+        (after_number, after_sign) = (!is_unit && is_number(word), is_sign);
+    }
+    words
+}
+
+/// The signs between a symbol and its value.
+const SIGNS: [&str; 4] = ["=", "<=", ">", "<"];
+
+fn is_number(word: &str) -> bool {
+    let is_digit = |letter: char| letter.is_ascii_digit();
+    word.contains(is_digit) && word.parse::<f64>().is_ok()
+}
+
+/// Number of characters of a text; each character of the tables takes one column.
+pub(super) fn count(text: &str) -> usize {
+    text.chars().count()
+}
+
+fn pieces(word: &str, width: usize) -> impl Iterator<Item = &str> {
+    let mut rest = word;
+    std::iter::from_fn(move || {
+        let cut = rest.char_indices().nth(width.max(1)).map_or(rest.len(), |(at, _)| at);
+        let (piece, after) = rest.split_at(cut);
+        rest = after;
+        (!piece.is_empty()).then_some(piece)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -403,5 +618,67 @@ mod tests {
     fn a_long_title_has_its_own_line() {
         let long = Table { title: "A title to the end".to_owned(), ..table() };
         assert_eq!(long.lines()[..2], ["A title to the end", "             A"]);
+    }
+}
+
+#[cfg(test)]
+mod json_tests {
+    use super::*;
+
+    #[test]
+    fn members_keep_their_order_and_absent_values_are_omitted() {
+        let mut out = Vec::new();
+        let line = json!({"z": 1, "b": f64::NAN, "a": ["x"], "none": None::<f64>, "half": 0.5});
+        write_line(&line, &mut out).unwrap();
+        assert_eq!(String::from_utf8(out).unwrap(), "{\"z\":1,\"a\":[\"x\"],\"half\":0.5}\n");
+    }
+
+    #[test]
+    fn control_characters_are_escaped_and_parse_to_the_same_text() {
+        let text = "a\u{1b}[2J\u{7f}\u{9b}\u{202e}\u{e0041}\"\\\n é";
+        let mut out = Vec::new();
+        write_line(&text, &mut out).unwrap();
+        let line = String::from_utf8(out).unwrap();
+        assert_eq!(line, "\"a\\u001b[2J\\u007f\\u009b\\u202e\\udb40\\udc41\\\"\\\\\\n é\"\n");
+        assert_eq!(serde_json::from_str::<String>(&line).unwrap(), text);
+    }
+}
+
+#[cfg(test)]
+mod layout_tests {
+    use super::*;
+
+    #[test]
+    fn no_line_is_wider_than_asked() {
+        assert_eq!(flow("one two three".split(' '), 7), ["one two", "three"]);
+        assert_eq!(flow(["unbreakable"], 4), ["unbr", "eaka", "ble"]);
+        assert!(flow([], 4).is_empty());
+    }
+
+    #[test]
+    fn no_line_ends_between_a_number_and_its_unit() {
+        for words in 1..40 {
+            let lines = item("  - ", &("ab ".repeat(words) + "12.5 um, and 3 mm/N 7"));
+            assert!(
+                lines.iter().any(|line| line.contains("12.5 um,"))
+                    && lines.iter().any(|line| line.contains("3 mm/N"))
+            );
+        }
+    }
+
+    #[test]
+    fn no_line_ends_between_a_symbol_and_its_value() {
+        assert_eq!(
+            with_units("contact: θ_1 = 1.709 deg before E; F_S <= 4 kN", 20),
+            ["contact:", "θ_1 = 1.709 deg", "before", "E;", "F_S <= 4 kN"]
+        );
+        assert_eq!(with_units("θ_1 = 1.709 deg", 10), ["θ_1 =", "1.709 deg"]);
+    }
+
+    #[test]
+    fn an_item_hangs_behind_its_mark() {
+        let lines = item("  - ", &"word ".repeat(20));
+        assert!(lines[0].starts_with("  - word") && lines[1].starts_with("    word"));
+        assert!(lines.iter().all(|line| count(line) <= WIDTH));
     }
 }

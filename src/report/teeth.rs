@@ -39,14 +39,12 @@ pub struct Window {
 
 impl Window {
     /// Whether a point is visible.
-    #[must_use]
     pub fn sees(&self, point: Point2<f64>) -> bool {
         let off = point - self.centre;
         off.x.abs() <= self.half.x && off.y.abs() <= self.half.y
     }
 
     /// The visible part of a straight line, as fractions of its length (Liang & Barsky 1984).
-    #[must_use]
     pub fn clip(&self, from: Point2<f64>, to: Point2<f64>) -> Option<(f64, f64)> {
         let (start, way) = (from - self.centre, to - from);
         let (mut first, mut last) = (0.0f64, 1.0f64);
@@ -98,7 +96,6 @@ pub struct Scene {
 
 impl Scene {
     /// The pair at a contact state, or at E, with the struck tooth ahead by `lead`, in m.
-    #[must_use]
     pub fn of(
         inputs: &Inputs,
         solution: &Solution,
@@ -136,7 +133,6 @@ impl Scene {
     }
 
     /// The visible points with a name, without those closer than a distance to a previous point.
-    #[must_use]
     pub fn distinct_points(&self, window: &Window, apart: f64) -> Vec<(&'static str, Point2<f64>)> {
         let mut kept: Vec<(&'static str, Point2<f64>)> = Vec::new();
         for &(name, at) in self.points.iter().filter(|(_, at)| window.sees(*at)) {
@@ -254,7 +250,6 @@ fn contacts(solution: &Solution, moment: &ContactState) -> Vec<Point2<f64>> {
 }
 
 /// The greatest round length not above `most`, in m, with its text in a suitable unit.
-#[must_use]
 pub fn scale_bar(most: f64, system: System) -> (f64, String) {
     let units = if system == System::Metric { &METRIC[..] } else { &INCH[..] };
     let fits = |(unit, least, _): &&(f64, f64, &str)| most >= 0.999 * least * unit;
@@ -265,7 +260,6 @@ pub fn scale_bar(most: f64, system: System) -> (f64, String) {
 
 /// The greatest of 1, 2, 5 times a power of ten that is not above the value; 1 if the value is not
 /// positive.
-#[must_use]
 pub fn round_down(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;

@@ -1,9 +1,9 @@
 //! A tolerance study as text, JSON or CSV.
 
-use super::absence::Absence;
-use super::json::{Json, json, sorted};
-use super::layout::count;
-use super::results::{Named, Results};
+use super::table::count;
+use super::table::{Json, json, sorted};
+use super::table::{Named, Results};
+use super::verdict::Absence;
 use super::{common_unit, shown_with};
 use crate::case::fields::index_of;
 use crate::case::sanitize::sanitize;
@@ -12,8 +12,8 @@ use crate::case::{Acting, Case, Problem, Spread, relevance};
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::study::batch::Points;
-use crate::study::sample::{Design, Distribution};
 use crate::study::statistics::{Estimate, Figure, Indices, PERCENTILES, least_count};
+use crate::study::tolerance::{Design, Distribution};
 use crate::study::tolerance::{Exceedance, OfQuantity, Samples, Summary, Tolerance};
 
 /// Greatest length of a bar of a histogram, in characters.
@@ -210,7 +210,7 @@ impl Results for ToleranceReport<'_> {
         });
         let limits = summary.limits.iter().map(|limit| {
             json!({
-                "quantity": limit.quantity.key,
+                "quantity": limit.limit.quantity.key,
                 "limit": limit.limit.text,
                 "samples": limit.known,
                 "exceeded": limit.probability,
@@ -258,10 +258,9 @@ pub(super) fn distributions(case: &Case) -> Vec<(&'static str, String)> {
 
 /// The probabilities of corner contact and of a value above each limit, with their intervals.
 pub(super) fn probabilities(summary: &Summary) -> Vec<(String, String)> {
-    let limits =
-        summary.limits.iter().map(|Exceedance { quantity, limit, probability, .. }| {
-            (format!("{} > {}", quantity.key, sanitize(&limit.text)), probability.as_ref())
-        });
+    let limits = summary.limits.iter().map(|Exceedance { limit, probability, .. }| {
+        (format!("{} > {}", limit.quantity.key, sanitize(&limit.text)), probability.as_ref())
+    });
     let all = [("corner contact".to_owned(), summary.contact.as_ref())].into_iter().chain(limits);
     let unknown = || "unknown: no sample has a value".to_owned();
     all.map(|(name, found)| (name, found.map_or_else(unknown, in_percent))).collect()

@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use super::json::{Json, json, sorted};
-use super::layout::item;
-use super::results::{Named, Results};
 use super::table::Table;
+use super::table::item;
+use super::table::{Json, json, sorted};
+use super::table::{Named, Results};
 use crate::model::impact::StiffnessModels;
 use crate::numeric::decimal::significant;
 use crate::study::trade::{

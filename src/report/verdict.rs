@@ -1,16 +1,16 @@
-//! The limits of a case compared with its results.
+//! The limits of a case compared with its results, and why a quantity has no value.
 
-use std::fmt;
-use std::io::{self, Write};
-
-use super::absence::Absence;
-use super::json::{json, write_line};
 use super::{shown_in, value};
 use crate::case::sanitize::sanitize;
-use crate::case::units::System;
+use crate::case::units::{self, System};
 use crate::case::{Case, Limit};
 use crate::model::inputs::Method;
-use crate::model::{Quantity, Refusal, Solution, Stage, Stages};
+use crate::model::quantities::Need;
+use crate::model::{Outcome, Quantity, Refusal, Solution, Stage, Stages};
+use crate::numeric::decimal::significant;
+use crate::report::table::{json, write_line};
+use std::fmt;
+use std::io::{self, Write};
 
 /// The comparison of a quantity with its limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,19 +27,16 @@ pub enum Standing {
 
 impl Standing {
     /// Whether the limit is met.
-    #[must_use]
     pub fn holds(self) -> bool {
         matches!(self, Standing::Within | Standing::NotApplicable)
     }
 
     /// The name for scripts.
-    #[must_use]
     pub fn name(self) -> &'static str {
         ["within", "exceeded", "not-applicable", "unknown"][self as usize]
     }
 
     /// The word in front of a verdict.
-    #[must_use]
     pub fn word(self) -> &'static str {
         ["ok", "EXCEEDED", "ok", "unknown"][self as usize]
     }
@@ -50,8 +47,6 @@ impl Standing {
 pub struct Verdict<'a> {
     /// The limit.
     pub limit: &'a Limit,
-    /// The limited quantity.
-    pub quantity: &'static Quantity,
     /// The value of the quantity in SI.
     pub value: Option<f64>,
     /// The greatest allowed value in SI.
@@ -77,7 +72,6 @@ pub struct Beside {
 
 impl Beside {
     /// The counterpart of that quantity in a solution.
-    #[must_use]
     pub fn of(quantity: &'static Quantity, solution: &Solution) -> Option<Beside> {
         let method = solution.method;
         if !method.shares_load() || !quantity.is_of_free_impact() {
@@ -88,7 +82,6 @@ impl Beside {
     }
 
     /// The counterpart as a sentence, with the value in metric or inch units.
-    #[must_use]
     pub fn sentence(&self, system: System) -> String {
         let method = self.method.name();
         match self.own {
@@ -103,27 +96,26 @@ impl Beside {
 }
 
 /// The verdict on every limit, in the order of the case.
-#[must_use]
 pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
     let limits = case.limits.iter();
-    let mut verdicts: Vec<_> = limits.filter_map(|limit| verdict(limit, solution)).collect();
+    let mut verdicts: Vec<_> = limits.map(|limit| verdict(limit, solution)).collect();
     for beside in verdicts.iter_mut().filter_map(|verdict| verdict.beside.as_mut()) {
-        beside.is_limited =
-            beside.own.is_some_and(|(own, _)| limited(case).any(|other| other.key == own.key));
+        beside.is_limited = beside
+            .own
+            .is_some_and(|(own, _)| case.limits.iter().any(|limit| limit.quantity == own));
     }
     verdicts
 }
 
-/// The verdict on one limit; a case limits only known quantities.
-#[must_use]
-pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Option<Verdict<'a>> {
-    let quantity = Quantity::find(limit.quantity)?;
+/// The verdict on one limit.
+pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
+    let quantity = limit.quantity;
     let found = value(quantity, solution);
     let bound = limit.bound(|of| value(of, solution));
     // The result to which the limit is relative may be absent.
     let lacking = match (found, bound) {
         (None, _) => Some(quantity),
-        (_, None) => limit.of.and_then(Quantity::find),
+        (_, None) => limit.of,
         _ => None,
     };
     let absence = lacking.map(|lacking| Absence::of(lacking, solution));
@@ -136,36 +128,28 @@ pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Option<Verdict<'a>>
     let value = found.filter(|_| bound.is_some());
     // Without corner contact there is no counterpart to compare.
     let beside = value.and_then(|_| Beside::of(quantity, solution));
-    Some(Verdict { limit, quantity, value, bound, standing, absence, beside })
+    Verdict { limit, value, bound, standing, absence, beside }
 }
 
 /// The stages for every limit of a case.
-#[must_use]
 pub fn stages(case: &Case) -> Stages {
     let quantities = case.limits.iter().flat_map(Limit::quantities);
     let stages = Stages::of(Stage::Geometry);
     quantities.fold(stages, |stages, own| stages.and(Stages::of(own.stage)))
 }
 
-fn limited(case: &Case) -> impl Iterator<Item = &'static Quantity> {
-    case.limits.iter().filter_map(|limit| Quantity::find(limit.quantity))
-}
-
 /// Every limit of a case that the model refuses: no quantity has a value.
-#[must_use]
 pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
     let absence = Some(Absence::Withheld(*refusal));
     let verdict = |limit: &'a Limit| {
-        let (quantity, standing) = (Quantity::find(limit.quantity)?, Standing::Unknown);
-        let (value, bound) = (None, limit.bound(|_| None));
-        Some(Verdict { limit, quantity, value, bound, standing, absence, beside: None })
+        let (value, bound, standing) = (None, limit.bound(|_| None), Standing::Unknown);
+        Verdict { limit, value, bound, standing, absence, beside: None }
     };
-    case.limits.iter().filter_map(verdict).collect()
+    case.limits.iter().map(verdict).collect()
 }
 
 impl Verdict<'_> {
     /// The value as a fraction of the limit, if both are in range.
-    #[must_use]
     pub fn part(&self) -> Option<f64> {
         let (value, limit) = (self.value?, self.bound?);
         (limit > 0.0 && limit.is_finite() && value >= 0.0).then(|| value / limit)
@@ -173,7 +157,6 @@ impl Verdict<'_> {
 
     /// The verdict as a sentence, with the value in metric or inch units, and the limit as the user
     /// wrote it.
-    #[must_use]
     pub fn sentence(&self, system: System) -> String {
         let statement = self.statement(system);
         let Some(beside) = self.beside else { return statement };
@@ -185,20 +168,19 @@ impl Verdict<'_> {
     }
 
     /// Whether the counterpart in the method exceeds the limit on the free impact.
-    #[must_use]
     pub fn is_exceeded_beside(&self) -> bool {
         let own = self.beside.and_then(|beside| beside.own?.1);
         own.zip(self.bound).is_some_and(|(own, bound)| own > bound)
     }
 
     fn statement(&self, system: System) -> String {
-        let (key, mut limit) = (self.quantity.key, sanitize(&self.limit.text));
+        let (key, mut limit) = (self.limit.quantity.key, sanitize(&self.limit.text));
         if let Some(bound) = self.bound.filter(|_| self.limit.of.is_some()) {
-            limit = format!("{limit} = {}", shown_in(self.quantity, bound, system));
+            limit = format!("{limit} = {}", shown_in(self.limit.quantity, bound, system));
         }
         match (self.value, self.absence) {
             (Some(value), _) => {
-                let value = shown_in(self.quantity, value, system);
+                let value = shown_in(self.limit.quantity, value, system);
                 let sign = if self.standing == Standing::Exceeded { ">" } else { "<=" };
                 let part = self.part().map(|part| format!(" ({:.0} %)", 100.0 * part));
                 format!("{key} {value} {sign} {limit}{}", part.unwrap_or_default())
@@ -247,7 +229,8 @@ pub fn write_json(
         return write_line(&line, out);
     }
     verdicts.iter().try_for_each(|verdict| {
-        let Verdict { limit, quantity, value, bound, standing, beside, .. } = verdict;
+        let Verdict { limit, value, bound, standing, beside, .. } = verdict;
+        let quantity = limit.quantity;
         // The counterpart in the method, if the method resolves the impact itself.
         let own = beside.and_then(|beside| beside.own);
         let own =
@@ -260,7 +243,7 @@ pub fn write_json(
             "quantity": quantity.key,
             "value": value,
             "limit": bound,
-            "limit_of": limit.of,
+            "limit_of": limit.of.map(|of| of.key),
             "unit": quantity.unit,
             "of": beside.map(|_| "free-impact"),
             "own": own,
@@ -268,6 +251,165 @@ pub fn write_json(
         });
         write_line(&line, out)
     })
+}
+
+/// Why a quantity has no value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Absence {
+    /// The method does not compute the quantity, which belongs to a stage of another method.
+    OtherMethod(Method, Stage),
+    /// No corner contact: the reason, and the total deviation in m.
+    NoContact(&'static str, f64),
+    /// No contact after the end of the path of contact.
+    NoExit,
+    /// The model withholds the quantity.
+    Withheld(Refusal),
+    /// Another reason.
+    Because(&'static str),
+}
+
+const NO_EVENT: &str = "the event does not occur";
+
+impl Absence {
+    /// Why the quantity has no value in a solution.
+    pub fn of(quantity: &Quantity, solution: &Solution) -> Absence {
+        let stage = quantity.stage;
+        if let Some(Err(refusal)) = solution.beside
+            && !solution.method.stages().has(stage)
+        {
+            return Absence::Withheld(refusal);
+        }
+        let solution = solution.having(stage);
+        if let Some(absence) = Absence::by_method(quantity, solution.method) {
+            return absence;
+        }
+        let is_shared = matches!(stage, Stage::Static | Stage::Dynamic);
+        let is_without = solution.outcome == Outcome::NoCornerContact;
+        let no_contact = Absence::NoContact(without_contact(solution), solution.deviation.total);
+        let refused = match stage {
+            Stage::SteadyMotion => solution.steady.as_ref().and_then(|it| it.as_ref().err()),
+            Stage::SpeedRun => solution.over_speed.as_ref().and_then(|it| it.as_ref().err()),
+            Stage::StaticSpectrum => {
+                solution.static_spectrum.as_ref().and_then(|it| it.as_ref().err())
+            }
+            _ => None,
+        };
+        let has_motion = match stage {
+            Stage::Dynamic => solution.dynamic.is_some(),
+            Stage::SteadyMotion => matches!(solution.steady, Some(Ok(_))),
+            _ => false,
+        };
+        let has_friction = || solution.mesh.as_ref().is_some_and(|mesh| mesh.friction() > 0.0);
+        match (stage, quantity.needs) {
+            (_, Need::Slices) if solution.helix.is_none() && !solution.has_slices() => {
+                Absence::Because("only a helical, misaligned or crowned pair has this quantity")
+            }
+            _ if is_shared && quantity.key.contains("last_contact") => Absence::NoExit,
+            _ if is_without && !solution.method.shares_load() => no_contact,
+            (_, Need::Friction) if is_shared && !has_friction() => {
+                Absence::Because("the case has no operation.friction_coefficient")
+            }
+            (_, Need::TipRadius)
+                if (is_shared || stage == Stage::Impact) && solution.has_sharp_tips() =>
+            {
+                Absence::Because(
+                    "the tip is sharp, and no pressure at an edge is finite; give driven.tip_radius",
+                )
+            }
+            (_, Need::Backlash) if has_motion => Absence::Because(
+                "the case has no deviations.backlash; without it the back flanks are far away",
+            ),
+            _ if is_shared && is_without => no_contact,
+            _ if let Some(refusal) = refused => Absence::Withheld(*refusal),
+            (Stage::SteadyMotion | Stage::SpeedRun, _) => Absence::Because(NO_EVENT),
+            _ if is_shared => Absence::Because(NO_EVENT),
+            (Stage::Clearing, _) if !is_without => {
+                let withheld = solution.clearing.and_then(|clearing| clearing.withheld);
+                withheld.map_or(Absence::Because(NO_EVENT), Absence::Withheld)
+            }
+            _ if let Some(refusal) = solution.withheld => Absence::Withheld(refusal),
+            _ if is_without => no_contact,
+            _ if solution.position.is_none() => {
+                Absence::Because("the closed form finds no first contact at D")
+            }
+            _ => {
+                Absence::Because("the impact has no end D': the triangle of Eq. 34 does not close")
+            }
+        }
+    }
+
+    /// Why a method does not compute the quantity, if only other methods compute it.
+    pub fn by_method(quantity: &Quantity, method: Method) -> Option<Absence> {
+        let stage = quantity.stage;
+        (!method.stages().has(stage)).then_some(Absence::OtherMethod(method, stage))
+    }
+}
+
+/// Why the tooth does not strike, as a short phrase.
+pub fn without_contact(solution: &Solution) -> &'static str {
+    match solution.method {
+        _ if solution.deviation.total <= 0.0 => "the tip clears the flank before E",
+        Method::Paper => "the printed equations find no contact before E",
+        Method::Static => "the pairs in contact do not deflect so far at rest",
+        _ => "no contact before E in motion",
+    }
+}
+
+/// The same reason in full, with the total deviation, the remaining gap, or the gap that the load
+/// at rest would close.
+pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
+    let (why, total) = (without_contact(solution), solution.deviation.total);
+    let printed = |value: f64| {
+        let (number, unit) = units::shown(value, "um", 3, system);
+        format!("{number} {unit}")
+    };
+    match (solution.method, solution.margin(), solution.lead_at_rest()) {
+        _ if total <= 0.0 => match Quantity::find("total_deviation") {
+            Some(quantity) => format!("{why}, Δ = {}", shown_in(quantity, total + 0.0, system)),
+            None => why.to_owned(),
+        },
+        (Method::Paper, ..) => format!("{why} although Δ is {}", printed(total)),
+        (Method::Static, Some(gap), _) => {
+            format!("a gap of {} remains before E at rest", printed(gap))
+        }
+        (Method::Exact | Method::Dynamic | Method::Auto, _, Some(lead)) if lead > 0.0 => {
+            format!("{why}; at rest the tooth touches, {} early", printed(lead))
+        }
+        _ => why.to_owned(),
+    }
+}
+
+/// Joins names with commas and "and".
+pub fn listed(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => (*one).to_owned(),
+        [others @ .., last] => format!("{} and {last}", others.join(", ")),
+    }
+}
+
+impl fmt::Display for Absence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Absence::OtherMethod(method, stage) => {
+                let methods = Method::ALL
+                    .into_iter()
+                    .filter(|method| method.stages().has(*stage))
+                    .map(Method::name);
+                let methods = listed(&methods.collect::<Vec<_>>());
+                let own = method.name();
+                write!(f, "method {own} does not compute this quantity; {methods} do")
+            }
+            // A deviation above 0 belongs to the load at rest and is not the reason.
+            Absence::NoContact(why, total) if *total > 0.0 => write!(f, "no corner contact: {why}"),
+            Absence::NoContact(why, total) => {
+                write!(f, "no corner contact: {why}, Δ = {} um", significant(total * 1e6, 5))
+            }
+            Absence::NoExit => f.write_str("no contact after B, the end of the path of contact"),
+            Absence::Withheld(refusal) => write!(f, "{refusal}; {}", refusal.fix()),
+            Absence::Because(reason) => f.write_str(reason),
+        }
+    }
 }
 
 #[cfg(test)]

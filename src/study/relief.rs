@@ -108,6 +108,8 @@ pub struct MapPoint {
 /// The relief to specify.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Specification {
+    /// The method of the case.
+    pub asked: Method,
     /// The method that finds no corner contact with the specified relief.
     pub method: Method,
     /// The demand, with the tolerance of the lengths.
@@ -254,7 +256,7 @@ pub fn specify(
     demand: &Demand,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Specification, NoRelief> {
-    let torque = inputs.torque();
+    let (asked, torque) = (inputs.method, inputs.torque());
     let inputs = Inputs { drive: Drive::Torque(torque), ..inputs.clone() };
     let is_over_face = inputs.face().is_some() || demand.misalignment > 0.0;
     let method = if is_over_face { Method::Static } else { governing(&inputs, go_on)? };
@@ -319,6 +321,7 @@ pub fn specify(
     }
     let best = best(&choices, demand.minimise);
     Ok(Specification {
+        asked,
         method,
         torque,
         mesh_force: solution.mesh_force,

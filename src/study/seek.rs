@@ -1,10 +1,224 @@
-//! The values of a field at which a condition changes: every crossing in a range.
+//! Conditions on results, such as `impact_force<=2500 N`, and the values of a field at which one changes.
 
-use super::axis::{Axis, AxisRange};
-use super::batch::{Batch, Control, Points, Stopped, solve_all};
-use super::condition::{Condition, State};
-use super::sweep::Grid;
-use crate::model::Inputs;
+use crate::case::sanitize::quoted;
+use crate::case::{Case, Limit, Problem, unknown_quantity};
+use crate::model::inputs::Method;
+use crate::model::{Inputs, Outcome, Quantity};
+use crate::study::axis::{Axis, AxisRange, Grid};
+use crate::study::batch::{Batch, Control, PointOutcome, Points, Row, Stopped, solve_all};
+
+/// A relation of a quantity to its limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Relation {
+    /// Whether the limit is the greatest value; an absent quantity is below every limit.
+    is_upper: bool,
+    /// Whether the limit itself does not meet the condition.
+    is_strict: bool,
+}
+
+const AT_MOST: Relation = Relation { is_upper: true, is_strict: false };
+const AT_LEAST: Relation = Relation { is_upper: false, is_strict: false };
+
+impl Relation {
+    /// The distance of a value from the limit, above 0 where the condition is met.
+    fn margin(self, value: f64, limit: f64) -> f64 {
+        if self.is_upper { limit - value } else { value - limit }
+    }
+}
+
+/// A condition on the result of a point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Condition {
+    /// The condition as the user wrote it.
+    pub text: String,
+    kind: Kind,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Kind {
+    Outcome(Outcome),
+    Compared(&'static Quantity, Relation, f64),
+}
+
+/// Whether a point meets the condition.
+#[derive(Debug, Clone, PartialEq)]
+pub enum State {
+    /// The point meets the condition.
+    Met,
+    /// The point does not meet the condition.
+    NotMet,
+    /// The point is refused, or the quantity has no value for another reason than no contact.
+    Unknown(Problem),
+}
+
+impl State {
+    /// Whether both states are of the same variant; the reason may differ.
+    pub fn is_like(&self, other: &State) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+}
+
+impl Condition {
+    /// Parses a text such as `impact_force<=2500 N` or `outcome=no-corner-contact`.
+    ///
+    /// # Errors
+    /// Returns an error if the quantity, the sign, the value or the outcome is unknown.
+    pub fn parse(text: &str) -> Result<Condition, Problem> {
+        let text = text.trim();
+        let (name, relation, value) = if let Some(at) = text.find(['<', '>']) {
+            let (is_upper, limit) = (text[at..].starts_with('<'), &text[at + 1..]);
+            let (is_strict, limit) =
+                limit.strip_prefix('=').map_or((true, limit), |limit| (false, limit));
+            (&text[..at], Some(Relation { is_upper, is_strict }), limit.trim())
+        } else if let Some((name, value)) = text.split_once('=') {
+            (name, None, value.strip_prefix('=').unwrap_or(value).trim())
+        } else {
+            let fix = "write QUANTITY<=VALUE, such as 'impact_force<=2500 N', or \
+                outcome=no-corner-contact";
+            return Err(Problem::new(text, "this is not a condition", fix));
+        };
+        let kind = if relation.is_none() && name.trim() == "outcome" {
+            outcome(value)?
+        } else {
+            compared(name, relation, value)?
+        };
+        Ok(Condition { text: text.to_owned(), kind })
+    }
+
+    /// The quantity that the condition reads; `None` for the outcome.
+    pub fn quantity(&self) -> Option<&'static Quantity> {
+        match self.kind {
+            Kind::Outcome(_) => None,
+            Kind::Compared(quantity, ..) => Some(quantity),
+        }
+    }
+
+    /// Checks that a method computes the quantity.
+    ///
+    /// # Errors
+    /// Returns an error if the method does not compute the quantity.
+    pub fn check(&self, method: Method) -> Result<(), Problem> {
+        let Some(quantity) = self.quantity() else { return Ok(()) };
+        let computes = |method: &Method| method.stages().has(quantity.stage);
+        if computes(&method) {
+            return Ok(());
+        }
+        let others: Vec<&str> =
+            Method::ALL.into_iter().filter(computes).map(Method::name).collect();
+        let cause = format!("method {} does not compute {}", method.name(), quantity.key);
+        let fix = format!("use --method with one of {}", others.join(", "));
+        Err(Problem::new(quantity.key, cause, fix))
+    }
+
+    /// Whether a row meets the condition; the first value of the row must be the quantity.
+    pub fn state(&self, row: &Row) -> State {
+        let outcome = match (row.outcome, &row.refusal) {
+            (_, Some(refused)) => return State::Unknown((**refused).clone()),
+            (PointOutcome::Solved(outcome), None) => outcome,
+            (PointOutcome::Refused, None) => Outcome::NoCornerContact,
+        };
+        let is_met = match self.kind {
+            Kind::Outcome(wanted) => outcome == wanted,
+            Kind::Compared(quantity, relation, limit) => {
+                match row.values.first().copied().flatten() {
+                    Some(value) => {
+                        let margin = relation.margin(value, limit);
+                        margin > 0.0 || margin == 0.0 && !relation.is_strict
+                    }
+                    // No tooth strikes.
+                    None if outcome == Outcome::NoCornerContact || quantity.is_of_free_impact() => {
+                        relation.is_upper
+                    }
+                    None => {
+                        let fix = "solve the point alone for the reason";
+                        let key = quantity.key;
+                        let problem = Problem::new(key, format!("{key} has no value here"), fix);
+                        return State::Unknown(problem);
+                    }
+                }
+            }
+        };
+        if is_met { State::Met } else { State::NotMet }
+    }
+
+    /// The distance of a value from the limit, above 0 where the condition is met.
+    pub fn margin(&self, value: f64) -> Option<f64> {
+        match self.kind {
+            Kind::Outcome(_) => None,
+            Kind::Compared(_, relation, limit) => Some(relation.margin(value, limit)),
+        }
+    }
+}
+
+/// A quantity compared with a limit, or a flag with its value.
+fn compared(name: &str, relation: Option<Relation>, value: &str) -> Result<Kind, Problem> {
+    let quantity = Quantity::named(name.trim()).ok_or_else(|| unknown_quantity(name, name))?;
+    let key = quantity.key;
+    let flags = format!("write {key}=true or {key}=false");
+    let (cause, fix) = match (quantity.is_flag(), relation) {
+        (false, Some(relation)) => {
+            let Limit { value: limit, of, .. } = Limit::new(key, value)?;
+            if of.is_none() {
+                return Ok(Kind::Compared(quantity, relation, limit));
+            }
+            let cause = format!("{} is relative to another result", quoted(value));
+            (cause, "write a value with its unit".to_owned())
+        }
+        (false, None) => {
+            let cause = format!("= compares only flags and outcomes, and {key} is a number");
+            (cause, format!("write {key}<={value}"))
+        }
+        (true, Some(_)) => (format!("{key} is true or false and has no order"), flags),
+        (true, None) => match value {
+            "true" | "yes" => return Ok(Kind::Compared(quantity, AT_LEAST, 1.0)),
+            "false" | "no" => return Ok(Kind::Compared(quantity, AT_MOST, 0.0)),
+            other => (format!("{} is neither true nor false", quoted(other)), flags),
+        },
+    };
+    Err(Problem::new(key, cause, fix))
+}
+
+fn outcome(name: &str) -> Result<Kind, Problem> {
+    let outcomes = [Outcome::CornerContact, Outcome::NoCornerContact];
+    let found = outcomes.into_iter().find(|outcome| outcome.name() == name);
+    found.map(Kind::Outcome).ok_or_else(|| {
+        let names = outcomes.map(Outcome::name).join(" or ");
+        let cause = format!("unknown outcome {}", quoted(name));
+        Problem::new("outcome", cause, format!("write {names}"))
+    })
+}
+
+/// The limited quantities of a case, otherwise the impact force; each with its counterparts in the
+/// methods that resolve the impact.
+pub fn headline(case: &Case, methods: &[Method]) -> Vec<&'static Quantity> {
+    // Method `auto` may choose any of these.
+    let single = |method: &Method| match method {
+        Method::Auto => vec![Method::Exact, Method::Static, Method::Dynamic],
+        one => vec![*one],
+    };
+    let methods: Vec<Method> = methods.iter().flat_map(single).collect();
+    let counterparts = |quantity: &'static Quantity| {
+        methods.iter().filter_map(|&method| quantity.by(method)).collect::<Vec<_>>()
+    };
+    let limited = case.limits.iter().filter(|limit| !limit.text.is_empty());
+    let limited = limited.map(|limit| limit.quantity);
+    let found = distinct(limited.flat_map(|known| [vec![known], counterparts(known)].concat()));
+    if found.is_empty() {
+        return distinct(Quantity::find("impact_force").into_iter().flat_map(counterparts));
+    }
+    found
+}
+
+/// Items without duplicates, in the order of their first occurrence.
+pub fn distinct<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut found = Vec::new();
+    for item in items {
+        if !found.contains(&item) {
+            found.push(item);
+        }
+    }
+    found
+}
 
 /// Default number of points of the first scan.
 pub const USUAL_SCAN: usize = 201;
@@ -137,4 +351,51 @@ fn pieces(from: f64, to: f64) -> impl Iterator<Item = f64> {
     (1..PIECES)
         .map(move |piece| from + step * piece as f64)
         .filter(move |&number| from < number && number < to)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_condition_compares_a_quantity_or_an_outcome() {
+        for (text, kind) in [
+            ("impact_force<=2.5 kN", Kind::Compared("impact_force", AT_MOST, 2500.0)),
+            (
+                "F_S < 2500 N",
+                Kind::Compared("impact_force", Relation { is_strict: true, ..AT_MOST }, 2500.0),
+            ),
+            ("contact_ratio>=1.4", Kind::Compared("contact_ratio", AT_LEAST, 1.4)),
+            (
+                "contact_ratio>1.4",
+                Kind::Compared("contact_ratio", Relation { is_strict: true, ..AT_LEAST }, 1.4),
+            ),
+            ("outcome=no-corner-contact", Kind::Outcome(Outcome::NoCornerContact)),
+            ("dynamic_contact_lost=false", Kind::Compared("dynamic_contact_lost", AT_MOST, 0.0)),
+        ] {
+            assert_eq!(Condition::parse(text).unwrap().kind, kind, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_bad_condition_gets_its_cause_and_fix() {
+        for (text, part) in [
+            ("impact_force", "this is not a condition: write QUANTITY<=VALUE"),
+            ("impact_forc<=2500 N", "did you mean impact_force?"),
+            ("impact_force<=2500", "2500 has no unit"),
+            ("impact_force<=2500 mm", "unit of length"),
+            ("impact_force<=1.3 x mesh_force", "is relative to another result"),
+            ("impact_force=2500 N", "is a number: write impact_force<=2500 N"),
+            ("outcome=contact", "write corner-contact or no-corner-contact"),
+            ("impact_force==2500 N", "is a number: write impact_force<=2500 N"),
+            ("dynamic_contact_lost=maybe", "neither true nor false"),
+            ("dynamic_contact_lost<=1", "has no order: write dynamic_contact_lost=true or"),
+        ] {
+            let message = Condition::parse(text).unwrap_err().to_string();
+            assert!(message.contains(part), "{text}: {message}");
+        }
+        let condition = Condition::parse("dynamic_peak_force<=1 kN").unwrap();
+        let message = condition.check(Method::Exact).unwrap_err().to_string();
+        assert!(message.contains("use --method with one of dynamic, auto"), "{message}");
+    }
 }

@@ -7,8 +7,8 @@ use std::io::{self, BufRead, BufReader, ErrorKind, Read, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use super::axis::Grid;
 use super::batch::{Batch, Points, Row};
-use super::sweep::Grid;
 use super::tolerance::{Size, Tolerance};
 use crate::case::sanitize::quoted;
 use crate::case::{Case, Document, Problem, unknown_quantity};

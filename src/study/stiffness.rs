@@ -60,6 +60,27 @@ pub struct GearComparison {
     pub points: Vec<Point>,
 }
 
+impl GearComparison {
+    /// Why the gear has no finite-element values at some radii, in a sentence; `None` if it has them
+    /// at all radii.
+    pub fn no_field(&self) -> Option<String> {
+        Some(format!("no finite-element values: {}", self.field_refusal()?))
+    }
+
+    /// The reason alone.
+    pub fn field_refusal(&self) -> Option<String> {
+        match self.refusal {
+            Some(Refusal::NoField { reason, .. }) => Some(reason.to_string()),
+            Some(other) => Some(other.to_string()),
+            None => self
+                .points
+                .iter()
+                .any(|point| point.field.is_none())
+                .then(|| "the contact under the mesh force is wider than the tooth".to_owned()),
+        }
+    }
+}
+
 /// A model without a value at one point of a flank or more.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gap {

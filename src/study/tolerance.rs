@@ -1,11 +1,21 @@
-//! Tolerance studies: the results of a case with distributed fields.
+//! Tolerance studies: samples of distributed fields by seed and index, and the results of a case over them.
 
-use super::batch::{Batch, Control, PointOutcome, Points, Refusals, Row, Stopped, solve_all};
-use super::condition::{distinct, headline};
-use super::sample::{Design, Distribution, Member};
-use super::statistics::{Estimate, Figures, Indices, Ranked, figures, indices, probability};
-use crate::case::{Case, Limit, Problem};
+use crate::case::fields::{FIELDS, Kind, Value, index_of};
+use crate::case::spread::Shape;
+use crate::case::{Case, Limit, Problem, Spread, field_range, units};
+use crate::model::deviation::base_pitch_tolerance;
+use crate::model::inputs::{Combination, Gear};
 use crate::model::{Inputs, Outcome, Quantity};
+use crate::numeric::decimal::{shortest, significant};
+use crate::study::axis::with_unit;
+use crate::study::batch::{
+    Batch, Control, PointOutcome, Points, Refusals, Row, Stopped, solve_all,
+};
+use crate::study::seek::{distinct, headline};
+use crate::study::statistics::{Estimate, Figures, Indices, Ranked, figures, indices, probability};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Default number of samples.
 pub const USUAL_SAMPLES: usize = 10_000;
@@ -101,19 +111,15 @@ impl Tolerance {
         Summary {
             solved: count - refused,
             contact: probability(strikes, count - refused),
-            limits: self
-                .limits
-                .iter()
-                .filter_map(|limit| self.exceedance(limit, samples))
-                .collect(),
+            limits: self.limits.iter().map(|limit| self.exceedance(limit, samples)).collect(),
             quantities: (0..self.quantities.len()).map(|at| self.quantity(at, samples)).collect(),
         }
     }
 
-    fn exceedance(&self, limit: &Limit, samples: &Samples) -> Option<Exceedance> {
-        let quantity = Quantity::find(limit.quantity)?;
+    fn exceedance(&self, limit: &Limit, samples: &Samples) -> Exceedance {
+        let quantity = limit.quantity;
         let value = |of: &Quantity, sample| {
-            let at = self.quantities.iter().position(|known| known.key == of.key)?;
+            let at = self.quantities.iter().position(|known| *known == of)?;
             samples.value(at, sample)
         };
         let exceeds = |sample| {
@@ -127,12 +133,11 @@ impl Tolerance {
         };
         let states: Vec<bool> = (0..self.design.samples).filter_map(exceeds).collect();
         let above = states.iter().filter(|&&is_above| is_above).count();
-        Some(Exceedance {
-            quantity,
+        Exceedance {
             limit: limit.clone(),
             known: states.len(),
             probability: probability(above, states.len()),
-        })
+        }
     }
 
     fn quantity(&self, at: usize, samples: &Samples) -> OfQuantity {
@@ -219,8 +224,6 @@ pub struct Summary {
 /// How often a limit is exceeded.
 #[derive(Debug, Clone)]
 pub struct Exceedance {
-    /// The limited quantity.
-    pub quantity: &'static Quantity,
     /// The limit.
     pub limit: Limit,
     /// Number of samples that can be compared with the limit.
@@ -240,4 +243,346 @@ pub struct OfQuantity {
     pub ranked: usize,
     /// The indices of each spread field; `None` if nothing varies or nothing is ranked.
     pub indices: Option<Vec<Indices>>,
+}
+
+/// The samples, followed by the points of the ranking.
+///
+/// The ranking reuses the first samples. For each of them it adds a second, independent sample b,
+/// and for each field one point that has the value of b in this field only.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Design {
+    /// Seed of the samples.
+    pub seed: u64,
+    /// The spread fields.
+    pub distributions: Vec<Distribution>,
+    /// Number of samples.
+    pub samples: usize,
+    /// Number of samples that have points of the ranking.
+    pub ranked: usize,
+}
+
+/// The role of a point of a design.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Member {
+    /// The sample with this index.
+    Sample(usize),
+    /// The second sample with this index.
+    Second(usize),
+    /// The sample with the first index, with the value of its second sample in the field with the
+    /// second index.
+    Swapped(usize, usize),
+}
+
+impl Design {
+    /// The role of the point with an index.
+    pub fn member(&self, index: usize) -> Member {
+        let Some(rest) = index.checked_sub(self.samples) else {
+            return Member::Sample(index);
+        };
+        let each = self.distributions.len() + 1;
+        match (rest / each, rest % each) {
+            (number, 0) => Member::Second(number),
+            (number, field) => Member::Swapped(number, field - 1),
+        }
+    }
+
+    /// The index of a point.
+    pub fn index(&self, member: Member) -> usize {
+        let first = |number| self.samples + number * (self.distributions.len() + 1);
+        match member {
+            Member::Sample(number) => number,
+            Member::Second(number) => first(number),
+            Member::Swapped(number, field) => first(number) + 1 + field,
+        }
+    }
+
+    /// The values of a point in SI, in the order of the distributions.
+    pub fn values(&self, index: usize) -> Vec<f64> {
+        match self.member(index) {
+            Member::Sample(number) => self.sample(0, number),
+            Member::Second(number) => self.sample(1, number),
+            Member::Swapped(number, field) => {
+                let mut values = self.sample(0, number);
+                values[field] = self.sample(1, number)[field];
+                values
+            }
+        }
+    }
+
+    /// The values of a sample from its own position in a stream of random numbers, so that they do
+    /// not depend on the order of reading. Only the ranking reads the second stream.
+    fn sample(&self, stream: u64, number: usize) -> Vec<f64> {
+        /// Words of 32 bits that a value reads.
+        const WORDS: usize = 2;
+        const STEPS: f64 = (1_u64 << 53) as f64;
+        let mut key = [0; 32];
+        key[..8].copy_from_slice(&self.seed.to_le_bytes());
+        let mut random = ChaCha8Rng::from_seed(key);
+        random.set_stream(stream);
+        random.set_word_pos((WORDS * number * self.distributions.len()) as u128);
+        // Above 0 and below 1, from 53 random bits.
+        let mut part = || ((random.next_u64() >> 11) as f64 + 0.5) / STEPS;
+        self.distributions.iter().map(|one| one.quantile(part())).collect()
+    }
+
+    /// Whether base pitch deviations are drawn gear by gear. A drawn value is known with its sign,
+    /// so that the deviations of a sample add.
+    pub fn draws_known_deviations(&self) -> bool {
+        let of_gear = ["driver.base_pitch", "driven.base_pitch"];
+        self.distributions.iter().any(|drawn| of_gear.contains(&drawn.key()))
+    }
+}
+
+impl Points for Design {
+    fn count(&self) -> usize {
+        self.samples + self.ranked * (self.distributions.len() + 1)
+    }
+
+    /// The settings, such as `deviations.base_pitch = 1.6e-5 m`.
+    fn point(&self, index: usize) -> String {
+        let values = self.distributions.iter().zip(self.values(index));
+        let setting = |(distribution, value): (&Distribution, f64)| {
+            let value = with_unit(&format!("{value:?}"), distribution.unit());
+            format!("{} = {value}", distribution.key())
+        };
+        let mut settings: Vec<String> = values.map(setting).collect();
+        if self.draws_known_deviations() {
+            settings.push("deviations.combination = sum".to_owned());
+        }
+        settings.join(", ")
+    }
+
+    /// The number and the set of the sample, and the spread fields in SI units.
+    fn columns(&self) -> Vec<(String, &str)> {
+        let names = ["sample", "set"].map(|name| (name.to_owned(), ""));
+        let spread = self.distributions.iter();
+        let spread = spread.map(|one| (one.key().to_owned(), one.unit_or_one()));
+        names.into_iter().chain(spread).collect()
+    }
+
+    fn cells(&self, index: usize) -> Vec<String> {
+        let (number, set) = match self.member(index) {
+            Member::Sample(number) => (number, "a".to_owned()),
+            Member::Second(number) => (number, "b".to_owned()),
+            Member::Swapped(number, field) => {
+                (number, format!("b:{}", self.distributions[field].key()))
+            }
+        };
+        let values = self.values(index).into_iter().map(|value| format!("{value:?}"));
+        [number.to_string(), set].into_iter().chain(values).collect()
+    }
+
+    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
+        if self.draws_known_deviations() {
+            inputs.combination = Combination::Sum;
+        }
+        for (distribution, value) in self.distributions.iter().zip(self.values(index)) {
+            let (from, to) = field_range(distribution.field);
+            if value < from || value > to {
+                let range = FIELDS[distribution.field].range_text();
+                let cause = format!("the sample is outside the range {range}");
+                let fix = "use a narrower distribution";
+                return Err(Problem::new(distribution.key(), cause, fix));
+            }
+            distribution.put(value, inputs);
+        }
+        Ok(())
+    }
+}
+
+/// Standard deviations at which a truncated normal distribution ends.
+const CUT: f64 = 3.0;
+
+/// Standard deviations of a normal distribution that the range of a field must contain. Fewer than
+/// one sample in a million is outside.
+const ALLOWED: f64 = 5.0;
+
+/// A distribution of a field around its value, in SI.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Distribution {
+    /// Index in [`FIELDS`].
+    pub field: usize,
+    /// The value of the field.
+    pub centre: f64,
+    /// Standard deviation of a normal distribution, otherwise half the span.
+    pub width: f64,
+    /// The shape; of a grade, [`Shape::Truncated`].
+    pub shape: Shape,
+}
+
+impl Distribution {
+    /// The distribution of a `[spread]` entry of a case.
+    ///
+    /// # Errors
+    /// Returns an error if the field has no value, or if the distribution exceeds the range of the
+    /// field.
+    pub fn of(spread: &Spread, case: &Case, inputs: &Inputs) -> Result<Distribution, Problem> {
+        let key = spread.field;
+        let refused = |cause, fix| Err(Problem::new(&format!("spread.\"{key}\""), cause, fix));
+        // Another field of the case may replace this one.
+        let given = index_of(key).filter(|&field| case.effective(field).is_some());
+        let Some((field, centre)) = given.and_then(|field| Some((field, case.value(field)?)))
+        else {
+            let cause = format!("{key} has no value to spread around");
+            let fix = match key.ends_with(".base_pitch") {
+                true => format!("write {key} = \"0 um\": the deviation is drawn around 0"),
+                false => format!("give {key} a value"),
+            };
+            return refused(cause, fix);
+        };
+        let (shape, width) = match spread.shape {
+            Shape::Grade => (Shape::Truncated, allowed_deviation(spread, inputs)),
+            shape => (shape, spread.width),
+        };
+        let distribution = Distribution { field, centre, width, shape };
+        let Some(end) = distribution.beyond() else { return Ok(distribution) };
+        let (words, range) = (&spread.text, FIELDS[field].range_text());
+        refused(
+            format!("{words} reaches {end}, outside the field's range"),
+            format!(
+                "write a smaller width, or change {key} so that the distribution is within {range}"
+            ),
+        )
+    }
+
+    /// The end of the distribution that is outside the range of the field.
+    fn beyond(&self) -> Option<String> {
+        let (reach, by) = match self.shape {
+            Shape::Normal => (ALLOWED * self.width, format!(" at {ALLOWED} standard deviations")),
+            _ => (self.width, String::new()),
+        };
+        let (from, to) = field_range(self.field);
+        let slack = 1e-12 * from.abs().max(to.abs());
+        let is_outside = |end: &f64| *end < from - slack || *end > to + slack;
+        let end = [self.centre - reach, self.centre + reach].into_iter().find(is_outside)?;
+        let unit = FIELDS[self.field].usual_unit();
+        let rounded = significant(end / units::factor(unit).unwrap_or(1.0), 6);
+        let rounded = rounded.parse().map_or(rounded, shortest);
+        Some(with_unit(&rounded, unit) + &by)
+    }
+
+    /// The value below which a fraction `part` of all samples are; `part` is above 0 and below 1.
+    pub fn quantile(&self, part: f64) -> f64 {
+        let Distribution { centre, width, .. } = *self;
+        let normal = Normal::standard();
+        match self.shape {
+            Shape::Normal => centre + width * normal.inverse_cdf(part),
+            Shape::Uniform => centre + width * (2.0 * part - 1.0),
+            Shape::Triangular if part < 0.5 => centre - width * (1.0 - (2.0 * part).sqrt()),
+            Shape::Triangular => centre + width * (1.0 - (2.0 * (1.0 - part)).sqrt()),
+            Shape::Truncated | Shape::Grade => {
+                let tail = normal.cdf(-CUT);
+                let inside = tail + part * (1.0 - 2.0 * tail);
+                let offset = width / CUT * normal.inverse_cdf(inside);
+                centre + offset.clamp(-width, width)
+            }
+        }
+    }
+
+    /// Writes a value into the inputs of a model.
+    pub fn put(&self, value: f64, inputs: &mut Inputs) {
+        FIELDS[self.field].put(Value::Number(value), inputs);
+    }
+
+    /// The SI unit of the field; empty for a bare number.
+    pub fn unit(&self) -> &'static str {
+        match FIELDS[self.field].kind {
+            Kind::Number(dimension, ..) => dimension.si_unit(),
+            _ => "",
+        }
+    }
+
+    /// The SI unit of the field; 1 for a bare number.
+    pub fn unit_or_one(&self) -> &'static str {
+        if self.unit().is_empty() { "1" } else { self.unit() }
+    }
+
+    /// The key of the field.
+    pub fn key(&self) -> &'static str {
+        FIELDS[self.field].key
+    }
+}
+
+/// The base pitch deviation that a tolerance class allows: of the gear in the key, otherwise of the
+/// larger gear.
+fn allowed_deviation(spread: &Spread, inputs: &Inputs) -> f64 {
+    let diameter = |gear: &Gear| inputs.module * f64::from(gear.teeth);
+    let (driver, driven) = (diameter(&inputs.driver), diameter(&inputs.driven));
+    let diameter = match spread.field {
+        "driver.base_pitch" => driver,
+        "driven.base_pitch" => driven,
+        _ => driver.max(driven),
+    };
+    let class = spread.width as u32;
+    base_pitch_tolerance(class, inputs.module, diameter, inputs.pressure_angle)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn distribution(shape: Shape) -> Distribution {
+        Distribution {
+            field: index_of("deviations.base_pitch").unwrap(),
+            centre: 16e-6,
+            width: 4e-6,
+            shape,
+        }
+    }
+
+    #[test]
+    fn quantiles_are_those_of_the_shapes() {
+        for (shape, quantiles) in [
+            (Shape::Normal, [9.42058549, 16.0, 22.57941451]),
+            (Shape::Uniform, [12.4, 16.0, 19.6]),
+            (Shape::Triangular, [13.26491106, 16.0, 18.73508894]),
+            // From Python's statistics.NormalDist with a standard deviation of 4/3 um.
+            (Shape::Truncated, [13.82241824, 16.0, 18.17758176]),
+        ] {
+            for (part, wanted) in [0.05, 0.5, 0.95].into_iter().zip(quantiles) {
+                let found = 1e6 * distribution(shape).quantile(part);
+                assert!((found - wanted).abs() < 1e-8, "{}: {found}", shape.name());
+            }
+        }
+    }
+
+    #[test]
+    fn bounded_shapes_stay_within_their_span() {
+        for shape in [Shape::Uniform, Shape::Triangular, Shape::Truncated] {
+            for part in [f64::MIN_POSITIVE, 1e-17, 0.3, 1.0 - f64::EPSILON / 2.0] {
+                let value = distribution(shape).quantile(part);
+                assert!((12e-6..=20e-6).contains(&value), "{}: {value}", shape.name());
+            }
+        }
+    }
+
+    #[test]
+    fn a_grade_is_the_deviation_of_iso_1328_of_the_larger_gear() {
+        let case = Case::table_1();
+        let spread = Spread::new("deviations.base_pitch", "grade 7").unwrap();
+        let found = Distribution::of(&spread, &case, &case.inputs().unwrap()).unwrap();
+        let allowed = 14e-6 * 20_f64.to_radians().cos();
+        assert!((found.width - allowed).abs() < 1e-18 && found.shape == Shape::Truncated);
+    }
+
+    #[test]
+    fn a_spread_that_leaves_the_range_or_has_no_value_is_refused() {
+        let mut case = Case::table_1();
+        case.set("driven.tip_relief", "10 um").unwrap();
+        let refusal = |key, text| {
+            let spread = Spread::new(key, text).unwrap();
+            let found = Distribution::of(&spread, &case, &case.inputs().unwrap());
+            found.map_err(|problem| problem.to_string())
+        };
+        let message = refusal("driven.tip_relief", "uniform 12 um").unwrap_err();
+        assert!(
+            message.starts_with("spread.\"driven.tip_relief\": uniform 12 um reaches -2 um"),
+            "{message}"
+        );
+        let message = refusal("driven.tip_relief", "normal 3 um").unwrap_err();
+        assert!(message.contains("-5 um at 5 standard deviations"), "{message}");
+        assert!(refusal("driven.tip_relief", "truncated 10 um").is_ok());
+        let message = refusal("operation.torque", "normal 1 N m").unwrap_err();
+        assert!(message.contains("operation.torque has no value to spread around"), "{message}");
+    }
 }

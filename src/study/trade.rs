@@ -5,6 +5,7 @@ use std::fmt;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
+use super::seek::distinct;
 use crate::case::Case;
 use crate::case::fields::{AUTO, index_of};
 use crate::model::compliance::ElasticGear;
@@ -487,17 +488,6 @@ fn write(case: &mut Case, key: &str, text: Option<&str>) {
     if let Some((field, text)) = index_of(key).zip(text) {
         case.write(field, text);
     }
-}
-
-/// Items without duplicates, in the order of their first occurrence.
-fn distinct<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
-    let mut found = Vec::new();
-    for item in items {
-        if !found.contains(&item) {
-            found.push(item);
-        }
-    }
-    found
 }
 
 impl fmt::Display for Setting {

@@ -31,7 +31,7 @@ use crate::case::fields::Kind;
 use crate::case::{Case, Document, Evaluator, Problem};
 use crate::model::{Stage, Stages};
 use crate::report;
-use crate::report::graphs::GRAPHS;
+use crate::report::stations::GRAPHS;
 use crate::study::trade::STEADY;
 
 use actions::{Effect, Slot, Work};

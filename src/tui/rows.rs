@@ -6,7 +6,7 @@ use crate::case::fields::{AUTO, Absent, Field, index_of};
 use crate::case::spread::{Shape, parts};
 use crate::case::units::{self, System};
 use crate::case::{Case, FIELDS, Limit, Spread};
-use crate::model::{Inputs, Quantity};
+use crate::model::Inputs;
 use crate::tui::form_aids::{Measure, step_limit, step_spread};
 
 /// The content of a row.
@@ -25,7 +25,7 @@ impl Row<'_> {
     pub(crate) fn entry(self) -> Option<&'static str> {
         match self {
             Row::Field(_) => None,
-            Row::Limit(limit) => Some(limit.quantity),
+            Row::Limit(limit) => Some(limit.quantity.key),
             Row::Spread(spread) => Some(spread.field),
         }
     }
@@ -91,7 +91,7 @@ fn measure<'t>(
 ) -> Option<(&'t str, Measure)> {
     let measure = match row(case, at) {
         Row::Field(field) => Measure::of_field(&FIELDS[field], system)?,
-        Row::Limit(limit) => Measure::of_quantity(Quantity::find(limit.quantity)?, system)?,
+        Row::Limit(limit) => Measure::of_quantity(limit.quantity, system)?,
         Row::Spread(spread) => {
             let (shape, width) = parts(text);
             let measure = Measure::of_field(&FIELDS[index_of(spread.field)?], system)?;
@@ -147,7 +147,7 @@ pub(crate) fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
 pub(crate) fn stepped(case: &Case, at: usize, by: isize) -> Option<String> {
     match row(case, at) {
         Row::Field(field) => case.stepped(field, by),
-        Row::Limit(limit) => step_limit(&limit.text, limit.quantity, by),
+        Row::Limit(limit) => step_limit(&limit.text, limit.quantity.key, by),
         Row::Spread(spread) => step_spread(spread, by),
     }
 }
@@ -170,10 +170,7 @@ pub(crate) fn names_of(case: &Case, at: usize) -> (&'static str, Cow<'static, st
     let plain = |symbol, label: &'static str| (symbol, Cow::Borrowed(label));
     match row(case, at) {
         Row::Field(field) => plain(FIELDS[field].symbol, FIELDS[field].label),
-        Row::Limit(limit) => Quantity::find(limit.quantity)
-            .map_or(plain("", limit.quantity), |quantity| {
-                plain(quantity.symbol, quantity.label.trim_start())
-            }),
+        Row::Limit(Limit { quantity, .. }) => plain(quantity.symbol, quantity.label.trim_start()),
         Row::Spread(spread) => index_of(spread.field).map_or(plain("", spread.field), |field| {
             (FIELDS[field].symbol, FIELDS[field].full_label().into())
         }),

@@ -16,8 +16,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::case::changes::{self, Change};
 use crate::case::file::{MOST_BYTES, ReadError, SaveError, Saved, followed, read_bytes};
+use crate::case::file::{Stamp, hash};
 use crate::case::sanitize::sanitize;
-use crate::case::stamp::{Stamp, hash};
 use crate::case::{Case, Document};
 use crate::system::sharing;
 use crate::tui::store::State;

@@ -15,8 +15,8 @@ use directories::ProjectDirs;
 use tempfile::NamedTempFile;
 
 use crate::case::file::ReadError;
+use crate::case::file::Stamp;
 use crate::case::sanitize::sanitize;
-use crate::case::stamp::Stamp;
 use crate::case::{Document, rexs};
 use crate::system::sharing::{self, Access};
 

@@ -401,7 +401,7 @@ mod tests {
         };
         let first = Case::table_1();
         let second = edited(&first, &|case| case.write(3, "6 mm"));
-        let third = edited(&second, &|case| case.write_limit("friction_ratio", "0.5"));
+        let third = edited(&second, &|case| case.set_limit("friction_ratio", "0.5").unwrap());
         let fourth = edited(&third, &|case| {
             case.spread.push(Spread::new("pair.module", "normal 4 um").unwrap());
         });

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::program::{has, output as run, stdout_of};
 use roxmltree::Document;
-use tipstrike::report::graphs::GRAPHS;
+use tipstrike::report::stations::GRAPHS;
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 const FZG: &str = "cases/fzg-type-c.toml";

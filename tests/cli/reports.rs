@@ -4,7 +4,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tipstrike::case::file::Document;
-use tipstrike::report::{Report, Selection, data, text};
+use tipstrike::report::{Report, Selection, data};
 
 fn toml_files(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
@@ -29,7 +29,7 @@ fn the_report_of_every_case_is_unchanged() {
         let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
         insta::assert_snapshot!(
             format!("report_{stem}"),
-            text::render(&report(&path, Selection::default()).with_others())
+            data::render(&report(&path, Selection::default()).with_others())
         );
     }
 }
@@ -38,7 +38,7 @@ fn the_report_of_every_case_is_unchanged() {
 fn no_line_is_wider_than_80_columns() {
     for path in toml_files("cases") {
         let selection = Selection { stations: true, ..Selection::default() };
-        let page = text::render(&report(&path, selection).with_others());
+        let page = data::render(&report(&path, selection).with_others());
         let wide = page.lines().find(|line| line.chars().count() > 80);
         assert_eq!(wide, None, "{}", path.display());
     }

@@ -4,13 +4,13 @@ use tipstrike::case::spread::Shape;
 use tipstrike::case::{Case, Spread};
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Outcome, QUANTITIES, Quantity, Stage, Stages, solve};
+use tipstrike::study::axis::Grid;
 use tipstrike::study::axis::{AxisRange, Sampling};
 use tipstrike::study::batch::{Batch, Control, PointOutcome, Points, Row, Stopped, solve_all};
-use tipstrike::study::condition::{Condition, State};
-use tipstrike::study::sample::{Design, Distribution, Member};
+use tipstrike::study::seek::{Condition, State};
 use tipstrike::study::seek::{Found, seek};
 use tipstrike::study::statistics::{Estimate, Indices, Ranked, indices};
-use tipstrike::study::sweep::Grid;
+use tipstrike::study::tolerance::{Design, Distribution, Member};
 use tipstrike::study::tolerance::{Samples, Size, Tolerance};
 
 /// Every quantity except the required relief and the peaks over the speed, which are slow.
@@ -367,7 +367,8 @@ fn a_relative_limit_follows_the_result_of_each_sample() {
         case.set_limit("mesh_force", limit).unwrap();
         let (study, samples) = toleranced(&case, 200, 1, 2);
         let summary = study.summary(&samples);
-        let of = summary.limits.iter().find(|limit| limit.quantity.key == "mesh_force").unwrap();
+        let of =
+            summary.limits.iter().find(|limit| limit.limit.quantity.key == "mesh_force").unwrap();
         assert_eq!(of.known, 200);
         of.probability.unwrap().value
     };

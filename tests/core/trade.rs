@@ -14,7 +14,7 @@ use tipstrike::case::Case;
 use tipstrike::model::impact::StiffnessModels;
 use tipstrike::model::inputs::{Method, ToothCompliance};
 use tipstrike::model::{Inputs, Refusal, Stage, Stages, solve};
-use tipstrike::report::results::Named;
+use tipstrike::report::table::Named;
 use tipstrike::study::shard::Format;
 use tipstrike::study::trade::{METHODS, MeasuredSetting, STATIONS, Setting, Subject, Trade, trade};
 

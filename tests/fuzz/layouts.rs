@@ -201,7 +201,7 @@ fn values(case: &Case) -> BTreeSet<(String, String)> {
         .enumerate()
         .filter_map(|(at, field)| Some((field.key.to_owned(), case.text(at)?.to_owned())));
     let limits = case.limits.iter();
-    let limits = limits.map(|limit| (key("limits", limit.quantity), limit.text.clone()));
+    let limits = limits.map(|limit| (key("limits", limit.quantity.key), limit.text.clone()));
     let spread = case.spread.iter();
     let spread = spread.map(|spread| (key("spread", spread.field), spread.text.clone()));
     let variants = case.variants.iter().flat_map(|variant| {
@@ -335,7 +335,7 @@ fn an_edit_changes_only_the_lines_of_its_values() {
             let mut again = Document::parse("case", &rendered)
                 .unwrap_or_else(|faults| panic!("{}\n{text}\nbecame\n{rendered}", faults[0]));
             for case in [&mut document.case, &mut again.case] {
-                case.limits.sort_by_key(|limit| limit.quantity);
+                case.limits.sort_by_key(|limit| limit.quantity.key);
                 case.spread.sort_by_key(|spread| spread.field);
             }
             assert_same(&document, &again);

@@ -186,13 +186,13 @@ fn assert_csv(report: &Report) {
 
 fn assert_page(report: &Report) {
     let mut unnamed = report.clone().with_others();
-    assert_safe(&report::text::render(&unnamed));
+    assert_safe(&report::data::render(&unnamed));
     ["title", "notes"]
         .iter()
         .filter_map(|key| index_of(key))
         .for_each(|field| unnamed.case.write(field, ""));
     unnamed.notes.clear();
-    assert_numbers(&report::text::render(&unnamed));
+    assert_numbers(&report::data::render(&unnamed));
 }
 
 fn written(write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>) -> String {
@@ -222,7 +222,7 @@ pub(crate) fn assert_same(one: &Document, other: &Document) {
             .case
             .limits
             .iter()
-            .map(|limit| (limit.quantity, limit.value.to_bits()))
+            .map(|limit| (limit.quantity.key, limit.value.to_bits()))
             .collect::<Vec<_>>()
     };
     // A file has `0.5` for `.5`.

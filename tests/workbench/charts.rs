@@ -13,7 +13,7 @@ use tipstrike::case::units::System;
 use tipstrike::model::solve::speeds;
 use tipstrike::model::{ContactState, Outcome};
 use tipstrike::report::charts::speed_chart;
-use tipstrike::report::graphs::{GRAPHS, Graph};
+use tipstrike::report::stations::{GRAPHS, Graph};
 use tipstrike::tui::testing::actions::{self, Action};
 use tipstrike::tui::testing::chart;
 use tipstrike::tui::testing::chart::curves::{self, CurveSource};

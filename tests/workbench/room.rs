@@ -3,7 +3,7 @@ use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::layout::Size;
-use tipstrike::report::graphs::GRAPHS;
+use tipstrike::report::stations::GRAPHS;
 use tipstrike::tui::testing::chart::curves::{self, CurveSource};
 
 const HYDRO: &str = include_str!("../../cases/hydro-speed-up.toml");

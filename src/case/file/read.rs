@@ -4,13 +4,11 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::{Entry, FORMAT, Layout, MOST, Value, line_start};
 use crate::case::changes::texts;
+use crate::case::check::{MISSING, NEWER_FORMAT};
 use crate::case::fields::{AUTO, Absent, FIELDS, Field, GROUPS, Kind, index_of};
-use crate::case::problem::{MISSING, NEWER_FORMAT};
-use crate::case::sanitize::{cut, quoted};
+use crate::case::sanitize::{cut, quoted, suggestion};
 use crate::case::units::{self, Dimension};
-use crate::case::{
-    Case, Limit, Override, Problem, Spread, Variant, check, spread, suggest, variant,
-};
+use crate::case::{Case, Limit, Override, Problem, Spread, Variant, changes, check, spread};
 use crate::model::Quantity;
 use toml_edit::TomlError;
 
@@ -89,7 +87,7 @@ impl Scope {
     fn key(&self, key: &str) -> String {
         match &*self.name {
             "" => key.to_owned(),
-            name => format!("{}{name}.{key}", variant::PREFIX),
+            name => format!("{}{name}.{key}", changes::PREFIX),
         }
     }
 
@@ -318,7 +316,7 @@ impl<'l> Reader<'l> {
             }
             let own = &self.scopes[scope];
             if scope > 0 && own.overrides().is_empty() && !own.has_faults {
-                let place = format!("{}{}", variant::PREFIX, own.name);
+                let place = format!("{}{}", changes::PREFIX, own.name);
                 let fix = format!("write an override, such as {OVERRIDE}, or remove the table");
                 self.fault(0, own.at, Problem::new(&place, "the variant changes nothing", fix));
             }
@@ -444,7 +442,7 @@ fn unknown(key: &str) -> Problem {
                     "the gears are [driver] and [driven], whatever their sizes".to_owned()
                 }
                 Some(field) => format!("put it under [{}]", field.table()),
-                None => suggest::fix(key, known, || "remove it".to_owned()),
+                None => suggestion(key, known, || "remove it".to_owned()),
             };
             Problem::new(key, format!("unknown key or table {}", quoted(key)), fix)
         }
@@ -457,7 +455,7 @@ fn unknown(key: &str) -> Problem {
             let all = || format!("[{table}] has {}", here().collect::<Vec<_>>().join(", "));
             let fix = match elsewhere(name) {
                 Some(field) => format!("it belongs under [{}]", field.table()),
-                None => suggest::fix(name, here(), all),
+                None => suggestion(name, here(), all),
             };
             Problem::new(key, format!("unknown key {}", quoted(name)), fix)
         }

@@ -16,7 +16,7 @@ use crate::case::changes::texts;
 use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS, Kind, index_of};
 use crate::case::sanitize::{is_hidden, sanitize};
 use crate::case::units::{self, Dimension};
-use crate::case::{ABOUT, Case, check, spread, variant};
+use crate::case::{ABOUT, Case, changes, check, spread};
 use crate::system::files;
 
 /// A value of a case as written in a file.
@@ -30,7 +30,7 @@ struct Written {
 
 impl Written {
     fn of(key: &str, text: &str) -> Written {
-        let variant = key.strip_prefix(variant::PREFIX).and_then(|path| path.split_once('.'));
+        let variant = key.strip_prefix(changes::PREFIX).and_then(|path| path.split_once('.'));
         let own = variant.map_or(key, |(_, own)| own);
         let names = match own.split_once('.').filter(|_| variant.is_none()) {
             Some((table, name)) => vec![table, name],
@@ -71,7 +71,7 @@ impl Written {
 fn written(case: &Case) -> Vec<Written> {
     // A form can hold an empty limit.
     let texts = texts(case).into_iter();
-    let given = texts.filter(|(key, text)| !text.is_empty() || key.starts_with(variant::PREFIX));
+    let given = texts.filter(|(key, text)| !text.is_empty() || key.starts_with(changes::PREFIX));
     given.map(|(key, text)| Written::of(&key, &text)).collect()
 }
 
@@ -700,7 +700,6 @@ impl Draft {
     }
 
     /// The error of a failed write, with the name of the file.
-    #[must_use]
     pub fn unwritable(&self, error: io::Error) -> SaveError {
         SaveError::Unwritable(shown(&self.path), error)
     }

@@ -13,18 +13,18 @@ use crate::cli::options::{
     by_method, formats, methods, one_quantity, station_count,
 };
 use crate::cli::{
-    self, Arguments, Done, Exit, Failure, Opened, Streams, check_out, follow, write_to,
+    self, Arguments, Done, Exit, Failure, Opened, Streams, check_out, follow, write_text,
 };
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stage, Stages};
+use crate::report::charts::{NoPicture, Picture, find, pictures};
 use crate::report::compare::{ComparedCase, Comparison};
 use crate::report::digest::{Digest, STAGES, sentence};
 use crate::report::explain::{explain, render, write_json};
-use crate::report::export::{ENDINGS, format_of, is_picture, render as render_report};
-use crate::report::pictures::{NoPicture, Picture, find, pictures};
+use crate::report::page::{ENDINGS, format_of, is_picture, render as render_report};
 use crate::report::solve::{self, compared};
 use crate::report::verdict::{self, Standing, refused, stages, verdicts};
-use crate::report::{self, Selection, data, fields, page, schema, svg, sweep, text};
+use crate::report::{self, Selection, data, fields, page, studies, svg};
 use crate::study::shard::Format;
 use clap::builder::{PossibleValuesParser, Resettable, TypedValueParser};
 use clap::{Args, CommandFactory};
@@ -87,7 +87,7 @@ fn print(
         Format::Csv => data::write_csv(&report, first, out),
         Format::Text | Format::Md | Format::Html => {
             let blank = if first { "" } else { "\n" };
-            write!(out, "{blank}{}", text::render(&report.with_others()))
+            write!(out, "{blank}{}", data::render(&report.with_others()))
         }
     }
 }
@@ -327,12 +327,9 @@ impl Plot {
         let text = if self.sweep.is_some() {
             let bytes = read_bytes(source, MOST_SWEEP_BYTES)?;
             let only: Vec<&Quantity> = self.only.iter().flatten().copied().collect();
-            let drawn = sweep::drawn(&String::from_utf8_lossy(&bytes), &only);
-            let name = source.display();
-            svg::draw(
-                &drawn
-                    .map_err(|reason| Failure::new(Exit::BadCase, format!("{name}: {reason}")))?,
-            )
+            let drawn = studies::drawn(&String::from_utf8_lossy(&bytes), &only);
+            let name = source.display().to_string();
+            svg::draw(&drawn.map_err(|reason| Failure::of_case(&name, &reason))?)
         } else {
             let opened = cli::open(source, &self.changes.edits(), &[], streams)?;
             let source = opened.unsolved();
@@ -342,7 +339,7 @@ impl Plot {
                 NoPicture::Absent(reason) => opened.failed(&reason),
             })?
         };
-        write_to(out, streams, |sink| sink.write_all(text.as_bytes()))
+        write_text(out, streams, &text)
     }
 }
 
@@ -383,7 +380,7 @@ impl Report {
         })?;
         if !subjects.is_empty() {
             let text = render_report(format, &subjects, settings)?;
-            write_to(Some(out), streams, |sink| sink.write_all(text.as_bytes()))?;
+            write_text(Some(out), streams, &text)?;
         }
         Ok(worst)
     }
@@ -517,9 +514,9 @@ impl Schema {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let out = streams.output.as_mut();
         if self.results {
-            schema::write_results(out)?;
+            fields::write_results(out)?;
         } else {
-            schema::write_case(out)?;
+            fields::write_case(out)?;
         }
         Ok(Exit::Done)
     }

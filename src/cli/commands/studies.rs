@@ -8,30 +8,26 @@ use std::path::{Path, PathBuf};
 use crate::cli::options::{
     CaseFile, Destination, Edits, Only, StudyOptions, TABLES, Threads, WORDS, count, formats,
 };
-use crate::cli::{self, Done, Exit, Failure, Opened, Streams, check_out, follow, write_to};
+use crate::cli::{
+    self, Done, Exit, Failure, Opened, Streams, check_out, follow, write_text, write_to,
+};
 use crate::model::{Inputs, Quantity};
 use crate::numeric::decimal::shortest;
-use crate::report::absence::Absence;
-use crate::report::excitation::ExcitationReport;
-use crate::report::export::is_picture;
-use crate::report::relief::ReliefReport;
-use crate::report::results::Named;
-use crate::report::seek::SeekReport;
-use crate::report::stiffness::{StiffnessReport, no_field};
+use crate::report::page::is_picture;
+use crate::report::studies::{self, RowWriter, SeekReport, StiffnessReport};
 use crate::report::svg::draw;
-use crate::report::sweep::{self, RowWriter};
+use crate::report::table::Named;
 use crate::report::tolerance::ToleranceReport;
-use crate::study::axis::{Axis, AxisRange, Sampling, with_unit};
+use crate::report::verdict::Absence;
+use crate::study::axis::{Axis, AxisRange, Grid, Sampling, with_unit};
 use crate::study::batch::{Points, Refusals, Row, solve_all};
-use crate::study::condition::{Condition, headline};
 use crate::study::excitation::{Excitation as Exported, POINTS};
 use crate::study::relief::{Criterion, Demand, NoRelief, demand, specify};
-use crate::study::seek::{USUAL_SCAN, seek};
+use crate::study::seek::{Condition, USUAL_SCAN, headline, seek};
 use crate::study::shard::{
     Complete, Format, Header, Kind, PointsRequest, Request, ShardWriter, Study, in_order,
 };
 use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare_flanks, compare_path};
-use crate::study::sweep::Grid;
 use crate::study::tolerance::{self, MOST_SAMPLES, Samples, Size, USUAL_SAMPLES};
 use crate::study::trade::{self, STEADY};
 use clap::Args;
@@ -71,9 +67,7 @@ impl Sweep {
             .map_err(|(text, problem)| Failure::of_option("--vary", text, &problem))?;
         self.running.destination.check(&self.input.case)?;
         let is_drawn = self.running.destination.is_picture();
-        if !is_drawn {
-            self.running.destination.fits(self.format)?;
-        }
+        self.running.destination.fits(self.format, true)?;
         let first = grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0)));
         let mut opened = self.input.open(&first.collect::<Vec<_>>(), streams)?;
         let mut quantities = self.only.quantities();
@@ -149,7 +143,7 @@ impl Tolerance {
             return Err(Failure::usage(fix));
         }
         self.running.destination.check(&self.input.case)?;
-        self.running.destination.fits(self.format)?;
+        self.running.destination.fits(self.format, false)?;
         let mut opened = self.input.open(&[], streams)?;
         let only = self.only.quantities();
         opened.need(only.iter().copied());
@@ -190,9 +184,8 @@ impl Gather {
         let Header { shard, request, .. } = &shards[0].header;
         let study = Study::restore(request)
             .map_err(|problem| Failure::new(Exit::BadCase, format!("shard {shard}: {problem}")))?;
-        if !(self.destination.is_picture() && study.request.format == Format::Csv) {
-            self.destination.fits(study.request.format)?;
-        }
+        let format = study.request.format;
+        self.destination.fits(format, format == Format::Csv)?;
         let count = study.points().count();
         write_study(&study, out, streams, |take| {
             shards
@@ -289,13 +282,12 @@ fn write_study(
             if out.is_some_and(is_picture) {
                 let mut table = Vec::new();
                 write(&mut table)?;
-                let drawn = sweep::drawn(&String::from_utf8_lossy(&table), &study.quantities);
+                let drawn = studies::drawn(&String::from_utf8_lossy(&table), &study.quantities);
                 let name = &study.request.name;
-                let drawn = drawn
-                    .map_err(|reason| Failure::new(Exit::BadCase, format!("{name}: {reason}")))?;
-                write_to(out, streams, |sink| sink.write_all(draw(&drawn).as_bytes()))?;
+                let drawn = drawn.map_err(|reason| Failure::of_case(name, &reason))?;
+                write_text(out, streams, &draw(&drawn))?;
             } else {
-                write_to(out, streams, |sink| write(sink))?;
+                write_to(out, streams, write)?;
             }
             refusals
         }
@@ -342,7 +334,7 @@ impl Seek {
         let range = AxisRange::parse(vary).map_err(bad_range)?;
         let condition = Condition::parse(until).map_err(bad_condition)?;
         destination.check(&input.case)?;
-        destination.fits(self.format)?;
+        destination.fits(self.format, false)?;
         let first = (range.field, with_unit(&shortest(range.from), &range.unit));
         let mut opened = input.open(&[first], streams)?;
         opened.need(condition.quantity());
@@ -440,9 +432,7 @@ impl Relief {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let Relief { input, destination, .. } = self;
         destination.check(&input.case)?;
-        if !destination.is_picture() {
-            destination.fits(self.format)?;
-        }
+        destination.fits(self.format, true)?;
         let opened = input.open(&[], streams)?;
         let demand = Demand {
             loads: self.load,
@@ -459,14 +449,11 @@ impl Relief {
             NoRelief::Refused(refusal) => opened.refused(&refusal),
             none => opened.failed(&none),
         })?;
-        let report = ReliefReport { method: opened.inputs.method, found: &found };
         if destination.is_picture() {
-            let chart = report.chart(&opened.inputs).map_err(|reason| opened.failed(&reason))?;
-            let picture = draw(&chart);
-            let out = destination.out.as_deref();
-            return write_to(out, streams, |sink| sink.write_all(picture.as_bytes()));
+            let chart = found.chart(&opened.inputs).map_err(|reason| opened.failed(&reason))?;
+            return write_text(destination.out.as_deref(), streams, &draw(&chart));
         }
-        opened.write(&report, self.format, destination.out.as_deref(), streams)
+        opened.write(&found, self.format, destination.out.as_deref(), streams)
     }
 }
 
@@ -480,7 +467,7 @@ pub struct Stiffness {
     #[command(flatten)]
     edits: Edits,
     /// Number of radii on each flank, from the form circle to the tip
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = point_count)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = count_within::<LEAST_POINTS, MOST_POINTS>)]
     points: usize,
     /// Format of the output
     #[arg(long, default_value = "text", value_parser = formats(TABLES))]
@@ -497,23 +484,20 @@ impl Stiffness {
         opened.write(&report, self.format, None, streams)?;
         if self.format == Format::Csv {
             let (name, gears) = (&opened.name, flanks.gears.iter());
-            streams
-                .say_all(gears.filter_map(|gear| {
-                    Some(format!("{name}: {}: {}", gear.gear, no_field(gear)?))
-                }));
+            streams.say_all(
+                gears.filter_map(|gear| {
+                    Some(format!("{name}: {}: {}", gear.gear, gear.no_field()?))
+                }),
+            );
         }
         Ok(Exit::Done)
     }
 }
 
-/// Parses a number of radii on a flank.
-fn point_count(text: &str) -> Result<usize, String> {
-    count_within(text, LEAST_POINTS, MOST_POINTS)
-}
-
-fn count_within(text: &str, least: usize, most: usize) -> Result<usize, String> {
-    let count = text.parse().ok().filter(|count| (least..=most).contains(count));
-    count.ok_or_else(|| format!("write a number from {least} to {most}"))
+/// Parses a number of points between two limits.
+fn count_within<const LEAST: usize, const MOST: usize>(text: &str) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| (LEAST..=MOST).contains(count));
+    count.ok_or_else(|| format!("write a number from {LEAST} to {MOST}"))
 }
 
 /// The options of the command.
@@ -523,10 +507,10 @@ pub struct Excitation {
     #[command(flatten)]
     input: CaseFile,
     /// Number of places in a base pitch
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = POINTS[1], value_parser = place_count)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = POINTS[1], value_parser = count_within::<{ POINTS[0] }, { POINTS[2] }>)]
     points: usize,
     /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
+    #[arg(long, default_value = "text", value_parser = formats(TABLES))]
     format: Format,
     /// The file
     #[command(flatten)]
@@ -537,17 +521,12 @@ impl Excitation {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let Excitation { input, destination, .. } = self;
         destination.check(&input.case)?;
-        destination.fits(self.format)?;
+        destination.fits(self.format, false)?;
         let opened = input.open(&[], streams)?;
         let found = follow("places", |go_on| Exported::of(&opened.inputs, self.points, go_on))?;
         let found = found.map_err(|refusal| opened.refused(&refusal))?;
-        opened.write(&ExcitationReport(&found), self.format, destination.out.as_deref(), streams)
+        opened.write(&found, self.format, destination.out.as_deref(), streams)
     }
-}
-
-/// Parses a number of places in a base pitch.
-fn place_count(text: &str) -> Result<usize, String> {
-    count_within(text, POINTS[0], POINTS[2])
 }
 
 /// The options of the command.

@@ -239,7 +239,6 @@ pub enum Token<'a> {
 }
 
 /// The tokens of a formula; `None` if a character is not part of any token.
-#[must_use]
 pub fn tokens(text: &str) -> Option<Vec<Token<'_>>> {
     let mut found = Vec::new();
     let mut rest = text.trim_start();

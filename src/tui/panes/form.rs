@@ -272,7 +272,7 @@ fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> 
 // limit while the impact of the method exceeds it.
 fn verdict_on(pane: &Form<'_>, limit: &Limit) -> Option<(String, Style)> {
     let solution = pane.solution.filter(|_| !limit.text.is_empty())?;
-    let verdict = verdict(limit, solution)?;
+    let verdict = verdict(limit, solution);
     let is_above_beside = verdict.is_exceeded_beside();
     let is_met = verdict.standing.holds() && !is_above_beside;
     let word = if verdict.standing == Standing::Exceeded { "!" } else { verdict.standing.word() };

@@ -17,7 +17,7 @@ use crate::case::units::System;
 use crate::case::units::shown;
 use crate::model::{ContactState, Inputs, Interpolated, Solution, contact_state};
 use crate::report::chart::{Point, Span};
-use crate::report::pattern::Pattern;
+use crate::report::charts::Pattern;
 use crate::report::stations::{COLUMNS, Column};
 use crate::report::teeth::{Ink, Scene, Window, scale_bar};
 use crate::tui::text;

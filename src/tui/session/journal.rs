@@ -14,8 +14,8 @@ use std::thread;
 use serde::{Deserialize, Serialize};
 
 use crate::case::changes::Change;
+use crate::case::file::{Stamp, hash};
 use crate::case::sanitize::sanitize;
-use crate::case::stamp::{Stamp, hash};
 use crate::system::sharing;
 use crate::tui::session;
 use crate::tui::store;

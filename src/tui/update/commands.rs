@@ -11,7 +11,7 @@ use super::{edit, export, files, panes, studies};
 use crate::case::{Acting, FIELDS, Field, relevance};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
-use crate::report::graphs::GRAPHS;
+use crate::report::stations::GRAPHS;
 use crate::tui::app::App;
 use crate::tui::app::actions::{Action, Binding, Choice, Effect, Run};
 use crate::tui::app::dialogs::Prompt;

@@ -245,7 +245,7 @@ fn hold_limit(app: &mut App, quantity: &'static Quantity) {
             raised.unwrap_or(text)
         };
         let mut case = app.tab.case.clone();
-        case.write_limit(quantity.key, &value.map(begin).unwrap_or_default());
+        case.write_limit(quantity, &value.map(begin).unwrap_or_default());
         replace(app, case);
     }
     let row = rows::of_entry(&app.tab.case, quantity.key).or_else(|| index_of("model.method"));

@@ -9,7 +9,7 @@ use unicode_width::UnicodeWidthStr;
 use super::{Dialog, Surroundings, said};
 use crate::case::units::{self, Dimension};
 use crate::numeric::decimal::{shortest, significant};
-use crate::report::graphs::GRAPHS;
+use crate::report::stations::GRAPHS;
 use crate::tui::app::App;
 use crate::tui::app::actions::Change;
 use crate::tui::layout::Place;

@@ -8,7 +8,6 @@ use unicode_width::UnicodeWidthStr;
 
 use super::{Dialog, Prompt, Surroundings, Window, wrapped};
 use crate::model::{Inputs, Refusal};
-use crate::report::relief::ReliefReport;
 use crate::study::relief::{Demand, NoRelief, Specification, specify};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Running, Slot, Work};
@@ -116,9 +115,7 @@ impl ReliefDialog {
     fn lines(&self, around: &Surroundings<'_>) -> Vec<Words<'static>> {
         let width = around.room().width;
         let lines = match (self.found(), &self.answer) {
-            (Some(found), _) => {
-                ReliefReport { method: self.inputs.method, found }.of_choice(self.selected)
-            }
+            (Some(found), _) => found.of_choice(self.selected),
             (None, Some(Err(reason))) => vec![reason.clone()],
             _ => Vec::new(),
         };
@@ -162,7 +159,7 @@ impl Dialog for ReliefDialog {
             let search = self.search()?;
             return Some(Change::of(|app| app.start_all([search])));
         }
-        let report = ReliefReport { method: self.inputs.method, found: self.found()? };
+        let report = self.found()?;
         let values = report.settings(self.selected);
         let take_over = self.take_over;
         Some(Change::of(move |app| take_over(app, &values)))
@@ -177,7 +174,7 @@ impl Dialog for ReliefDialog {
         let rows = Layout::vertical(heights.into_iter().chain([Constraint::Fill(1)]));
         let [line, state, _, head, list, _, below] = rows.areas(inner);
         if let Some(found) = self.found() {
-            let rows = ReliefReport { method: self.inputs.method, found }.gains().lines();
+            let rows = found.gains().lines();
             Span::raw(format!("  {}", rows[0])).render(head, buffer);
             let row = |at: usize| rows[at + 1].clone();
             Window { count, selected: Some(self.selected), area: list }.draw(row, theme, buffer);

@@ -282,8 +282,8 @@ fn variant_cell(
 // The mark of a quantity: above its limit, or changed.
 fn mark(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> &'static str {
     let Some(solution) = answer.of(answer.active).filter(|_| !pane.is_stale) else { return "" };
-    let limit = pane.case.limits.iter().find(|limit| limit.quantity == quantity.key);
-    let verdict = limit.and_then(|limit| verdict(limit, solution));
+    let limit = pane.case.limits.iter().find(|limit| limit.quantity == quantity);
+    let verdict = limit.map(|limit| verdict(limit, solution));
     if verdict.is_some_and(|verdict| verdict.standing == Standing::Exceeded) {
         return EXCEEDED;
     }

@@ -46,9 +46,7 @@ pub(super) fn draw(
         _ if plot.cells.is_empty() => (),
         [axis] => {
             let limit =
-                pane.case.limits.iter().find(|limit| {
-                    shown.quantity().is_some_and(|known| known.key == limit.quantity)
-                });
+                pane.case.limits.iter().find(|limit| shown.quantity() == Some(limit.quantity));
             if let Some(limit) = limit.filter(|limit| limit.of.is_none()) {
                 let factor = units::factor(&chart.up.unit).unwrap_or(1.0);
                 plot.draw_level(limit.value / factor, "╌", theme.rule, buffer);
@@ -164,7 +162,7 @@ fn map(
         (PointOutcome::Solved(Outcome::NoCornerContact), None) => MapCell::NoContact,
         (PointOutcome::Solved(_), None) => MapCell::Blank,
     };
-    let limit = pane.case.limits.iter().find(|limit| limit.quantity == known.key);
+    let limit = pane.case.limits.iter().find(|limit| limit.quantity == known);
     let limit = limit.and_then(|limit| limit.bound(|_| None)).filter(|value| value.is_finite());
     let values = Span::of(all());
     let numbers = |axis: &StudyAxis| (0..axis.points.len()).map(|at| at as f64).collect();
