@@ -23,30 +23,22 @@ use crate::case::{
 use crate::cli::{self, Arguments, Streams};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Refusal, Stages};
+use crate::report::charts::{NoPicture, Pattern, find, pictures};
 use crate::report::compare::{ComparedCase, Comparison};
-use crate::report::data::{stations, write_json};
-use crate::report::excitation::ExcitationReport;
-use crate::report::export::{format_of, render};
-use crate::report::pattern::Pattern;
-use crate::report::pictures::{NoPicture, find, pictures};
-use crate::report::relief::ReliefReport;
-use crate::report::results::{Named, Results};
-use crate::report::seek::SeekReport;
+use crate::report::data::{self, stations, write_json};
+use crate::report::page::{format_of, render};
 use crate::report::solve::{Unsolved, compared};
-use crate::report::stiffness::StiffnessReport;
-use crate::report::sweep::table;
-use crate::report::table::{Cell as TableCell, Column as TableColumn, Table};
+use crate::report::studies::{SeekReport, StiffnessReport, table};
+use crate::report::table::{Cell as TableCell, Column as TableColumn, Named, Results, Table};
 use crate::report::tolerance::ToleranceReport;
-use crate::report::{Report, Selection, page, text};
-use crate::study::axis::{AxisRange, Sampling};
+use crate::report::{Report, Selection, page};
+use crate::study::axis::{AxisRange, Grid, Sampling};
 use crate::study::batch::{Batch, Control, Points, Refusals, solve_all};
-use crate::study::condition::{Condition, distinct, headline};
 use crate::study::excitation::{Excitation, POINTS};
 use crate::study::relief::{Criterion, Demand, NoRelief, demand, specify};
-use crate::study::seek::seek;
+use crate::study::seek::{Condition, distinct, headline, seek};
 use crate::study::shard::Format;
 use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare_flanks, compare_path};
-use crate::study::sweep::Grid;
 use crate::study::tolerance::{MOST_SAMPLES, Samples, Size, Tolerance};
 
 pyo3::import_exception!(tipstrike, CaseError);
@@ -485,7 +477,7 @@ impl Case {
             NoRelief::Refused(refusal) => self.refused(&refusal),
             none => self.failed(&none),
         })?;
-        self.found(py, &ReliefReport { method: inputs.method, found: &found })
+        self.found(py, &found)
     }
 
     fn stiffness(&self, py: Python<'_>, points: usize) -> PyResult<Found> {
@@ -508,7 +500,7 @@ impl Case {
         within("points", points, POINTS[0], POINTS[2])?;
         let found = run(py, progress, |go_on| Excitation::of(inputs, points, go_on))?;
         let found = found.map_err(|refusal| self.refused(&refusal))?;
-        self.found(py, &ExcitationReport(&found))
+        self.found(py, &found)
     }
 
     /// A chart as SVG.
@@ -581,7 +573,7 @@ impl Solved {
     fn text(&self, py: Python<'_>) -> String {
         let mut report = self.report.clone();
         report.selection.stations = self.stations;
-        py.detach(|| text::render(&report.with_others()))
+        py.detach(|| data::render(&report.with_others()))
     }
 
     /// The stations; of a pair in slices also the line load of the incoming tooth over angle and face.
