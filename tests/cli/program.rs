@@ -2,6 +2,8 @@
 
 use std::process::{Command, Output, Stdio};
 
+use serde_json::Value;
+
 /// The program with arguments, in the source folder.
 pub(crate) fn program(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tipstrike"));
@@ -52,4 +54,42 @@ pub(crate) fn words(line: &str) -> Vec<&str> {
         }
     }
     all
+}
+
+/// A text with blanks in place of line ends.
+pub(crate) fn in_a_line(page: &str) -> String {
+    page.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A run of a command line, in which `TABLE_1` is that case.
+pub(crate) fn ran(line: &str) -> (i32, String, String) {
+    run(&words(&line.replace("TABLE_1", "cases/zhou-chen-2014.toml")))
+}
+
+/// Standard output of such a run, which must succeed without messages.
+pub(crate) fn page(line: &str) -> String {
+    let (code, text, errors) = ran(line);
+    assert_eq!((code, errors.as_str()), (0, ""), "{line}");
+    text
+}
+
+/// The JSON object that such a run prints.
+pub(crate) fn json(line: &str) -> Value {
+    serde_json::from_str(&page(line)).unwrap()
+}
+
+/// Checks that the page of each command line, without line ends, has every part and lacks those
+/// behind `!`.
+#[track_caller]
+pub(crate) fn prints(rows: &[(&str, &[&str])]) {
+    for (line, parts) in rows {
+        let page = in_a_line(&page(line));
+        for part in *parts {
+            let is_right = match part.strip_prefix('!') {
+                Some(absent) => !page.contains(absent),
+                None => page.contains(part),
+            };
+            assert!(is_right, "{line}: {part:?}: {page}");
+        }
+    }
 }
