@@ -1,12 +1,13 @@
 //! The commands with variants, and comparisons of cases.
 
-use crate::program::run;
-use clap::CommandFactory;
 use std::fs;
-use tipstrike::cli::Arguments;
 
+use clap::CommandFactory;
 use serde_json::Value;
 use tempfile::TempDir;
+use tipstrike::cli::Arguments;
+
+use crate::program::{has, run};
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 
@@ -24,13 +25,16 @@ centre_distance = "200 mm"
 "#;
 
 /// Table 1 with variants, and its path.
-fn case() -> (TempDir, String) {
+fn with(variants: &str) -> (TempDir, String) {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("gear.toml");
-    let text = fs::read_to_string(TABLE_1).unwrap();
-    fs::write(&path, text + VARIANTS).unwrap();
+    fs::write(&path, fs::read_to_string(TABLE_1).unwrap() + variants).unwrap();
     let path = path.to_str().unwrap().to_owned();
     (folder, path)
+}
+
+fn case() -> (TempDir, String) {
+    with(VARIANTS)
 }
 
 fn json(arguments: &[&str]) -> Value {
@@ -69,14 +73,10 @@ fn a_refused_variant_keeps_its_column_and_names_the_reason() {
     let (_folder, case) = case();
     let (code, text, errors) = run(&["compare", &case]);
     assert_eq!(code, 0);
-    let (place, reason) = errors.split_once(": ").unwrap();
-    assert_eq!(place, format!("{case}:66:19"), "{errors}");
-    assert!(
-        reason.starts_with("variants.far.pair.centre_distance: the tips do not reach each other"),
-        "{errors}"
-    );
+    let reason = "variants.far.pair.centre_distance: the tips do not reach each other";
+    assert!(errors.starts_with(&format!("{case}:66:19: {reason}")), "{errors}");
     assert!(errors.ends_with("(with --variant far)\n"), "{errors}");
-    assert!(text.contains("Refused: pair.centre_distance"), "{text}");
+    has(&text, &["Refused: pair.centre_distance"]);
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     let (code, text, _) = run(&["compare", &case, "--variant", "far", "--format", "csv"]);
     assert_eq!(code, 0);
@@ -89,10 +89,10 @@ fn a_refused_variant_keeps_its_column_and_names_the_reason() {
 fn cases_and_variants_are_compared_with_differences_and_units() {
     let (_folder, case) = case();
     let only = ["--only", "F_S,total_deviation,u", "--variant", "relieved,slow"];
-    let (_, text, _) = run(&[&["compare", &case], &only[..]].concat());
-    insta::assert_snapshot!("compare_text", text.replace(&case, "gear.toml"));
-    let (_, text, _) = run(&[&["compare", &case, "--format", "md"], &only[..]].concat());
-    insta::assert_snapshot!("compare_markdown", text.replace(&case, "gear.toml"));
+    for (name, format) in [("compare_text", "text"), ("compare_markdown", "md")] {
+        let (_, text, _) = run(&[&["compare", &case, "--format", format], &only[..]].concat());
+        insta::assert_snapshot!(name, text.replace(&case, "gear.toml"));
+    }
     let others =
         ["compare", TABLE_1, "cases/tip-relief-enough.toml", "--only", "F_S", "--format", "csv"];
     let (code, text, _) = run(&others);
@@ -103,22 +103,16 @@ fn cases_and_variants_are_compared_with_differences_and_units() {
 
 #[test]
 fn an_input_without_a_symbol_has_its_label_where_labels_do_not_fit() {
-    let folder = TempDir::new().unwrap();
-    let path = folder.path().join("gear.toml");
-    let variants = "[variants.method]\nmodel.method = \"paper\"\n\
+    let (_folder, case) = with(
+        "[variants.method]\nmodel.method = \"paper\"\n\
         [variants.accurate]\nmodel.accurate = true\n\
-        [variants.tolerance]\nmodel.tolerance = 1e-5\n";
-    let broad = "[variants.broad]\nspread.\"deviations.base_pitch\" = { truncated = \"1 um\" }\n";
-    let text = fs::read_to_string(TABLE_1).unwrap();
-    fs::write(&path, text + variants + broad).unwrap();
-    let (code, text, _) = run(&["compare", path.to_str().unwrap()]);
+        [variants.tolerance]\nmodel.tolerance = 1e-5\n\
+        [variants.broad]\nspread.\"deviations.base_pitch\" = { truncated = \"1 um\" }\n",
+    );
+    let (code, text, _) = run(&["compare", &case]);
     assert_eq!(code, 0);
-    let inputs = text.split("\n\n").find(|part| part.starts_with("Inputs"));
-    let inputs = inputs.unwrap();
-    for label in ["method", "accurate"] {
-        let row = format!("\n  {label} ");
-        assert!(inputs.contains(&row), "{label}: {inputs}");
-    }
+    let inputs = text.split("\n\n").find(|part| part.starts_with("Inputs")).unwrap();
+    has(inputs, &["\n  method ", "\n  accurate "]);
 }
 
 #[test]
@@ -146,43 +140,41 @@ fn every_command_that_takes_a_case_takes_a_variant() {
         let after = after.map_or(&[][..], |(_, arguments)| arguments);
         let wrong = ["--variant", "releived"];
         let (code, _, errors) = run(&[&[name], before, &[case.as_str()], after, &wrong].concat());
-        assert_eq!(code, 2, "{name}: {errors}");
-        assert!(errors.contains("did you mean relieved?"), "{name}: {errors}");
+        assert!(code == 2 && errors.contains("did you mean relieved?"), "{name}: {errors}");
     }
     let (_, own, _) = run(&["explain", "impact_force", &case]);
     let (code, varied, _) = run(&["explain", "impact_force", &case, "--variant", "slow"]);
     assert!(code == 0 && own != varied);
     let (code, text, _) = run(&["check", &case, "--variant", "slow"]);
     assert_eq!(code, 0, "{text}");
-    assert!(text.contains("900") && text.contains("gear.toml:slow"), "{text}");
+    has(&text, &["900", "gear.toml:slow"]);
     let (code, _, errors) = run(&["solve", &case, "--variant", "far"]);
     assert_eq!(code, 3);
-    assert!(errors.contains("variants.far.pair.centre_distance"), "{errors}");
-    assert!(errors.ends_with("(with --variant far)\n"), "{errors}");
+    has(&errors, &["variants.far.pair.centre_distance", "(with --variant far)\n"]);
 }
 
 #[test]
 fn a_comparison_with_nothing_or_with_an_unknown_variant_is_wrong_usage() {
-    let (code, _, errors) = run(&["compare", TABLE_1]);
-    assert_eq!(code, 2);
-    assert!(errors.contains("the case has no variants"), "{errors}");
     let (_folder, case) = case();
-    let (code, _, errors) = run(&["compare", &case, "--variant", "lsow"]);
-    assert_eq!(code, 2);
-    assert!(errors.contains("did you mean slow?"), "{errors}");
+    for (arguments, words) in [
+        (&["compare", TABLE_1][..], "the case has no variants"),
+        (&["compare", &case, "--variant", "lsow"], "did you mean slow?"),
+    ] {
+        let (code, _, errors) = run(arguments);
+        assert!(code == 2 && errors.contains(words), "{errors}");
+    }
 }
 
 /// `static` and `dynamic` define the equivalent error without the reliefs, `exact` with them.
 #[test]
 fn a_column_has_the_values_and_the_definitions_of_its_own_solve() {
-    let folder = TempDir::new().unwrap();
-    let path = folder.path().join("gear.toml");
-    let text = fs::read_to_string(TABLE_1).unwrap();
-    let methods = "\n[variants.rest]\nmodel.method = \"static\"\n\
-                   [variants.motion]\nmodel.method = \"dynamic\"\n";
-    fs::write(&path, text.replace("tip_relief = \"0 um\"", "tip_relief = \"9 um\"") + methods)
-        .unwrap();
-    let case = path.to_str().unwrap();
+    let (_folder, case) = with(
+        "\n[variants.rest]\nmodel.method = \"static\"\n\
+        [variants.motion]\nmodel.method = \"dynamic\"\n",
+    );
+    let case = case.as_str();
+    let text = fs::read_to_string(case).unwrap();
+    fs::write(case, text.replace("tip_relief = \"0 um\"", "tip_relief = \"9 um\"")).unwrap();
     let compared = json(&["compare", case, "--format", "json"]);
     for (column, method) in
         compared["columns"].as_array().unwrap().iter().zip(["exact", "static", "dynamic"])

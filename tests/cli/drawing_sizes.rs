@@ -1,9 +1,8 @@
 //! Sizes from drawings: diametral pitch, tip and root diameters instead of module, addendum and
 //! dedendum coefficients.
 use std::fs;
-use std::process::{Command, Output, Stdio};
 
-use crate::program::has;
+use crate::program::{has, program, texts};
 use serde_json::Value;
 use tipstrike::case::{Case, Document, FIELDS, fields::index_of};
 
@@ -18,28 +17,23 @@ fn drawing() -> String {
     text.replace("addendum = 1.0\n", diameters)
 }
 
-fn run(case: &str, arguments: &[&str]) -> Output {
+/// The exit code and the outputs of a run beside the file `case.toml`.
+fn run(case: &str, arguments: &[&str]) -> (i32, String, String) {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("case.toml"), case).unwrap();
-    Command::new(env!("CARGO_BIN_EXE_tipstrike"))
-        .args(arguments)
-        .current_dir(folder.path())
-        .stdin(Stdio::null())
-        .output()
-        .unwrap()
+    texts(program(arguments).current_dir(folder.path()).output().unwrap())
 }
 
 fn stdout(case: &str, arguments: &[&str]) -> String {
-    let output = run(case, arguments);
-    let problem = String::from_utf8_lossy(&output.stderr).into_owned();
+    let (_, text, problem) = run(case, arguments);
     assert_eq!(problem, "", "{arguments:?}");
-    String::from_utf8(output.stdout).unwrap()
+    text
 }
 
 fn refusal(case: &str, arguments: &[&str]) -> String {
-    let output = run(case, arguments);
-    assert_ne!(output.status.code(), Some(0));
-    String::from_utf8(output.stderr).unwrap()
+    let (code, _, problem) = run(case, arguments);
+    assert_ne!(code, 0);
+    problem
 }
 
 fn quantities(json: &str) -> Value {
@@ -71,17 +65,22 @@ fn a_case_from_a_drawing_has_the_results_of_its_coefficients() {
 
 #[test]
 fn both_ways_to_give_one_size_are_refused_at_the_second() {
-    let both = TABLE_1.replace("[driver]\n", "[driver]\ntip_diameter = \"110 mm\"\n");
-    let message = refusal(&both, &["solve", "case.toml"]);
-    let expected = "driver.tip_diameter: driver.addendum and driver.tip_diameter are both given: \
-                    remove one of them";
-    assert!(message.contains(expected), "{message}");
-    let both = TABLE_1.replace("[pair]\n", "[pair]\ndiametral_pitch = \"8 1/in\"\n");
-    let message = refusal(&both, &["solve", "case.toml"]);
-    has(&message, &["pair.module and pair.diametral_pitch are both given: remove one"]);
-    let neither = TABLE_1.replace("module = \"5 mm\"\n", "");
-    let message = refusal(&neither, &["solve", "case.toml"]);
-    assert!(message.contains("neither pair.module nor pair.diametral_pitch is given"), "{message}");
+    for (from, to, message) in [
+        (
+            "[driver]\n",
+            "[driver]\ntip_diameter = \"110 mm\"\n",
+            "driver.tip_diameter: driver.addendum and driver.tip_diameter are both given: remove \
+                one of them",
+        ),
+        (
+            "[pair]\n",
+            "[pair]\ndiametral_pitch = \"8 1/in\"\n",
+            "pair.module and pair.diametral_pitch are both given: remove one",
+        ),
+        ("module = \"5 mm\"\n", "", "neither pair.module nor pair.diametral_pitch is given"),
+    ] {
+        has(&refusal(&TABLE_1.replace(from, to), &["solve", "case.toml"]), &[message]);
+    }
 }
 
 #[test]
@@ -106,15 +105,12 @@ fn a_diameter_beyond_the_range_of_its_coefficient_is_refused_with_the_range() {
         assert!(found.contains(key) && found.contains(message), "{found}");
     }
     let sweep = ["sweep", "case.toml", "--vary", "driven.tip_diameter=110,130 mm"];
-    let output = run(TABLE_1, &[&sweep[..], &["--only", "contact_ratio"]].concat());
-    let rows = String::from_utf8(output.stdout).unwrap();
+    let (_, rows, _) = run(TABLE_1, &[&sweep[..], &["--only", "contact_ratio"]].concat());
     let last = rows.lines().last().unwrap();
     assert!(last.starts_with("130,") && last.contains("refused"), "{rows}");
     let interferes = ["sweep", "case.toml", "--vary", "driven.tip_diameter=110,120 mm"];
-    let output = run(TABLE_1, &interferes);
-    let errors = String::from_utf8(output.stderr).unwrap();
-    let named = "at driven.tip_diameter = 120 mm: driven.tip_diameter: interference";
-    assert!(errors.contains(named), "{errors}");
+    let (_, _, errors) = run(TABLE_1, &interferes);
+    has(&errors, &["at driven.tip_diameter = 120 mm: driven.tip_diameter: interference"]);
 }
 
 #[test]
@@ -131,18 +127,9 @@ fn a_setting_replaces_its_alternative_and_a_sweep_varies_it() {
     let values: Vec<f64> =
         rows.lines().skip(1).map(|row| row.split(',').nth(1).unwrap().parse().unwrap()).collect();
     assert!((values[0] - with("driven.addendum=0.9")).abs() < 1e-12, "{rows}");
-    let message = refusal(
-        TABLE_1,
-        &[
-            "sweep",
-            "case.toml",
-            "--vary",
-            "pair.module=4..5 mm",
-            "--set",
-            "pair.diametral_pitch=8 1/in",
-        ],
-    );
-    assert!(message.contains("--vary replaces this value"), "{message}");
+    let vary = ["sweep", "case.toml", "--vary", "pair.module=4..5 mm"];
+    let both = [&vary[..], &["--set", "pair.diametral_pitch=8 1/in"]].concat();
+    has(&refusal(TABLE_1, &both), &["--vary replaces this value"]);
 }
 
 #[test]
@@ -160,33 +147,28 @@ fn saving_keeps_the_size_that_the_user_wrote() {
 #[test]
 fn the_page_of_a_quantity_shows_the_coefficient_that_a_diameter_gives() {
     let page = stdout(&drawing(), &["explain", "contact_ratio", "case.toml"]);
-    assert!(page.contains("driver.tip_diameter") && page.contains("2.75 in"), "{page}");
+    has(&page, &["driver.tip_diameter", "2.75 in", "3.175 mm"]);
     assert!(!page.contains("driver.addendum "), "{page}");
-    assert!(page.contains("3.175 mm"), "{page}");
 }
 
 #[test]
 fn a_value_follows_from_each_alternative() {
-    let case = Document::parse("case.toml", &drawing()).unwrap().case;
-    let inputs = case.inputs().unwrap();
-    let derived = |key: &str| case.derived(index_of(key).unwrap(), &inputs);
-    for (key, expected) in
-        [("pair.module", 3.175e-3), ("driver.addendum", 1.0), ("driven.dedendum", 1.25)]
-    {
-        let found = derived(key).unwrap();
-        assert!((found / expected - 1.0).abs() < 1e-12, "{key}: {found}");
-    }
-    assert_eq!(derived("pair.diametral_pitch"), None, "it is given");
+    let drawn = Document::parse("case.toml", &drawing()).unwrap().case;
+    let derived =
+        |case: &Case, key: &str| case.derived(index_of(key).unwrap(), &case.inputs().unwrap());
     let table_1 = Case::table_1();
-    let inputs = table_1.inputs().unwrap();
-    for (key, expected) in [
-        ("pair.diametral_pitch", 200.0),
-        ("driver.tip_diameter", 0.11),
-        ("driven.root_diameter", 0.0875),
+    for (case, key, expected) in [
+        (&drawn, "pair.module", 3.175e-3),
+        (&drawn, "driver.addendum", 1.0),
+        (&drawn, "driven.dedendum", 1.25),
+        (&table_1, "pair.diametral_pitch", 200.0),
+        (&table_1, "driver.tip_diameter", 0.11),
+        (&table_1, "driven.root_diameter", 0.0875),
     ] {
-        let found = table_1.derived(index_of(key).unwrap(), &inputs).unwrap();
+        let found = derived(case, key).unwrap();
         assert!((found / expected - 1.0).abs() < 1e-12, "{key}: {found}");
     }
+    assert_eq!(derived(&drawn, "pair.diametral_pitch"), None, "it is given");
     for field in &FIELDS {
         let other = field.partner().map(|other| &FIELDS[other]);
         assert!(other.is_none_or(|other| other.alternative == Some(field.key)));
