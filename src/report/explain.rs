@@ -281,7 +281,7 @@ pub struct Effect {
 
 /// The fields behind a quantity, in the order of the form. For method `auto`, the tolerance follows
 /// from `model.within`.
-pub(super) fn effects_of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
+fn effects_of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
     // Every step would need a motion at every speed, and the greatest of them moves from speed to
     // speed.
     if quantity.stage == Stage::SpeedRun {
@@ -373,7 +373,7 @@ fn noise(quantity: &Quantity, inputs: &Inputs) -> f64 {
 }
 
 /// Sentences on the accuracy of a quantity.
-pub(super) fn accuracy_of(quantity: &Quantity, known: &Known) -> Vec<String> {
+fn accuracy_of(quantity: &Quantity, known: &Known) -> Vec<String> {
     let Some(own) = value(quantity, known.context.solution) else {
         return Vec::new();
     };

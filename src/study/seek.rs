@@ -359,19 +359,17 @@ mod tests {
 
     #[test]
     fn a_condition_compares_a_quantity_or_an_outcome() {
+        let compared = |key: &str, relation: Relation, limit: f64| {
+            Kind::Compared(Quantity::find(key).unwrap(), relation, limit)
+        };
+        let strict = |relation: Relation| Relation { is_strict: true, ..relation };
         for (text, kind) in [
-            ("impact_force<=2.5 kN", Kind::Compared("impact_force", AT_MOST, 2500.0)),
-            (
-                "F_S < 2500 N",
-                Kind::Compared("impact_force", Relation { is_strict: true, ..AT_MOST }, 2500.0),
-            ),
-            ("contact_ratio>=1.4", Kind::Compared("contact_ratio", AT_LEAST, 1.4)),
-            (
-                "contact_ratio>1.4",
-                Kind::Compared("contact_ratio", Relation { is_strict: true, ..AT_LEAST }, 1.4),
-            ),
+            ("impact_force<=2.5 kN", compared("impact_force", AT_MOST, 2500.0)),
+            ("F_S < 2500 N", compared("impact_force", strict(AT_MOST), 2500.0)),
+            ("contact_ratio>=1.4", compared("contact_ratio", AT_LEAST, 1.4)),
+            ("contact_ratio>1.4", compared("contact_ratio", strict(AT_LEAST), 1.4)),
             ("outcome=no-corner-contact", Kind::Outcome(Outcome::NoCornerContact)),
-            ("dynamic_contact_lost=false", Kind::Compared("dynamic_contact_lost", AT_MOST, 0.0)),
+            ("dynamic_contact_lost=false", compared("dynamic_contact_lost", AT_MOST, 0.0)),
         ] {
             assert_eq!(Condition::parse(text).unwrap().kind, kind, "{text}");
         }
