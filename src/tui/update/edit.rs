@@ -263,7 +263,7 @@ fn edit_row(app: &mut App, row: usize) {
 pub(super) fn ask_spread(app: &mut App) {
     match spread_field(app) {
         Some(field) if app.layout.focus() == Pane::Form => begin_spread(app, field),
-        _ => app.pick(Picker::fields("Distribution of a field", begin_spread)),
+        _ => app.pick(Picker::fields("Distribution of a field", true, begin_spread)),
     }
 }
 
@@ -279,11 +279,7 @@ fn spread_field(app: &App) -> Option<usize> {
 
 /// Goes to the distribution of a field; a new one is empty.
 fn begin_spread(app: &mut App, field: usize) {
-    let Field { key, kind, .. } = FIELDS[field];
-    if !matches!(kind, Kind::Number(..)) {
-        let label = FIELDS[field].full_label();
-        return app.complain(format!("{label} has no distribution: choose a number with decimals"));
-    }
+    let Field { key, .. } = FIELDS[field];
     if rows::of_entry(&app.tab.case, key).is_none() {
         app.tab.case.write_spread(key, "");
     }

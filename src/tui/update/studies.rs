@@ -252,7 +252,7 @@ fn show_grid(app: &mut App) {
 /// Chooses the field of the study, or follows the focused field again.
 pub(super) fn first(app: &mut App) {
     if app.study.field.take().is_none() {
-        let picker = Picker::fields("Field of the study", |app, field| {
+        let picker = Picker::fields("Field of the study", false, |app, field| {
             (app.study.field, app.study.is_tolerance) = (Some(field), false);
             app.study.second = app.study.second.filter(|second| *second != field);
         });
@@ -263,7 +263,7 @@ pub(super) fn first(app: &mut App) {
 /// Chooses a second field, or leaves the map.
 pub(super) fn second(app: &mut App) {
     if app.study.second.take().is_none() {
-        let picker = Picker::fields("Second field of the map", |app, field| {
+        let picker = Picker::fields("Second field of the map", false, |app, field| {
             if self::field(app) == Some(field) {
                 return app.complain("the second field is the first one: choose another");
             }

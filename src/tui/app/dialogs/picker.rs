@@ -86,10 +86,18 @@ impl Picker {
         Picker { title, items, typed, input: Line::default(), selected: 0, preview }
     }
 
-    /// Every field with a value.
-    pub(crate) fn fields(title: &'static str, choose: fn(&mut App, usize)) -> Picker {
-        let fields = FIELDS.iter().enumerate();
-        let valued = fields.filter(|(_, field)| !matches!(field.kind, Kind::Text));
+    /// Every field with a value, only those that are no count or choice if `are_numbers`.
+    pub(crate) fn fields(
+        title: &'static str,
+        are_numbers: bool,
+        choose: fn(&mut App, usize),
+    ) -> Picker {
+        let is_valued = |field: &Field| match field.kind {
+            Kind::Text => false,
+            Kind::Number(..) => true,
+            _ => !are_numbers,
+        };
+        let valued = FIELDS.iter().enumerate().filter(|(_, field)| is_valued(field));
         let item = |(at, field)| Item::field(Choice::of(move |app| choose(app, at)), field);
         Picker::new(title, valued.map(item), &[])
     }
