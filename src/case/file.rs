@@ -804,7 +804,7 @@ mod tests {
                     [driver]\r\nteeth = 20 # z1\n[driven]\n";
         assert_eq!(
             without_comments(text),
-            "format = 1\nnotes = \"\"\"one\n# two\n\n[three]\n\"\"\"\n[driver]\nteeth = 20 # z1"
+            "format = 1\nnotes = \"\"\"one\n# two\n\n[three]\n\"\"\"\n[driver]\nteeth = 20"
         );
     }
 }
