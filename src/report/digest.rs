@@ -127,7 +127,7 @@ fn at_exit(solution: &Solution, entry: f64, system: System) -> String {
     let force = of_contact.and_then(|_| of("static_force_at_end", solution));
     let is_larger = force.is_some_and(|force| force > LARGER * entry);
     let shown = printed("static_force_at_end", solution, system).filter(|_| is_larger);
-    shown.map_or_else(String::new, |force| format!("; at the exit {force} on the driver's tip"))
+    shown.map_or_else(String::new, |force| format!("; at the exit {force}"))
 }
 
 /// A quantity of the free impact, or its counterpart in the method.
