@@ -528,7 +528,9 @@ impl<'a> System<'a> {
     /// See [`Position::lines`].
     fn lines<const ROW: usize>(&self) -> Option<Vec<[f64; 2]>> {
         let (slices, pairs, count) = (&self.at.face.slices, self.at.pairs.max(1), self.spans.len());
-        let (mut rows, mut sides) = (Rows::<f64, ROW>::new(), Vec::new());
+        let most = slices.len() * count;
+        let (mut rows, mut sides) =
+            (Rows::<f64, ROW>::with_capacity(most), Vec::with_capacity(most));
         let mut known = vec![0; count];
         let of_slices = self.at.contacts.chunks(pairs).zip(self.touching.chunks(pairs));
         for (number, (slice, (contacts, touching))) in slices.iter().zip(of_slices).enumerate() {
@@ -548,17 +550,23 @@ impl<'a> System<'a> {
                 rows.push(entries);
                 sides.push([0.0; 2]);
             }
-            for &pair in self.active.iter().filter(|pair| touching[**pair]) {
+            let active = self.active.iter().enumerate();
+            for (index, &pair) in active.filter(|(_, pair)| touching[**pair]) {
                 let Contact { gap, local, root, .. } = contacts[pair];
                 let push = slice.width * root / local;
-                let factors = self.factors[pair * count..][..count].iter().zip(&known);
-                let factors = factors.filter(|(factor, _)| **factor != 0.0);
-                for (at, (factor, &row)) in factors.clone().enumerate() {
-                    let push = push * factor;
-                    for (other, before) in factors.clone().take(at + 1) {
-                        rows[row][row - before] += push * root * other;
+                let factors = &self.factors[pair * count..=pair * count + index];
+                for (at, factor) in factors.iter().enumerate() {
+                    if *factor == 0.0 {
+                        continue;
                     }
-                    sides[row] = [sides[row][0] + push, sides[row][1] + push * gap];
+                    let (row, push) = (known[at], push * factor);
+                    let (entries, side) = (&mut rows[row], &mut sides[row]);
+                    for (other, before) in factors[..=at].iter().zip(&known) {
+                        if *other != 0.0 {
+                            entries[row - before] += push * root * other;
+                        }
+                    }
+                    *side = [side[0] + push, side[1] + push * gap];
                 }
             }
         }
