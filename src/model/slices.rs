@@ -79,7 +79,23 @@ impl Face {
         geometry: &Geometry,
         mesh: &Arc<Mesh>,
     ) -> Result<Face, Refusal> {
-        let places = inputs.places(inputs.count(mesh.base_pitch));
+        let sections = mesh.sections(geometry)?;
+        Ok(Face::at(inputs, (mesh, &sections), &inputs.places(inputs.count(mesh.base_pitch))))
+    }
+
+    /// The face width with a slice between every two.
+    fn halved(&self) -> Face {
+        let between = |pair: &[Slice]| [f64::midpoint(pair[0].z, pair[1].z), pair[1].z];
+        let first = self.slices.first().map(|slice| slice.z);
+        let places = first.into_iter().chain(self.slices.windows(2).flat_map(between));
+        Face::at(&self.inputs, (&self.mesh, &self.sections), &places.collect::<Vec<f64>>())
+    }
+
+    fn at(
+        inputs: &FaceInputs,
+        (mesh, sections): (&Arc<Mesh>, &Arc<Series<5>>),
+        places: &[f64],
+    ) -> Face {
         let slice = |number: usize| {
             let z = places[number];
             let before = number.checked_sub(1).map_or(z, |before| places[before]);
@@ -104,14 +120,14 @@ impl Face {
                 pivot = own - slice.exchange[side] * slice.tail[side];
             }
         }
-        Ok(Face {
+        Face {
             inputs: *inputs,
             mesh: Arc::clone(mesh),
-            sections: mesh.sections(geometry)?,
+            sections: Arc::clone(sections),
             reach: 0.5 * inputs.width * inputs.lead.abs(),
             least_gap: slices.iter().map(|slice| slice.gap).fold(f64::INFINITY, f64::min),
             slices,
-        })
+        }
     }
 
     /// z of each slice, in m.

@@ -66,8 +66,6 @@ pub struct FaceCycle {
     pub mean_slope: f64,
     /// K_Hβ: greatest line load of all pairs, averaged over a base pitch, over its mean.
     pub face_load_factor: f64,
-    /// Line load of all pairs at each slice, averaged over a base pitch, in N/m.
-    pub line_loads: Vec<f64>,
     /// Swing of the point of attack of the force along the face, in m.
     pub swing: f64,
 }
@@ -102,16 +100,17 @@ impl Part {
 
 impl Face {
     /// Number of places in a base pitch at which the load is solved; more for narrow slices. The slices
-    /// excite at their number in a base pitch: so many places keep this order out of the harmonics.
+    /// excite at their number in a base pitch and its multiples: a place at every second and a half of
+    /// them, or more, keeps these orders out of the harmonics.
     fn steps(&self) -> usize {
-        const LEAST: usize = 64;
+        const USUAL: f64 = 64.0;
         const MOST: f64 = 128.0;
         const SLICES: usize = 4;
         let count = self.slices.len();
         let order = count as f64 * self.mesh.base_pitch / (2.0 * self.reach);
-        // A higher order is that of a small helix angle, and weak.
-        let order = if order < MOST { order as usize } else { 0 };
-        LEAST.max(count / SLICES).max(order + 2 + HARMONICS)
+        let mut places = [2.5, 1.5].into_iter().map(|times| times * order);
+        let places = places.find(|places| *places <= MOST).unwrap_or(USUAL);
+        (count / SLICES).max(places.round() as usize).max(4 * HARMONICS)
     }
 
     /// The path of a pair at a slice, in m.
@@ -195,17 +194,38 @@ impl Face {
     /// K_Hβ = b max w(z)/F0,   w(z) = mean of Σ_k p_k(z) over a base pitch
     /// ```
     ///
+    /// If the case gives no number of slices, there are twice as many, and the harmonics are
+    /// extrapolated from both numbers: the error of slices falls with the square of their width.
+    ///
     /// # Source
-    /// K_Hβ of ISO 6336-1:2019, 7.2, by the line load of all pairs.
+    /// K_Hβ of ISO 6336-1:2019, 7.2, by the line load of all pairs. Extrapolation: Richardson 1911.
     ///
     /// # Errors
     /// Those of [`Face::loads`].
     pub fn cycle(&self) -> Result<(FaceCycle, StaticSpectrum), Refusal> {
-        let (pitch, steps) = (self.mesh.base_pitch, self.steps());
+        if self.inputs.slices.is_some() {
+            return self.period(self.steps(), None);
+        }
+        let (_, period) = self.samples_of_period(self.steps())?;
+        self.halved().period(self.steps(), Some(harmonics(&period)))
+    }
+
+    /// The balances of a base pitch without deviations, both ends included.
+    fn samples_of_period(&self, steps: usize) -> Result<(Passage<'_>, Vec<Rc<Loads>>), Refusal> {
+        let pitch = self.mesh.base_pitch;
         let passage = Passage::new(self, None, Incoming::Alike);
-        let places: Vec<f64> =
-            (0..=steps).map(|number| pitch * number as f64 / steps as f64).collect();
-        let period = passage.samples(&places)?;
+        let place = |number: usize| pitch * number as f64 / steps as f64;
+        let period = passage.samples(&(0..=steps).map(place).collect::<Vec<_>>())?;
+        Ok((passage, period))
+    }
+
+    /// See [`Face::cycle`]; with the harmonics by slices of twice the width, if known.
+    fn period(
+        &self,
+        steps: usize,
+        coarse: Option<[[f64; 2]; HARMONICS]>,
+    ) -> Result<(FaceCycle, StaticSpectrum), Refusal> {
+        let (passage, period) = self.samples_of_period(steps)?;
         let all = &period[..steps];
         let mean =
             |of: fn(&Loads) -> f64| all.iter().map(|loads| of(loads)).sum::<f64>() / steps as f64;
@@ -213,14 +233,6 @@ impl Face {
         for loads in all {
             for (sum, line_load) in line_loads.iter_mut().zip(loads.of_all()) {
                 *sum += line_load / steps as f64;
-            }
-        }
-        let mut sums = [[0.0; 2]; HARMONICS];
-        for (number, loads) in all.iter().enumerate() {
-            for (order, sum) in (1..).zip(&mut sums) {
-                let (sine, cosine) =
-                    (TAU * f64::from(order) * number as f64 / steps as f64).sin_cos();
-                *sum = [sum[0] + loads.displacement * cosine, sum[1] + loads.displacement * sine];
             }
         }
         let extreme = |of: &dyn Fn(&Loads) -> f64| passage.greatest(&period, of).1;
@@ -234,10 +246,14 @@ impl Face {
             mean_slope: mean(|loads| loads.stiffness),
             face_load_factor: most * self.inputs.width / self.over_face(&line_loads, |_| 1.0),
             swing: extreme(&middle) + extreme(&|loads| -middle(loads)),
-            line_loads,
         };
+        let mut harmonics = harmonics(&period);
+        for (fine, coarse) in harmonics.iter_mut().flatten().zip(coarse.iter().flatten().flatten())
+        {
+            *fine += (*fine - coarse) / 3.0;
+        }
         let spectrum = Spectrum {
-            amplitudes: sums.map(|[cosine, sine]| 2.0 * cosine.hypot(sine) / steps as f64),
+            amplitudes: harmonics.map(|[cosine, sine]| cosine.hypot(sine)),
             peak_to_peak: extreme(&|loads| loads.displacement)
                 + extreme(&|loads| -loads.displacement),
         };
@@ -348,6 +364,20 @@ impl Face {
         };
         Ok((load, Some(Arc::new(FaceLoad { least_gap, ..face.clone() }))))
     }
+}
+
+/// The harmonics of the displacement over a base pitch, as cosines and sines, in m.
+fn harmonics(period: &[Rc<Loads>]) -> [[f64; 2]; HARMONICS] {
+    let steps = (period.len() - 1) as f64;
+    let mut sums = [[0.0; 2]; HARMONICS];
+    for (number, loads) in period[1..].iter().enumerate() {
+        for (order, sum) in (1..).zip(&mut sums) {
+            let (sine, cosine) = (TAU * f64::from(order) * (number + 1) as f64 / steps).sin_cos();
+            let part = 2.0 * loads.displacement / steps;
+            *sum = [sum[0] + part * cosine, sum[1] + part * sine];
+        }
+    }
+    sums
 }
 
 /// The passage of the incoming tooth, at rest or in motion.
