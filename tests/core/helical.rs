@@ -280,6 +280,51 @@ fn the_relief_that_clears_the_motion_clears_it() {
     }
 }
 
+/// The slices excite at orders above the harmonics, and their error is extrapolated.
+#[test]
+fn the_usual_slices_have_the_harmonics_of_many_slices() {
+    for (degrees, width, misalignment) in
+        [(20.0, 25e-3, 0.0), (10.0, 25e-3, 0.0), (30.0, 40e-3, 20e-6), (20.0, 60e-3, 0.0)]
+    {
+        let mut pair = Inputs { misalignment, ..helical() };
+        pair.helix_angle = f64::to_radians(degrees);
+        for gear in [&mut pair.driver, &mut pair.driven] {
+            gear.face_width = width;
+        }
+        let amplitudes = |slices| {
+            let inputs = Inputs { slices, ..pair.clone() };
+            let solution = solve(&inputs, Stages::of(Stage::StaticSpectrum)).expect("a load");
+            solution.static_spectrum.expect("a spectrum").expect("a spectrum").spectrum.amplitudes
+        };
+        let (usual, many) = (amplitudes(None), amplitudes(Some(513)));
+        for (order, (usual, many_of)) in usual.into_iter().zip(many).enumerate() {
+            let off = (usual - many_of).abs() / many[0];
+            assert!(off < 2.5e-3, "{degrees} deg, order {}: {off:.1e} of the first", order + 1);
+        }
+    }
+}
+
+/// With the load in proportion to the face width.
+#[test]
+fn faces_of_1_mm_to_1_m_have_alike_loads() {
+    let of_width = |width: f64| {
+        let mut pair = Inputs { helix_angle: 12f64.to_radians(), ..helical() };
+        for gear in [&mut pair.driver, &mut pair.driven] {
+            gear.face_width = width;
+        }
+        pair.drive = Drive::Torque(1e4 * width);
+        let solution = solve(&pair, Stages::of(Stage::StaticSpectrum)).expect("a load");
+        let cycle = solution.face_cycle.expect("slices");
+        (cycle.mean_displacement, cycle.face_load_factor)
+    };
+    let (widest, _) = of_width(1.0);
+    for width in [1e-3, 1e-2, 0.1] {
+        let (displacement, factor) = of_width(width);
+        assert!((0.9..1.2).contains(&(displacement / widest)), "{width}: {displacement:e}");
+        assert!((1.0..1.1).contains(&factor), "{width}: {factor}");
+    }
+}
+
 #[test]
 fn what_slices_cannot_answer_is_refused_by_name() {
     let code = |inputs: Inputs| solve(&inputs, STATIC).expect_err("a refusal").code();
@@ -295,6 +340,11 @@ fn what_slices_cannot_answer_is_refused_by_name() {
     (long.driven.end_reliefs, long.driven.end_relief_length) = ([5e-6; 2], Some(15e-3));
     assert_eq!(code(long), "end-reliefs-overlap");
     assert_eq!(code(Inputs { method: Method::Paper, ..helical() }), "not-over-face");
+    let mut light = Inputs { backlash: 1e-6, base_pitch_deviation: 4e-5, ..helical() };
+    (light.drive, light.speed) = (Drive::Torque(1.0), 900.0);
+    let light = Inputs { method: Method::Dynamic, ..light };
+    let refusal = solve(&light, Stages::of(Stage::Dynamic)).expect_err("back flanks");
+    assert_eq!(refusal.code(), "back-flanks-over-face");
     let exact = Inputs { method: Method::Exact, ..helical() };
     let exact = solve(&exact, Stages::CLOSED_FORM).expect("a place");
     assert!(exact.position.is_some() && exact.impact.is_none());
