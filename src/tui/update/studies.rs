@@ -95,11 +95,9 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
         let (mut case, inputs) = (tab.case.clone(), inputs.clone());
         case.drop_empty(None);
         if case.spread.is_empty() {
-            return Err(
-                "The case has no [spread]: Alt-D in a field gives that field a distribution. \
+            return Err("The case has no [spread]: Alt-D gives a field a distribution. \
                 d in this pane shows the field over its range."
-                    .to_owned(),
-            );
+                .to_owned());
         }
         let parameters = ToleranceParameters { case, inputs, quantity: quantity.key };
         return Ok(StudyParameters::Tolerance(Box::new(parameters)));
