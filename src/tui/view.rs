@@ -227,11 +227,12 @@ fn about_spread(app: &App, spread: &Spread) -> String {
     let case = &app.tab.case;
     let (_, name) = rows::names_of(case, app.tab.form.focus);
     let field = index_of(spread.field);
-    let value = field.and_then(|field| case.effective(field)).unwrap_or("its value");
+    let value = field.and_then(|field| case.effective(field));
+    let value = value.map_or(", which has no value".to_owned(), |value| format!(" around {value}"));
     let unit = field.map_or("", |field| FIELDS[field].usual_unit());
     let grade = if spread.field.ends_with("base_pitch") { ", grade 7" } else { "" };
     format!(
-        "Distribution of {name} around {value}: normal 1 {unit} (standard deviation), uniform, \
+        "Distribution of {name}{value}: normal 1 {unit} (standard deviation), uniform, \
             triangular or truncated 1 {unit} (half-width){grade}; empty: none."
     )
 }
