@@ -6,7 +6,7 @@ use crate::case::{Case, Problem, field_value, unknown_key};
 use crate::model::Inputs;
 use crate::model::inputs::Method;
 use crate::numeric::decimal::{rounded, shortest};
-use crate::study::batch::Points;
+use crate::study::batch::{Points, with_unit};
 
 /// Default number of points of a range.
 pub const USUAL_POINTS: usize = 101;
@@ -223,11 +223,6 @@ impl AxisRange {
 
 /// The sign between the ends of a range.
 const TO: &str = "..";
-
-/// A number and its unit, in the syntax of a case file.
-pub fn with_unit(number: &str, unit: &str) -> String {
-    if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
-}
 
 /// Splits `KEY=VALUES` into the index of the field and the values.
 fn assignment(text: &str) -> Result<(usize, &str), Problem> {

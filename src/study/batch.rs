@@ -7,7 +7,6 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 
-use super::axis::with_unit;
 use crate::case::{Evaluator, Problem, violated_rule};
 use crate::model::{Inputs, Outcome, Quantity, Stages};
 use serde::{Deserialize, Serialize};
@@ -18,6 +17,11 @@ const TICK: Duration = Duration::from_millis(50);
 const CHUNKS: usize = 64;
 /// Greatest number of points of a chunk.
 const LONGEST: usize = 1024;
+
+/// A number and its unit, in the syntax of a case file.
+pub fn with_unit(number: &str, unit: &str) -> String {
+    if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
+}
 
 /// The points of a study.
 pub trait Points: Sync {

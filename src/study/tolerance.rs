@@ -7,9 +7,8 @@ use crate::model::deviation::base_pitch_tolerance;
 use crate::model::inputs::{Combination, Gear};
 use crate::model::{Inputs, Outcome, Quantity};
 use crate::numeric::decimal::{shortest, significant};
-use crate::study::axis::with_unit;
 use crate::study::batch::{
-    Batch, Control, PointOutcome, Points, Refusals, Row, Stopped, solve_all,
+    Batch, Control, PointOutcome, Points, Refusals, Row, Stopped, solve_all, with_unit,
 };
 use crate::study::seek::{distinct, headline};
 use crate::study::statistics::{Estimate, Figures, Indices, Ranked, figures, indices, probability};
