@@ -73,6 +73,28 @@ pub fn explain(
     inputs: &Inputs,
     solution: &Solution,
 ) -> Page {
+    let solves = |known: &Known| (accuracy_of(quantity, known), effects_of(quantity, known));
+    page(quantity, case, inputs, solution, solves)
+}
+
+/// The explanation without accuracy and effects, which take further solves.
+#[must_use]
+pub fn derive(
+    quantity: &'static Quantity,
+    case: &Case,
+    inputs: &Inputs,
+    solution: &Solution,
+) -> Page {
+    page(quantity, case, inputs, solution, |_| (Vec::new(), Vec::new()))
+}
+
+fn page(
+    quantity: &'static Quantity,
+    case: &Case,
+    inputs: &Inputs,
+    solution: &Solution,
+    solves: impl Fn(&Known) -> (Vec<String>, Vec<Effect>),
+) -> Page {
     let solution = solution.having(quantity.stage);
     let is_by_auto = inputs.method == Method::Auto;
     let used = if is_by_auto { auto::taken(inputs, solution.method) } else { inputs.clone() };
@@ -80,6 +102,7 @@ pub fn explain(
     let known = Known { case, context };
     let value = value(quantity, solution);
     let (derivation, leaves) = derivation::derivation_of(quantity, &known);
+    let (accuracy, effects) = solves(&known);
     Page {
         quantity,
         symbol: quantity.symbol_in(solution.method),
@@ -98,8 +121,8 @@ pub fn explain(
         corrections: quantity.corrections.iter().filter_map(correction_of).collect(),
         assumptions: quantity.assumptions_in(&used),
         validity: quantity.checks.iter().filter_map(|check| check(&known.context)).collect(),
-        accuracy: accuracy_of(quantity, &known),
-        effects: effects_of(quantity, &known),
+        accuracy,
+        effects,
     }
 }
 

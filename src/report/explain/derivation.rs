@@ -163,7 +163,10 @@ fn derived(work: Work, formula: Formula, known: &Known) -> Vec<Work> {
             };
             let term = |symbol: &str| known.term(symbol, digits);
             let numbers = work.value.and_then(|_| substituted(&formula, &term));
-            vec![Work { numbers, formula, how: How::Equals, ..work }]
+            // In some cases words take the place of a formula that depends on the case.
+            let is_words = matches!(other, Formula::Made(_)) && numbers.is_none();
+            let how = if is_words { How::Described } else { How::Equals };
+            vec![Work { numbers, formula, how, ..work }]
         }
     }
 }
