@@ -106,7 +106,10 @@ pub(super) const TABLE: &[Quantity] = &[
             "The angle of the driven gear before E at which the incoming tooth begins \
             to carry load at rest: its gap there equals the displacement by the other \
             pairs.",
-            Solved(&FIRST_CONTACT),
+            Cases(&[
+                (in_slices, Found("the largest angle at which a slice carries load", SHARED)),
+                (always, Solved(&FIRST_CONTACT)),
+            ]),
         )
         .corrections(&["Eqs. 7-20"]),
     AT_REST
