@@ -210,28 +210,6 @@ impl Mesh {
         if s - pitches * self.base_pitch == 0.0 { s + AFTER * self.base_pitch } else { s }
     }
 
-    /// The zone of a place, and the place, within the computed range.
-    pub(super) fn zone_at(&self, place: f64) -> (usize, f64) {
-        let (from, to) = self.ends();
-        (self.zone(place), place.clamp(from, to))
-    }
-
-    /// Stiffness, gap, arm of the friction force over the driver's base radius, and sliding velocity
-    /// of a pair at a place in a zone.
-    pub(super) fn values(&self, zone: usize, place: f64) -> [f64; 4] {
-        self.zones[zone].series.at(place)
-    }
-
-    /// The sliding velocity at the speed of the mesh from its value per unit of speed, in m/s.
-    pub(super) fn sliding(&self, per_speed: f64) -> f64 {
-        self.driver_speed * per_speed
-    }
-
-    /// Slope of the gap of a pair over its place in a zone.
-    pub(super) fn gap_slope(&self, zone: usize, place: f64) -> f64 {
-        self.zones[zone].series.slope(GAP, place)
-    }
-
     /// Displacement of a pair at a place by a unit force on the pair `apart` pitches ahead, in m/N.
     pub(super) fn coupling(&self, apart: usize, place: f64) -> f64 {
         self.couplings.as_ref().map_or(0.0, |couplings| couplings.at(apart - 1, place, place))

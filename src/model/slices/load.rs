@@ -62,8 +62,6 @@ pub struct FaceLoad {
 pub struct FaceCycle {
     /// Mean displacement of the driver ahead, in m.
     pub mean_displacement: f64,
-    /// Mean change of the force with the displacement, in N/m.
-    pub mean_slope: f64,
     /// K_Hβ: greatest line load of all pairs, averaged over a base pitch, over its mean.
     pub face_load_factor: f64,
     /// Swing of the point of attack of the force along the face, in m.
@@ -99,18 +97,21 @@ impl Part {
 }
 
 impl Face {
-    /// Number of places in a base pitch at which the load is solved; more for narrow slices. The slices
-    /// excite at their number in a base pitch and its multiples: a place at every second and a half of
-    /// them, or more, keeps these orders out of the harmonics.
+    /// Number of places in a base pitch at which the load is solved; more for narrow slices.
     fn steps(&self) -> usize {
-        const USUAL: f64 = 64.0;
-        const MOST: f64 = 128.0;
+        const LEAST: usize = 64;
         const SLICES: usize = 4;
-        let count = self.slices.len();
-        let order = count as f64 * self.mesh.base_pitch / (2.0 * self.reach);
+        LEAST.max(self.slices.len() / SLICES)
+    }
+
+    /// The same for the harmonics. The slices excite at their number in a base pitch and its multiples:
+    /// places of one and a half or two and a half times the number keep these orders out.
+    fn steps_of_period(&self) -> usize {
+        const MOST: f64 = 128.0;
+        let order = self.slices.len() as f64 * self.mesh.base_pitch / (2.0 * self.reach);
         let mut places = [2.5, 1.5].into_iter().map(|times| times * order);
-        let places = places.find(|places| *places <= MOST).unwrap_or(USUAL);
-        (count / SLICES).max(places.round() as usize).max(4 * HARMONICS)
+        let places = places.find(|places| *places <= MOST && *places >= 4.0 * HARMONICS as f64);
+        places.map_or(self.steps(), |places| places.round() as usize).max(self.slices.len() / 4)
     }
 
     /// The path of a pair at a slice, in m.
@@ -204,10 +205,11 @@ impl Face {
     /// Those of [`Face::loads`].
     pub fn cycle(&self) -> Result<(FaceCycle, StaticSpectrum), Refusal> {
         if self.inputs.slices.is_some() {
-            return self.period(self.steps(), None);
+            return self.period(self.steps_of_period(), None);
         }
-        let (_, period) = self.samples_of_period(self.steps())?;
-        self.halved().period(self.steps(), Some(harmonics(&period)))
+        let steps = self.steps_of_period();
+        let (_, period) = self.samples_of_period(steps)?;
+        self.halved().period(steps, Some(harmonics(&period)))
     }
 
     /// The balances of a base pitch without deviations, both ends included.
@@ -227,8 +229,6 @@ impl Face {
     ) -> Result<(FaceCycle, StaticSpectrum), Refusal> {
         let (passage, period) = self.samples_of_period(steps)?;
         let all = &period[..steps];
-        let mean =
-            |of: fn(&Loads) -> f64| all.iter().map(|loads| of(loads)).sum::<f64>() / steps as f64;
         let mut line_loads = vec![0.0; self.slices.len()];
         for loads in all {
             for (sum, line_load) in line_loads.iter_mut().zip(loads.of_all()) {
@@ -242,8 +242,8 @@ impl Face {
         };
         let most = line_loads.iter().copied().fold(0.0, f64::max);
         let cycle = FaceCycle {
-            mean_displacement: mean(|loads| loads.displacement),
-            mean_slope: mean(|loads| loads.stiffness),
+            mean_displacement: all.iter().map(|loads| loads.displacement).sum::<f64>()
+                / steps as f64,
             face_load_factor: most * self.inputs.width / self.over_face(&line_loads, |_| 1.0),
             swing: extreme(&middle) + extreme(&|loads| -middle(loads)),
         };
@@ -295,25 +295,22 @@ impl Face {
     /// least gap.
     fn station(&self, loads: &Loads, motion: Option<(f64, Option<f64>)>) -> Station {
         let mesh = &self.mesh;
-        let kept = |slice: &Slice| mesh.zone_at(loads.s + slice.ahead);
-        let gap = |slice: &Slice| {
-            let (zone, place) = kept(slice);
-            mesh.values(zone, place)[1] + slice.gap
-        };
+        let (from, to) = mesh.ends();
+        let at = |slice: &Slice| mesh.incoming((loads.s + slice.ahead).clamp(from, to));
+        let gap = |slice: &Slice| at(slice).0.gap + slice.gap;
         let nearest = self.slices.iter().min_by(|one, other| gap(one).total_cmp(&gap(other)));
         let nearest = nearest.copied().unwrap_or(self.slices[0]);
-        let (zone, place) = kept(&nearest);
-        let [stiffness, _, _, sliding] = mesh.values(zone, place);
+        let (place, slope) = at(&nearest);
         let force = self.force(loads, 0, Part::All);
         let total: f64 = self.over_face(&loads.of_all(), |_| 1.0);
         Station {
             roll_angle_driver: 0.0 - loads.s / mesh.base_radii.0,
             roll_angle_driven: 0.0 - loads.s / mesh.base_radii.1,
             force,
-            normal_velocity: 0.0 - mesh.gap_slope(zone, place) * mesh.speed,
-            sliding_velocity: mesh.sliding(sliding),
+            normal_velocity: 0.0 - slope * mesh.speed,
+            sliding_velocity: place.sliding,
             gap: gap(&nearest),
-            pair_compliance: Some(mesh.width / stiffness),
+            pair_compliance: Some(mesh.width / place.stiffness),
             own: Own::Shared {
                 part: if total > 0.0 { force / total } else { 0.0 },
                 displacement: loads.displacement,
@@ -326,9 +323,8 @@ impl Face {
     pub(super) fn friction_power(&self, loads: &Loads) -> f64 {
         let mesh = &self.mesh;
         let of_slice = |number: usize| {
-            let (zone, place) = mesh.zone_at(self.path(loads, 0, number));
-            let sliding = mesh.sliding(mesh.values(zone, place)[3]).abs();
-            loads.at(0, number) * self.slices[number].width * sliding
+            let sliding = mesh.incoming(self.path(loads, 0, number)).0.sliding;
+            loads.at(0, number) * self.slices[number].width * sliding.abs()
         };
         let sum: f64 = (0..self.slices.len()).map(of_slice).sum();
         mesh.friction() * self.inputs.oblique * sum
