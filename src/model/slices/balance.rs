@@ -484,7 +484,7 @@ struct System<'a> {
     factors: Vec<f64>,
     /// The first and the last slice of each coordinate.
     spans: Vec<(usize, usize)>,
-    /// Greatest distance of coupled rows.
+    /// Limit of the distance of coupled rows: the coordinates at a slice and the next.
     distance: usize,
 }
 
@@ -503,19 +503,10 @@ impl<'a> System<'a> {
                 *span = (span.0.min(first), span.1.max(last));
             }
         }
-        let mut system = System { at, active, touching, factors, spans, distance: 0 };
-        let (mut row, mut distance, mut known) = (0, 0, vec![0; count]);
-        for number in 0..at.face.slices.len() {
-            let first = row;
-            for coordinate in system.here(number) {
-                let is_new = number == system.spans[coordinate].0;
-                distance = distance.max(row - if is_new { first } else { known[coordinate] });
-                known[coordinate] = row;
-                row += 1;
-            }
-        }
-        system.distance = distance;
-        Some(system)
+        let near =
+            |slice| spans.iter().filter(|span| span.0 <= slice + 1 && slice <= span.1).count();
+        let distance = (0..at.face.slices.len()).map(near).max().unwrap_or(0);
+        Some(System { at, active, touching, factors, spans, distance })
     }
 
     /// The coordinates at a slice.
