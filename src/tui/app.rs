@@ -587,9 +587,9 @@ impl App {
         }
         let now = self.tab.chosen.filter(|_| serial == self.tab.serial);
         if let Some((before, now)) = before.zip(now).filter(|(before, now)| before != now) {
-            let earlier = self.message.take().map(|message| message.text + ". ");
+            let earlier = self.message.take().map(|message| ". ".to_owned() + &message.text);
             let (earlier, before) = (earlier.unwrap_or_default(), before.name());
-            self.say(format!("{earlier}auto: {before} -> {}", now.name()));
+            self.say(format!("auto: {before} -> {}{earlier}", now.name()));
         }
         self.follow();
     }

@@ -312,7 +312,11 @@ pub(super) fn ask_relief(app: &mut App) {
 /// Writes the relief into the form as one edit.
 fn take_relief(app: &mut App, values: &[(&'static str, String)]) {
     app.prompts.pop();
-    let words = values.iter().map(|(key, text)| format!("{} {text}", changes::label(key)));
+    let words = values.iter().map(|(key, text)| {
+        let Field { symbol, label, .. } = index_of(key).map_or(FIELDS[0], |field| FIELDS[field]);
+        let name = if symbol.is_empty() { label } else { symbol };
+        format!("{} {text}", text::symbol(name, app.look.ascii))
+    });
     let words: Vec<String> = words.collect();
     set_values(app, values, &words.join(", "));
 }
