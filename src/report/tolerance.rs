@@ -1,8 +1,8 @@
 //! A tolerance study as text, JSON or CSV.
 
-use super::table::count;
 use super::table::{Json, json, sorted};
 use super::table::{Named, Results};
+use super::table::{count, item};
 use super::verdict::Absence;
 use super::{common_unit, shown_with};
 use crate::case::fields::index_of;
@@ -56,7 +56,7 @@ impl ToleranceReport<'_> {
         let width = self.key_width();
         let mut lines = vec![String::new(), "Spread".to_owned()];
         let spread = distributions(self.case).into_iter();
-        lines.extend(spread.map(|(field, text)| format!("  {field:width$}  {text}")));
+        lines.extend(spread.flat_map(|(field, text)| item(&format!("  {field:width$}  "), &text)));
         if self.case.spread.iter().any(|spread| spread.field.ends_with(".base_pitch")) {
             let is_sum = self.combination() == "sum";
             let rule = if is_sum { "with their signs: known" } else { "as squares: independent" };
