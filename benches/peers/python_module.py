@@ -12,16 +12,15 @@ import time
 import numpy as np
 import tipstrike
 
-RUNS = 7
 # A study computes no curve at the stations.
 CASE = tipstrike.example("zhou-chen-2014").changed([("model.stations", "1")], None)
 # Each value needs another geometry and mesh: a study keeps no stage from one point to the next.
-MODULES = np.linspace(4.9, 5.1, 101)
+MODULES = np.linspace(4.9, 5.1, 51)
 SPEEDS = "500..3000 rpm"
 MANY = 10_000
 
 
-def least(*works):
+def least(runs, *works):
     """The least seconds of each work."""
 
     def seconds(work):
@@ -29,7 +28,7 @@ def least(*works):
         work()
         return time.perf_counter() - begin
 
-    return [min(times) for times in zip(*([seconds(work) for work in works] for _ in range(RUNS)))]
+    return [min(times) for times in zip(*([seconds(work) for work in works] for _ in range(runs)))]
 
 
 def overhead(method, quantity):
@@ -37,7 +36,7 @@ def overhead(method, quantity):
     values = [(module, "mm") for module in MODULES]
     calls = lambda: [tipstrike.solve(CASE, method, only=quantity, **{"pair.module": value})[quantity] for value in values]
     assert np.array_equal(study()[quantity], calls())
-    inside, outside = least(study, calls)
+    inside, outside = least(50, study, calls)
     print(f"a solve by {method}: {1e6 * outside / len(values):.1f} us from Python,"
           f" {1e6 * inside / len(values):.1f} us in a study,"
           f" {1e6 * (outside - inside) / len(values):.1f} us more")
@@ -49,7 +48,7 @@ def many(program, path):
     command = lambda: subprocess.run(arguments, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     module = lambda: tipstrike.sweep(path, {"operation.speed": SPEEDS}, points=MANY, method="dynamic",
                                      only="dynamic_peak_force")
-    theirs, ours = least(command, module)
+    theirs, ours = least(5, command, module)
     print(f"{MANY} solves by dynamic on all cores: {ours:.2f} s from Python, {theirs:.2f} s by tipstrike sweep,"
           f" {100 * (ours / theirs - 1):+.1f} %")
 
