@@ -55,8 +55,8 @@ def slurm(folder):
     (place / "job.sh").write_text(script.replace("100000000", "64").replace("/64", "/2"))
     for task in ("1", "2"):
         run(place, "sh", "job.sh", SLURM_ARRAY_TASK_ID=task, SLURM_CPUS_PER_TASK="2")
-    run(place, "tipstrike", "gather", "part-1.shard", "part-2.shard", "--out", "whole.csv")
-    assert (place / "whole.csv").stat().st_size > 0
+    run(place, "tipstrike", "gather", "part-1.shard", "part-2.shard", "--out", "whole.txt")
+    assert (place / "whole.txt").stat().st_size > 0
 
 
 def snakemake(folder):
