@@ -531,6 +531,9 @@ fn back_strikes(k: &Context) -> Found {
 /// of the load that the inertia may then add in method `static`.
 pub(super) fn inertia_at_rest(k: &Context) -> Option<[f64; 3]> {
     let angle = k.solution.static_load.as_ref()?.first_contact_angle?;
+    // The contact line of a helical tooth grows until its other end is at E.
+    let along = k.solution.helix.map_or(0.0, |helix| helix.overlap_ratio);
+    let angle = angle + along * TAU / f64::from(k.inputs.driven.teeth);
     let stiffness = k.solution.mesh.as_ref()?.mean_stiffness();
     let time = angle / k.inputs.driven_speed();
     let period = TAU * (k.solution.reduced_mass / stiffness).sqrt();
