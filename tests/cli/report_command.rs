@@ -233,7 +233,7 @@ fn a_page_has_the_texts_about_the_case_and_leaves_out_its_appendix_on_request() 
     let about = "\n[about]\nproject = \"Mill <7>\"\ndate = 2026-11-26\n\"drawing no.\" = 4711\n";
     fs::write(&case, fs::read_to_string(TABLE_1).unwrap() + about).unwrap();
     let case = case.to_str().unwrap();
-    let line = "project: Mill &#60;7&#62; · date: 2026-11-26 · drawing no.: 4711</p>";
+    let line = "Project: Mill &#60;7&#62; · Date: 2026-11-26 · Drawing no.: 4711</p>";
     let page = report(&[case], "html");
     assert!(page.contains(line) && page.contains("<h2 class=\"appendix\">All results"), "{page}");
     let short = report(&[case, "--title", "Gear 7", "--no-appendix"], "html");

@@ -134,7 +134,7 @@ pub(super) const TABLE: &[Quantity] = &[
             static excitation of whine.",
             PERIODIC_AT_REST,
         )
-        .equation("max − min, f_pb = 0"),
+        .equation("max − min, ideal"),
     HARMONICS[0][0],
     HARMONICS[1][0],
     HARMONICS[2][0],
@@ -149,7 +149,7 @@ pub(super) const TABLE: &[Quantity] = &[
             the steady motion of a pair in which no tooth deviates.",
             PERIODIC,
         )
-        .equation("max − min, f_pb = 0"),
+        .equation("max − min, ideal"),
     HARMONICS[0][1],
     HARMONICS[1][1],
     HARMONICS[2][1],
@@ -175,7 +175,7 @@ pub(super) const TABLE: &[Quantity] = &[
                 deviations; compare mesh_force_factor.",
             Found("max F_k in the steady motion over max F_k at rest", STEADY),
         )
-        .equation("max F/F_st, f_pb = 0"),
+        .equation("max F/F_st, ideal"),
     STEADY_MOTION
         .row(
             ["steady_contact_lost", "lost_z", "steady: contact lost"],
