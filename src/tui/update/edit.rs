@@ -281,7 +281,9 @@ fn spread_field(app: &App) -> Option<usize> {
 fn begin_spread(app: &mut App, field: usize) {
     let Field { key, .. } = FIELDS[field];
     if rows::of_entry(&app.tab.case, key).is_none() {
-        app.tab.case.write_spread(key, "");
+        let mut case = app.tab.case.clone();
+        case.write_spread(key, "");
+        replace(app, case);
     }
     edit_row(app, rows::of_entry(&app.tab.case, key).unwrap_or(field));
 }
