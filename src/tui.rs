@@ -25,7 +25,6 @@ mod theme;
 mod update;
 mod view;
 mod workbench;
-mod worker;
 
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};

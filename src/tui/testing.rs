@@ -116,5 +116,5 @@ pub mod worker_chart {
 }
 
 pub mod worker {
-    pub use crate::tui::worker::Workers;
+    pub use crate::tui::workbench::Workers;
 }

@@ -1,26 +1,33 @@
-//! The main loop of the workbench: takes events, changes the state, carries out the effects, draws.
+//! The main loop of the workbench, which takes events, changes the state, carries out the effects and
+//! draws; and the threads beside it: the watcher of files, and one thread for each kind of work.
 
+use std::cell::RefCell;
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, HashMap};
 use std::fs;
 use std::io;
-use std::path::PathBuf;
+use std::path::{self, Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::sync::atomic::{AtomicU64, Ordering::SeqCst};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant, SystemTime};
 
 use super::app::App;
-use super::app::actions::{Action, Effect};
+use super::app::actions::{Action, Effect, Slot, Work};
 use super::input::{self, Event, Events};
-use super::session::Autosave;
-use super::session::Claim;
 use super::session::journal::JournalWriter;
+use super::session::{Autosave, Claim};
 use super::settings::Settings;
 use super::solver::on_demand;
-use super::store::{self, State};
+use super::store::{self, State, WatchedFile};
 use super::tab::Origin;
 use super::terminal::Screen;
 use super::theme::Look;
 use super::update::{self, update};
-use super::worker::Workers;
 use crate::case::rexs;
+use crate::system::changes::{Changes, Places};
+use crate::system::files;
 use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
 
 /// Time between two frames of the animation.
@@ -240,5 +247,257 @@ impl Workbench {
         self.keep()?;
         self.autosave.keep();
         self.screen.suspend()
+    }
+}
+
+/// The worker threads. The file watcher starts at once, a thread of work with its first work.
+pub struct Workers {
+    send: Send,
+    workers: BTreeMap<Slot, Worker>,
+    watcher: Watcher,
+}
+
+/// A thread in which the latest work wins, by its number; dropping this ends the thread.
+struct Worker {
+    works: Sender<(u64, Work)>,
+    /// The number of the work whose results are wanted; 0 if there is none.
+    wanted: Arc<AtomicU64>,
+}
+
+/// Sends an action to the workbench. Returns false once the receiver is closed.
+pub(crate) type Send = Arc<dyn Fn(Action) -> bool + std::marker::Send + Sync>;
+
+impl Workers {
+    /// Starts the watcher of files.
+    ///
+    /// # Errors
+    /// Returns an error if the system cannot start a thread.
+    pub fn start(send: Send) -> io::Result<Workers> {
+        let watcher = Watcher::start(Send::clone(&send))?;
+        Ok(Workers { send, workers: BTreeMap::new(), watcher })
+    }
+
+    /// Watches these files for changes by other programs.
+    pub(super) fn watch(&self, files: Vec<WatchedFile>) {
+        self.watcher.watch(files);
+    }
+
+    /// Runs work with a number; it replaces other work of its slot.
+    ///
+    /// # Errors
+    /// Returns an error if the system cannot start a thread.
+    pub fn work(&mut self, number: u64, work: Work) -> io::Result<()> {
+        let worker = match self.workers.entry(work.slot) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(free) => {
+                free.insert(Worker::start(&work.slot.to_string(), Send::clone(&self.send))?)
+            }
+        };
+        worker.wanted.store(number, SeqCst);
+        let _ = worker.works.send((number, work));
+        Ok(())
+    }
+
+    /// Stops the work of a slot.
+    pub(crate) fn cancel(&self, slot: Slot) {
+        if let Some(worker) = self.workers.get(&slot) {
+            worker.wanted.store(0, SeqCst);
+        }
+    }
+}
+
+impl Worker {
+    fn start(name: &str, send: Send) -> io::Result<Worker> {
+        let (works, received) = channel::<(u64, Work)>();
+        let wanted = Arc::<AtomicU64>::default();
+        let theirs = Arc::clone(&wanted);
+        let serve = move || {
+            for (number, work) in received {
+                let is_wanted = || theirs.load(SeqCst) == number;
+                if is_wanted() {
+                    // Without a receiver the workbench has ended, and its process ends soon.
+                    work.run(number, &is_wanted, &|action| {
+                        send(action);
+                    });
+                }
+            }
+        };
+        thread::Builder::new().name(name.to_owned()).spawn(serve)?;
+        Ok(Worker { works, wanted })
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        self.wanted.store(0, SeqCst);
+    }
+}
+
+/// A file is read once its mark has not changed for this time, or after [`LOOKS`] checks.
+const QUIET: Duration = Duration::from_millis(60);
+const LOOKS: usize = 20;
+/// Greatest number of symbolic links to follow.
+const MOST_LINKS: usize = 40;
+
+/// The thread that watches the files, and sleeps until one changes; dropping this ends the thread.
+struct Watcher {
+    /// Sends the files to watch, or a change of any.
+    sender: Arc<Sender<Option<Vec<WatchedFile>>>>,
+    files: RefCell<Vec<WatchedFile>>,
+}
+
+impl Watcher {
+    fn start(send: Send) -> io::Result<Watcher> {
+        let (sender, messages) = channel();
+        let sender = Arc::new(sender);
+        let bell = Arc::downgrade(&sender);
+        let changes =
+            Changes::start(move || bell.upgrade().is_some_and(|bell| bell.send(None).is_ok()))?;
+        let look = move || look(&messages, changes, &send);
+        thread::Builder::new().name("watch".to_owned()).spawn(look)?;
+        Ok(Watcher { sender, files: RefCell::default() })
+    }
+
+    /// Watches these files and no others.
+    fn watch(&self, files: Vec<WatchedFile>) {
+        if *self.files.borrow() != files {
+            self.files.replace(files.clone());
+            // Without the thread nothing is watched.
+            let _ = self.sender.send(Some(files));
+        }
+    }
+}
+
+fn look(messages: &Receiver<Option<Vec<WatchedFile>>>, mut changes: Changes, send: &Send) {
+    let (mut files, mut seen) = (Vec::new(), HashMap::<PathBuf, Option<Mark>>::new());
+    for message in messages {
+        files = message.unwrap_or(files);
+        seen.retain(|path, _| files.iter().any(|file| file.path == *path));
+        changes.follow(&places(&files));
+        for WatchedFile { path, target, stamp } in &files {
+            let mark = mark_of(path);
+            let before = seen.insert(path.clone(), mark);
+            // A deleted file has no content; a new file may replace it.
+            let Some(mark) = mark.filter(|_| before != Some(mark)) else {
+                continue;
+            };
+            let settled = settled(path, mark);
+            seen.insert(path.clone(), settled);
+            let found = store::load(path);
+            // A later change may restore the known content.
+            let is_known = before.is_none()
+                && found.as_ref().is_ok_and(|document| {
+                    document.stamp() == *stamp && document.path() == Some(target.as_path())
+                });
+            let is_news = settled.is_some() && !is_known;
+            if is_news && !send(Action::FileChanged(path.clone(), found)) {
+                return;
+            }
+        }
+    }
+}
+
+/// The places whose changes may change the content of the files.
+fn places(files: &[WatchedFile]) -> Places {
+    let mut places = Places::default();
+    for file in files {
+        let mut next = path::absolute(&file.path).ok();
+        for _ in 0..MOST_LINKS {
+            let Some(path) = next else { break };
+            let above = || path.ancestors().skip(1).map(Path::to_owned);
+            // A missing folder may appear again.
+            places.folders.extend(above().find(|folder| folder.is_dir()));
+            places.parts.extend(above());
+            next = fs::read_link(&path).ok().and_then(|target| Some(path.parent()?.join(target)));
+        }
+        places.parts.extend(file.target.ancestors().skip(1).map(Path::to_owned));
+    }
+    places
+}
+
+/// The time, the length and the number of a file, which change when it is written or replaced.
+type Mark = (SystemTime, u64, u64);
+
+fn mark_of(path: &Path) -> Option<Mark> {
+    let metadata = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
+    Some((metadata.modified().ok()?, metadata.len(), files::number(&metadata)))
+}
+
+/// The mark of a file once no program writes it any more.
+fn settled(path: &Path, mark: Mark) -> Option<Mark> {
+    let mut last = Some(mark);
+    for _ in 0..LOOKS {
+        thread::sleep(QUIET);
+        let now = mark_of(path);
+        if now == last {
+            break;
+        }
+        last = now;
+    }
+    last
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use super::*;
+
+    fn workers() -> (Workers, Receiver<Action>) {
+        let (sender, actions) = channel();
+        let send: Send = Arc::new(move |action| sender.send(action).is_ok());
+        (Workers::start(send).expect("threads"), actions)
+    }
+
+    #[test]
+    fn the_latest_work_wins_and_a_stop_ends_the_running_and_the_waiting_work() {
+        let (mut workers, actions) = workers();
+        let ((begun, has_begun), (go, gate)) = (channel(), channel::<()>());
+        let gate = Arc::new(Mutex::new(gate));
+        let request = |workers: &mut Workers, number: u64| {
+            let (begun, gate) = (begun.clone(), Arc::clone(&gate));
+            let work = Work::in_steps(Slot::Folder, move |running| {
+                begun.send(number).expect("the test listens");
+                gate.lock().expect("one thread").recv().expect("the test goes on");
+                if running.is_wanted() {
+                    running.send(|_| ());
+                }
+            });
+            workers.work(number, work).expect("a thread");
+        };
+        let next = || {
+            let wanted = actions.iter().find_map(|action| match action {
+                Action::Worked(_, number, _) => Some(number),
+                _ => None,
+            });
+            wanted.expect("a result")
+        };
+        request(&mut workers, 1);
+        assert_eq!(has_begun.recv(), Ok(1));
+        (2..=9).for_each(|number| request(&mut workers, number));
+        (0..2).for_each(|_| go.send(()).expect("the worker listens"));
+        assert_eq!((has_begun.recv(), next()), (Ok(9), 9));
+        request(&mut workers, 10);
+        assert_eq!(has_begun.recv(), Ok(10));
+        request(&mut workers, 11);
+        workers.cancel(Slot::Folder);
+        request(&mut workers, 12);
+        (0..2).for_each(|_| go.send(()).expect("the worker listens"));
+        assert_eq!((has_begun.recv(), next()), (Ok(12), 12));
+    }
+
+    #[test]
+    fn work_that_panics_sends_its_fault_and_its_end() {
+        let (mut workers, actions) = workers();
+        for (number, panics) in [(1, true), (2, false)] {
+            let work = Work::in_steps(Slot::Folder, move |_| assert!(!panics, "planted"));
+            workers.work(number, work).expect("a thread");
+            let mut sent = actions.recv().expect("an action");
+            if panics {
+                assert!(matches!(sent, Action::Worked(Slot::Folder, 1, _)), "{sent:?}");
+                sent = actions.recv().expect("an action");
+            }
+            assert!(matches!(sent, Action::WorkEnded(Slot::Folder, of) if of == number));
+        }
     }
 }

@@ -2,7 +2,6 @@
 //! is room.
 
 pub(crate) mod curves;
-pub(crate) mod range;
 
 use std::borrow::Cow;
 
@@ -29,10 +28,10 @@ use crate::tui::text;
 use crate::tui::text::symbol;
 use crate::tui::theme::Look;
 
+pub(crate) use curves::last_contact;
 pub use curves::readout;
+use curves::{ChartView, Scale};
 use curves::{Curve, curves, value_at};
-pub(crate) use range::last_contact;
-use range::{ChartView, Scale};
 
 /// Least height of each chart, in rows; it decides the number of charts.
 const ROWS: u16 = 16;
@@ -184,25 +183,21 @@ const CHARTS: usize = GRAPHS.len() + OwnChart::ALL.len();
 
 impl ChartPane {
     /// The selected chart of the table; the first one beside a chart of the worker.
-    #[must_use]
     pub fn graph(&self) -> usize {
         if self.selected < GRAPHS.len() { self.selected } else { 0 }
     }
 
     /// The selected chart with its own axes, if any.
-    #[must_use]
     pub fn own_axes(&self) -> Option<OwnChart> {
         OwnChart::ALL.get(self.selected.checked_sub(GRAPHS.len())?).copied()
     }
 
     /// Whether the contact pattern is selected.
-    #[must_use]
     pub(crate) fn is_pattern(&self) -> bool {
         self.own_axes() == Some(OwnChart::Pattern)
     }
 
     /// The key of the selected chart, as in `plot --chart`.
-    #[must_use]
     pub fn key(&self) -> &'static str {
         self.own_axes().map_or(GRAPHS[self.graph()].key, OwnChart::key)
     }
@@ -258,13 +253,11 @@ pub struct Charts<'a> {
 
 impl Charts<'_> {
     /// The results of the active method.
-    #[must_use]
     pub fn solution(&self) -> Option<&Solution> {
         self.answer.and_then(|answer| answer.of(answer.active))
     }
 
     /// The visible roll angles, in deg after E.
-    #[must_use]
     pub fn window(&self) -> Span {
         self.view().window(&self.scale())
     }
@@ -283,7 +276,6 @@ impl Charts<'_> {
     }
 
     /// The state after a command, with a message.
-    #[must_use]
     pub(crate) fn run(&self, command: ChartCommand) -> (ChartPane, Option<&'static str>) {
         const WHOLE: &str = "the charts show the whole contact";
         let mut pane = *self.pane;
@@ -333,7 +325,6 @@ impl Charts<'_> {
     }
 
     /// The line load of the active method over the face width.
-    #[must_use]
     pub(crate) fn pattern(&self) -> Option<Pattern<'_>> {
         Pattern::of(&self.answer?.inputs, self.solution()?)
     }
@@ -344,7 +335,6 @@ impl Charts<'_> {
     }
 
     /// The roll angle by which the plane of the cursor is ahead in the contact pattern, in deg.
-    #[must_use]
     pub(crate) fn ahead(&self) -> f64 {
         let ahead = self.shown_pattern().map(|pattern| pattern.ahead(self.pane.z));
         ahead.unwrap_or_default().to_degrees()
@@ -430,7 +420,6 @@ impl Charts<'_> {
     }
 
     /// The roll angles of every visible curve, with round ends.
-    #[must_use]
     pub fn scale(&self) -> Scale {
         let Some(answer) = self.answer else { return Scale::default() };
         if let Some(pattern) = self.shown_pattern() {
@@ -441,8 +430,8 @@ impl Charts<'_> {
         }
         let pinned = self.baseline.and_then(|base| base.of(base.beside(answer.active)));
         let solved = answer.methods.iter().filter_map(|(_, found)| found.as_ref().ok());
-        let ways = solved.chain(pinned).map(range::way).fold(Span::NONE, Span::and);
-        let ways = if self.is_by_model() { ways.and(range::path(answer)) } else { ways };
+        let ways = solved.chain(pinned).map(curves::way).fold(Span::NONE, Span::and);
+        let ways = if self.is_by_model() { ways.and(curves::path(answer)) } else { ways };
         let touches = self.solution().into_iter().chain(pinned).filter_map(first_contact);
         let first = touches.fold(0.0, f64::max).to_degrees();
         let strike = Span::new(-first, AFTER_E * first);
@@ -451,7 +440,6 @@ impl Charts<'_> {
     }
 
     /// The visible charts: the selected chart, and below it the next charts of the active method.
-    #[must_use]
     pub fn shown(&self) -> Vec<usize> {
         let chosen = self.pane.graph();
         let others = (1..GRAPHS.len()).map(|by| (chosen + by) % GRAPHS.len());
@@ -482,7 +470,6 @@ impl Charts<'_> {
     }
 
     /// The values of a chart within the visible roll angles, with round ends.
-    #[must_use]
     pub fn upright(&self, graph: usize) -> Span {
         let (graph, window) = (&GRAPHS[graph], self.window());
         let values = curves(self, graph).into_iter().map(|curve| curve.upright_within(window));
@@ -689,7 +676,6 @@ fn plots(charts: &Charts) -> Vec<Plot> {
 }
 
 /// The width of the visible chart in columns, or of a default chart if none is visible.
-#[must_use]
 pub(crate) fn columns(charts: &Charts) -> u16 {
     let columns = plots(charts).first().map_or(0, |plot| plot.cells.width);
     if columns > 1 { columns } else { USUAL_COLUMNS }

@@ -450,7 +450,6 @@ pub(crate) fn sample(marker: Marker) -> String {
 }
 
 /// Valid bounds of a canvas: finite, in order, never equal.
-#[must_use]
 pub(in crate::tui) fn bounds(from: f64, to: f64) -> [f64; 2] {
     let sound = |value: f64| {
         if value.is_finite() { value.clamp(-1e100, 1e100) } else { 0.0 }

@@ -1,7 +1,6 @@
-//! The study pane: a result over the range of a field, a map over two fields, the same as a table, or
-//! the tolerance of the case.
+//! The study pane: a result over the range of a field, a map over two fields, the points of both as a
+//! table, or the tolerance of the case.
 
-pub(crate) mod points;
 pub(crate) mod range;
 
 use ratatui::buffer::Buffer;
@@ -10,16 +9,19 @@ use ratatui::symbols::Marker;
 use ratatui::text::Line;
 
 use super::Title;
-use super::plot::{NO_CONTACT, REFUSED};
-use crate::case::units::System;
+use super::chart::sign_of;
+use super::plot::{Look as SeriesLook, NO_CONTACT, REFUSED, TerminalChart};
+use crate::case::units::{self, System};
 use crate::case::{Case, FIELDS};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity};
+use crate::report::chart::{Axis, Cell as MapCell, Chart, Kind, Labels, Map, Point, Series, Span};
+use crate::report::charts::pieces;
+use crate::report::table::{Cell, Column, Table};
 use crate::report::{common_unit, shown_in, shown_with};
 use crate::study::axis::Axis as StudyAxis;
 use crate::study::batch::{PointOutcome, Refusals, Refused};
-use crate::tui::text;
-use crate::tui::text::symbol;
+use crate::tui::text::{self, symbol};
 use crate::tui::theme::Look;
 
 /// Points of a curve over a range.
@@ -220,7 +222,6 @@ impl StudyResults {
     }
 
     /// The method of the first curve.
-    #[must_use]
     pub(crate) fn method(&self) -> Method {
         match &self.request.parameters {
             StudyParameters::Grid(grid) => {
@@ -272,7 +273,6 @@ pub(crate) struct StudyPane<'a> {
 }
 
 /// The number of points of a map in a pane with an area, horizontally and vertically.
-#[must_use]
 pub(crate) fn map_points(area: Rect) -> (usize, usize) {
     let across = area.width.saturating_sub(MAP_MARGIN.0).clamp(2, MOST_CELLS.0);
     let up = area.height.saturating_sub(MAP_MARGIN.1).clamp(2, MOST_CELLS.1);
@@ -297,15 +297,14 @@ pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
     let (about, width) = (below(pane, shown), usize::from(inner.width).saturating_sub(2));
     let (plot, words) = split(inner, text::wrap(&about, width).len());
     if pane.state.is_table {
-        points::draw_table(pane, shown, grid, plot, buffer);
+        draw_table(pane, shown, grid, plot, buffer);
     } else {
-        points::draw(pane, shown, grid, plot, buffer);
+        draw_points(pane, shown, grid, plot, buffer);
     }
     text::draw_words(&about, words, buffer);
 }
 
 /// The hint line while the pane has the focus.
-#[must_use]
 pub(crate) fn hint(pane: &StudyPane<'_>) -> String {
     let shown = pane.study.shown.as_ref();
     let shown = shown.filter(|_| pane.study.obstacle.is_none());
@@ -321,7 +320,6 @@ pub(crate) fn hint(pane: &StudyPane<'_>) -> String {
 }
 
 /// The text of each varied field at the cursor, in the syntax of a case file.
-#[must_use]
 pub(crate) fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
     let shown = pane.study.shown.iter();
     let places = shown.flat_map(|shown| places(pane, shown));
@@ -329,7 +327,6 @@ pub(crate) fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
 }
 
 /// The cursor after a move by points on the visible axes.
-#[must_use]
 pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(usize, usize)> {
     let shown = pane.study.shown.as_ref()?;
     let places = places(pane, shown);
@@ -348,7 +345,6 @@ pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(u
 }
 
 /// The first visible line of the tolerance after scrolling by lines downwards.
-#[must_use]
 pub(crate) fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
     let Some(shown) = &pane.study.shown else {
         return 0;
@@ -358,7 +354,6 @@ pub(crate) fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
 }
 
 /// The first visible line after scrolling by pages, which overlap by one line.
-#[must_use]
 pub(crate) fn paged(pane: &StudyPane<'_>, by: isize) -> usize {
     let page = page_height(pane).saturating_sub(1).max(1);
     scrolled(pane, by * isize::try_from(page).unwrap_or(1))
@@ -431,7 +426,7 @@ fn title(pane: &StudyPane<'_>) -> String {
     let words = match &shown.request.parameters {
         StudyParameters::Tolerance(_) => format!("Tolerance{}{state}", position(pane, shown)),
         StudyParameters::Grid(grid) => {
-            let chart = points::chart(pane, shown, grid);
+            let chart = chart(pane, shown, grid);
             format!(
                 "Study{state}: {}",
                 chart.map_or_else(String::new, |(chart, _)| chart.quantities())
@@ -532,4 +527,238 @@ fn refused(shown: &StudyResults) -> Option<String> {
     let points = if total == 1 { "point" } else { "points" };
     let of_them = if *count < total { format!(", {count} of them") } else { String::new() };
     Some(format!("{total} {points} refused{of_them}: {}: {}", problem.cause, problem.fix))
+}
+
+/// Least width of the labels beside a map.
+const LABELS: u16 = 7;
+
+/// Draws the curves or the map, with the limit, the present value and the cursor.
+fn draw_points(
+    pane: &StudyPane<'_>,
+    shown: &StudyResults,
+    grid: &GridParameters,
+    area: Rect,
+    buffer: &mut Buffer,
+) {
+    let Some((chart, looks)) = chart(pane, shown, grid) else { return };
+    let (theme, is_map) = (pane.look.theme, chart.map.is_some());
+    let words = (!is_map).then(|| ("▴ cursor".to_owned(), theme.focus)).into_iter().collect();
+    let margin = if is_map { LABELS } else { 0 };
+    let spans = match grid.axes.as_slice() {
+        [axis] => (chart.spans().0.and(ends(axis)), chart.spans().1),
+        _ => chart.spans(),
+    };
+    let drawn = TerminalChart { chart: &chart, looks, words, is_compared: false, theme };
+    let plot = drawn.draw(area, spans, margin, buffer);
+    let (at, row) = cursor(pane, shown);
+    match grid.axes.as_slice() {
+        _ if plot.cells.is_empty() => (),
+        [axis] => {
+            let limit =
+                pane.case.limits.iter().find(|limit| shown.quantity() == Some(limit.quantity));
+            if let Some(limit) = limit.filter(|limit| limit.of.is_none()) {
+                let factor = units::factor(&chart.up.unit).unwrap_or(1.0);
+                plot.draw_level(limit.value / factor, "╌", theme.rule, buffer);
+            }
+            if let Some(present) = present(pane, axis) {
+                plot.draw_upright(present, "│", theme.faint, buffer);
+            }
+            plot.draw_cursor(x(axis, at), theme, buffer);
+        }
+        _ => plot.draw_cursor_at((at as f64, row as f64), theme, buffer),
+    }
+}
+
+/// The chart of the shown points as a picture.
+pub(crate) fn picture(pane: &StudyPane<'_>) -> Option<Chart> {
+    let shown = pane.study.shown.as_ref().filter(|_| pane.study.obstacle.is_none())?;
+    let StudyParameters::Grid(grid) = &shown.request.parameters else { return None };
+    let (known, (mut chart, _)) = (shown.quantity()?, chart(pane, shown, grid)?);
+    let (label, is_map) = (known.label.trim(), chart.map.is_some());
+    let second = if is_map { format!(" and {}", chart.up.name) } else { String::new() };
+    chart.title = format!("{label} over {}{second}", chart.across.name);
+    if !is_map {
+        chart.up.name = format!("{label} {}", known.symbol);
+        chart.series.retain(|series| series.kind == Kind::Curve && !series.pieces.is_empty());
+    }
+    (is_map || !chart.series.is_empty()).then_some(chart)
+}
+
+/// The curves or the map of the points, with their looks.
+fn chart(
+    pane: &StudyPane<'_>,
+    shown: &StudyResults,
+    grid: &GridParameters,
+) -> Option<(Chart, Vec<SeriesLook>)> {
+    match grid.axes.as_slice() {
+        [axis] => curves(pane, shown, grid, axis),
+        [up, across] => map(pane, shown, (across, up)),
+        _ => None,
+    }
+}
+
+/// The methods over each other, the active one on top and the baseline behind them, the present
+/// value, and signs where the active method has no value.
+fn curves(
+    pane: &StudyPane<'_>,
+    shown: &StudyResults,
+    grid: &GridParameters,
+    axis: &StudyAxis,
+) -> Option<(Chart, Vec<SeriesLook>)> {
+    let (theme, known) = (pane.look.theme, shown.quantity()?);
+    let all = shown.layers.iter().flat_map(|found| found.values.iter().flatten().copied());
+    let unit = common_unit(known, all, pane.units);
+    let factor = units::factor(unit).unwrap_or(1.0);
+    let is_joined = axis.points.iter().all(|point| point.number.is_some());
+    let longest = if is_joined { f64::INFINITY } else { 0.0 };
+    let mut series: Vec<(Series, SeriesLook)> = Vec::new();
+    for (at, (layer, found)) in grid.layers.iter().zip(&shown.layers).enumerate() {
+        let points = found.values.iter().enumerate();
+        let points = points.map(|(at, value)| (x(axis, at), value.map(|value| value / factor)));
+        let pieces = pieces(points, longest);
+        let look = match (at, layer.is_baseline) {
+            (0, _) => (pane.marker, theme.active),
+            (_, true) => (Marker::Custom('+'), theme.baseline),
+            (_, false) => (sign_of(layer.inputs.method), theme.other),
+        };
+        if at == 0 || !pieces.is_empty() {
+            series
+                .push((Series { name: layer.name().to_owned(), pieces, kind: Kind::Curve }, look));
+        }
+    }
+    let mut mark = |name: &str, points: Vec<Point>, look: (char, _)| {
+        let pieces = points.into_iter().map(|point| vec![point]).collect();
+        let series_of = Series { name: name.to_owned(), pieces, kind: Kind::Marks(None) };
+        series.push((series_of, (Marker::Custom(look.0), look.1)));
+    };
+    let now = present(pane, axis).zip(pane.present).map(|(x, value)| (x, value / factor));
+    let now = now.filter(|now| ends(axis).covers(Span::new(now.0, now.0)));
+    mark("now", now.into_iter().collect(), ('●', theme.focus));
+    let own = shown.layers.first()?;
+    for (sought, sign, name) in [
+        (PointOutcome::Solved(Outcome::NoCornerContact), NO_CONTACT, "no contact"),
+        (PointOutcome::Refused, REFUSED, "refused"),
+    ] {
+        let points = own.outcomes.iter().zip(&own.values).enumerate();
+        let points = points.filter(|(_, (outcome, value))| **outcome == sought && value.is_none());
+        // Below every value: at the axis.
+        let points: Vec<Point> = points.map(|(at, _)| (x(axis, at), f64::NEG_INFINITY)).collect();
+        if !points.is_empty() {
+            mark(name, points, (sign, theme.note));
+        }
+    }
+    let names = axis.points.iter().enumerate().map(|(at, point)| (x(axis, at), point.text.clone()));
+    let labels = if is_joined { Labels::new() } else { names.collect() };
+    let (series, looks) = series.into_iter().unzip();
+    let across = Axis { labels, ..field_axis(axis) };
+    Some((Chart { across, up: up_axis(shown, unit), series, ..Chart::default() }, looks))
+}
+
+/// The cells of a map, by the indices of its points.
+fn map(
+    pane: &StudyPane<'_>,
+    shown: &StudyResults,
+    (across, up): (&StudyAxis, &StudyAxis),
+) -> Option<(Chart, Vec<SeriesLook>)> {
+    let (theme, known, found) = (pane.look.theme, shown.quantity()?, shown.layers.first()?);
+    let all = || found.values.iter().flatten().copied();
+    let unit = common_unit(known, all(), pane.units);
+    let worded = |value| (value, shown_with(known, value, unit).to_string());
+    let cell = |(outcome, value): (&PointOutcome, &Option<f64>)| match (outcome, value) {
+        (PointOutcome::Refused, _) => MapCell::Refused,
+        (_, Some(value)) => MapCell::Value(*value),
+        (PointOutcome::Solved(Outcome::NoCornerContact), None) => MapCell::NoContact,
+        (PointOutcome::Solved(_), None) => MapCell::Blank,
+    };
+    let limit = pane.case.limits.iter().find(|limit| limit.quantity == known);
+    let limit = limit.and_then(|limit| limit.bound(|_| None)).filter(|value| value.is_finite());
+    let values = Span::of(all());
+    let numbers = |axis: &StudyAxis| (0..axis.points.len()).map(|at| at as f64).collect();
+    let labelled = |axis: &StudyAxis| {
+        let last = axis.points.len().saturating_sub(1);
+        let mut points = vec![0, last / 2, last];
+        points.dedup();
+        let labels = points.into_iter().map(|at| (at as f64, axis.points[at].text.clone()));
+        Axis { labels: labels.collect(), ..field_axis(axis) }
+    };
+    let now = range::nearest(across, pane.case).zip(range::nearest(up, pane.case));
+    let now = now.map(|(x, y)| vec![(x as f64, y as f64)]).into_iter().collect();
+    let chart = Chart {
+        across: labelled(across),
+        up: labelled(up),
+        series: vec![Series { name: "now".to_owned(), pieces: now, kind: Kind::Marks(None) }],
+        map: Some(Map {
+            value: up_axis(shown, unit),
+            places: [numbers(across), numbers(up)],
+            cells: found.outcomes.iter().zip(&found.values).map(cell).collect(),
+            ends: (values.from <= values.to).then(|| [values.from, values.to].map(worded)),
+            limit: limit.map(|limit| (limit, format!("limit {}", worded(limit).1))),
+        }),
+        ..Chart::default()
+    };
+    Some((chart, vec![(Marker::Custom('●'), theme.focus)]))
+}
+
+/// The axis of the values.
+fn up_axis(shown: &StudyResults, unit: &str) -> Axis {
+    let symbol = shown.quantity().map_or("", |known| known.symbol_in(shown.method()));
+    Axis::new(symbol, unit)
+}
+
+/// The axis of a field without labels.
+fn field_axis(axis: &StudyAxis) -> Axis {
+    Axis::new(FIELDS[axis.field].full_label(), axis.unit.clone())
+}
+
+/// The position of the present case on an axis.
+fn present(pane: &StudyPane<'_>, axis: &StudyAxis) -> Option<f64> {
+    let nearest = || range::nearest(axis, pane.case).map(|at| x(axis, at));
+    range::present(axis, pane.case).or_else(nearest)
+}
+
+/// The position of a point on the axis: its number, or the index of a choice.
+fn x(axis: &StudyAxis, at: usize) -> f64 {
+    axis.points.get(at).and_then(|point| point.number).unwrap_or(at as f64)
+}
+
+fn ends(axis: &StudyAxis) -> Span {
+    Span::NONE.with(x(axis, 0)).with(x(axis, axis.points.len().saturating_sub(1)))
+}
+
+/// Draws the points as a table: the varied fields, then each curve.
+fn draw_table(
+    pane: &StudyPane<'_>,
+    shown: &StudyResults,
+    grid: &GridParameters,
+    area: Rect,
+    buffer: &mut Buffer,
+) {
+    let layers = || grid.layers.iter().zip(&shown.layers);
+    let curves = layers().filter_map(|(layer, found)| {
+        let known = layer.quantity()?;
+        let unit = common_unit(known, found.values.iter().flatten().copied(), pane.units);
+        let name = format!("{} {}", layer.name(), known.symbol_in(layer.inputs.method));
+        Some(Axis::new(name, unit))
+    });
+    let column = |name: Axis| {
+        let title = symbol(&name.in_unit(), pane.look.ascii).into_owned();
+        Column::text("", title).to_the_right().wide(2, 0)
+    };
+    let columns = grid.axes.iter().map(field_axis).chain(curves).map(column).collect();
+    let (width, (x, y)) =
+        (grid.axes.last().map_or(1, |axis| axis.points.len()), cursor(pane, shown));
+    let row = |at: usize| {
+        let places = [at / width, at % width];
+        let axes = grid.axes.iter().zip(&places[2 - grid.axes.len()..]);
+        let fields = axes.map(|(axis, at)| axis.points[*at].text.clone());
+        let values = layers().map(|(layer, found)| {
+            value_words(layer, found, at, pane.units, false).unwrap_or_default()
+        });
+        fields.chain(values).map(Cell::from).collect()
+    };
+    let count: usize = grid.axes.iter().map(|axis| axis.points.len()).product();
+    let (marked, rows) = (y * width + x, usize::from(area.height.saturating_sub(1)));
+    let top = marked.saturating_sub(rows / 2).min(count.saturating_sub(rows));
+    let table = Table::new("", columns).with((top..count.min(top + rows)).map(row));
+    super::draw_table(&table.lines(), Some(marked - top), pane.look.theme, area, buffer);
 }

@@ -115,7 +115,6 @@ pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
 }
 
 /// The meaning of the signs in the pane.
-#[must_use]
 pub(crate) fn signs(pane: &TradePane<'_>) -> &'static str {
     match pane.view {
         TradeView::Table => {
@@ -131,7 +130,6 @@ pub(crate) fn signs(pane: &TradePane<'_>) -> &'static str {
 
 /// The visible setting nearest to the selected one: that setting itself, otherwise one of its
 /// method, preferably with its compliance.
-#[must_use]
 pub(crate) fn nearest(traded: &Traded, view: TradeView) -> Option<Setting> {
     let (marked, trade) = (traded.marked?, traded.trade.as_ref()?);
     let distance = |setting: &Setting| {
@@ -141,7 +139,6 @@ pub(crate) fn nearest(traded: &Traded, view: TradeView) -> Option<Setting> {
 }
 
 /// The setting `by` places from the selected one, in the order of the view.
-#[must_use]
 pub(crate) fn stepped(traded: &Traded, view: TradeView, by: isize) -> Option<Setting> {
     let settings: Vec<Setting> =
         traded.trade.iter().flat_map(|trade| visible(trade, view)).collect();
@@ -193,7 +190,6 @@ fn about(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> String {
 }
 
 /// The settings that have an error and a time, the faster ones first.
-#[must_use]
 fn ordered(trade: &Trade) -> Vec<&MeasuredSetting> {
     let mut found: Vec<&MeasuredSetting> =
         trade.settings.iter().filter(|measured| measured.total().is_some()).collect();

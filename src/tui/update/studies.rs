@@ -312,7 +312,7 @@ pub(super) fn take(app: &mut App) {
 /// What `tipstrike sweep` or `tipstrike tolerance` writes for the shown study, or its picture.
 pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
     if is_picture(path) {
-        let chart = study::points::picture(&app.study()).ok_or("there is no curve to draw")?;
+        let chart = study::picture(&app.study()).ok_or("there is no curve to draw")?;
         return Ok((
             " the picture of the study".to_owned(),
             Box::new(move |_| Ok(svg::draw(&chart))),

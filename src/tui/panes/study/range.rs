@@ -284,7 +284,6 @@ fn too_many(count: usize) -> String {
 }
 
 /// The argument of `--vary` that gives an axis, and its number of points if it is a range.
-#[must_use]
 pub(crate) fn vary(axis: &Axis) -> (String, Option<usize>) {
     let (count, key) = (axis.points.len(), axis.key());
     let first = axis.points.first().map_or("", |point| point.text.as_str());
@@ -298,7 +297,6 @@ pub(crate) fn vary(axis: &Axis) -> (String, Option<usize>) {
 }
 
 /// An axis as the user would type it.
-#[must_use]
 pub(crate) fn typed(axis: &Axis) -> String {
     let (text, count) = vary(axis);
     let text = text.replacen('=', " = ", 1);
@@ -306,7 +304,6 @@ pub(crate) fn typed(axis: &Axis) -> String {
 }
 
 /// The point of an axis nearest to the present value of its field.
-#[must_use]
 pub(crate) fn nearest(axis: &Axis, case: &Case) -> Option<usize> {
     if let Some(number) = present(axis, case) {
         let distance = |at: &usize| {
@@ -321,7 +318,6 @@ pub(crate) fn nearest(axis: &Axis, case: &Case) -> Option<usize> {
 }
 
 /// The present value of the field, in the unit of the axis.
-#[must_use]
 pub(crate) fn present(axis: &Axis, case: &Case) -> Option<f64> {
     let factor = units::factor(&axis.unit).unwrap_or(1.0);
     Some(number(case, axis.field)? / factor)
