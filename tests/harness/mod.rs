@@ -166,6 +166,18 @@ impl Desk {
         self.act(run(name));
     }
 
+    /// Plays to the end in 40 to 60 frames; returns the last cursor.
+    pub(crate) fn played(&mut self, keys: &[&str]) -> f64 {
+        self.keys(keys);
+        assert!(self.ticks);
+        let frames = (0..200).take_while(|_| {
+            self.act(Action::Tick);
+            self.ticks
+        });
+        assert!((40..60).contains(&frames.count()) && !self.app.is_playing);
+        self.app.cursor.expect("a cursor")
+    }
+
     /// Applies the results of work.
     pub(crate) fn take(&mut self, results: Vec<Action>) {
         for action in results {
@@ -280,6 +292,11 @@ impl Desk {
     #[track_caller]
     pub(crate) fn assert_at(&self, step: impl Debug, holds: bool) {
         assert!(holds, "{step:?}\n{}", self.screen());
+    }
+
+    /// The first line of the screen with a text; empty without one.
+    pub(crate) fn line_with(&self, text: &str) -> String {
+        self.screen().lines().find(|line| line.contains(text)).unwrap_or_default().to_owned()
     }
 
     #[track_caller]

@@ -8,10 +8,7 @@ use tipstrike::tui::testing::rows;
 #[test]
 fn every_keystroke_that_leaves_a_valid_value_changes_the_results() {
     let mut desk = Desk::new(SMALL);
-    let force = |desk: &Desk| {
-        let line = desk.screen().lines().find(|line| line.contains("F_S   ")).map(str::to_owned);
-        line.expect("the impact force is in sight")
-    };
+    let force = |desk: &Desk| desk.line_with("F_S   ");
     assert!(force(&desk).contains("2191"));
     desk.go_to("operation.speed").keys(&["Home", "Delete", "1"]);
     let slower = force(&desk);
@@ -369,9 +366,7 @@ fn an_unbound_key_is_reported() {
 #[test]
 fn undo_reports_the_reverted_edit() {
     let mut desk = Desk::new(SMALL);
-    desk.go_to("driven.tip_relief").keys(&["48", "Esc", "u"]);
-    desk.assert_shows("undo: driven tip relief: 48 um -> 0 um");
-    desk.keys(&["Ctrl-R"]);
+    desk.go_to("driven.tip_relief").keys(&["48", "Esc", "u", "Ctrl-R"]);
     desk.assert_shows("redo: driven tip relief: 0 um -> 48 um");
     desk.keys(&["Alt-G", "18crnimo", "Enter", "u"]);
     desk.assert(desk.shows("undo: driven Young's modulus: ") && desk.shows("density: "));

@@ -77,10 +77,6 @@ const SCREENS: &[(&str, Way)] = &[
     ("quit", |desk| {
         desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-Q"]);
     }),
-    ("quit_several", |desk| {
-        desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-N"]);
-        desk.fill("title", "another").keys(&["Ctrl-Q"]);
-    }),
     ("help", |desk| {
         desk.keys(&["F1"]);
     }),
