@@ -9,7 +9,7 @@ use ratatui::symbols::Marker;
 use ratatui::text::Line;
 
 use super::Title;
-use super::chart::sign_of;
+use super::chart::curves::sign_of;
 use super::plot::{Look as SeriesLook, NO_CONTACT, REFUSED, TerminalChart};
 use crate::case::units::{self, System};
 use crate::case::{Case, FIELDS};

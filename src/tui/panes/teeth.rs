@@ -626,7 +626,7 @@ mod tests {
                 2.0 * half.y / dots(size.height, painter.dots.1) * f64::from(painter.dots.1),
             );
             assert!(
-                (row / column - view::CELL_HEIGHT).abs() < 1e-9
+                (row / column - CELL_HEIGHT).abs() < 1e-9
                     && (column / painter.column() - 1.0).abs() < 1e-9
             );
             for (right, up) in [(0.02, -0.03), (-0.99, 0.99), (0.999, 0.999), (0.51, 0.13)] {

@@ -29,6 +29,7 @@ use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::picker::Picker;
 use crate::tui::app::dialogs::question::PathDialog;
 use crate::tui::layout::{Pane, is_too_small};
+use crate::tui::panes::results;
 use crate::tui::panes::study::range::{self, MOST_ZOOM, RangeOf, Steps};
 use crate::tui::panes::study::{
     self, CURVE_POINTS, End, GridParameters, Layer, LayerFound, SAMPLES, StudyParameters,
@@ -640,7 +641,7 @@ pub(super) fn next_variants(app: &mut App) {
         let key = key_of(app, "variant");
         return app.say(format!("the case has no variants: {key} NAME saves the edits as one"));
     }
-    let page = app.results().variants_page();
+    let page = results::variants_page(&app.results());
     app.first_variant = match app.first_variant {
         None => Some(0),
         Some(first) if first + page < count => Some(first + page),
