@@ -270,6 +270,12 @@ impl Charts<'_> {
         }
     }
 
+    /// The view, scrolled if necessary to show the cursor.
+    pub(crate) fn following(&self, cursor: f64) -> ChartView {
+        let view = self.view().following(self.ahead() - cursor.to_degrees(), &self.scale());
+        if view == self.view() { self.pane.view } else { view }
+    }
+
     /// Whether the selected chart has a curve for each compliance model.
     fn is_by_model(&self) -> bool {
         GRAPHS[self.pane.graph()].by_model.is_some()

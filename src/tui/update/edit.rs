@@ -167,6 +167,14 @@ pub(super) fn redo(app: &mut App) {
 }
 
 fn travel(app: &mut App, forwards: bool, verb: &str) {
+    // A row that is still empty is no edit.
+    let focus = app.tab.form.focus;
+    if rows::row(&app.tab.case, focus).entry().is_some()
+        && rows::text(&app.tab.case, focus).is_none()
+    {
+        app.tab.case.drop_empty(None);
+        app.tab.focus_on(focus);
+    }
     let state = app.tab.history.travel(&app.tab.case, app.tab.form.focus, forwards);
     let Some((case, focus)) = state else {
         return app.say(format!("nothing to {verb}"));
@@ -281,9 +289,7 @@ fn spread_field(app: &App) -> Option<usize> {
 fn begin_spread(app: &mut App, field: usize) {
     let Field { key, .. } = FIELDS[field];
     if rows::of_entry(&app.tab.case, key).is_none() {
-        let mut case = app.tab.case.clone();
-        case.write_spread(key, "");
-        replace(app, case);
+        app.tab.case.write_spread(key, "");
     }
     edit_row(app, rows::of_entry(&app.tab.case, key).unwrap_or(field));
 }

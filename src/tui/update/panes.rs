@@ -184,8 +184,7 @@ pub(super) fn select_chart(app: &mut App, at: usize) {
 /// Scrolls to a moved cursor.
 pub(super) fn follow_cursor(app: &mut App, cursor_before: Option<f64>) {
     if let Some(cursor) = app.cursor.filter(|_| app.cursor != cursor_before) {
-        let (scale, ahead) = (app.charts().scale(), app.charts().ahead());
-        app.chart.view = app.chart.view.following(ahead - cursor.to_degrees(), &scale);
+        app.chart.view = app.charts().following(cursor);
     }
 }
 

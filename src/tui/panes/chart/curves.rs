@@ -343,7 +343,8 @@ impl ChartView {
     /// The view, scrolled if necessary to make an angle visible.
     pub(crate) fn following(self, angle: f64, scale: &Scale) -> ChartView {
         let window = self.window(scale);
-        if window.is_empty() || (window.from..=window.to).contains(&angle) {
+        let rounding = 1e-9 * window.length();
+        if window.is_empty() || (window.from - rounding..=window.to + rounding).contains(&angle) {
             return self;
         }
         let inward = (0.5 - MARGIN) * window.length();
