@@ -36,8 +36,8 @@ const ABOUT: &str = "about.";
 /// variants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
-    /// Copied on the first write, because many states of a case exist at a time.
-    texts: Arc<Vec<Option<Box<str>>>>,
+    /// Copied on the first write, because many states of a case exist at a time; they share texts.
+    texts: Arc<Vec<Option<Arc<str>>>>,
     /// Limits by quantity, greatest value in SI.
     pub limits: Vec<Limit>,
     /// Distributions of fields around their values.
