@@ -133,7 +133,7 @@ pub(super) fn texts(case: &Case) -> Vec<(String, String)> {
         variant.overrides.iter().map(of)
     });
     let about = case.about.iter();
-    let about = about.map(|(name, text)| (format!("{}{name}", ABOUT), text.clone()));
+    let about = about.map(|(name, text)| (format!("{ABOUT}{name}"), text.clone()));
     fields.chain(limits).chain(spreads).chain(overrides).chain(about).collect()
 }
 

@@ -196,9 +196,10 @@ impl Specification {
             };
             let over_loads = changed(case.nominal.error, own.nominal.error);
             let at_first = changed(case.errors[0], own.errors[0]);
-            let at_first = match at_first == over_loads {
-                true => String::new(),
-                false => format!(", at {} % of the load {at_first}", percent(found.loads[0])),
+            let at_first = if at_first == over_loads {
+                String::new()
+            } else {
+                format!(", at {} % of the load {at_first}", percent(found.loads[0]))
             };
             lines.push(format!(
                 "The {} transmission error over the loads changes {over_loads}{at_first}.",

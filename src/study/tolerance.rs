@@ -423,9 +423,10 @@ impl Distribution {
         let Some((field, centre)) = given.and_then(|field| Some((field, case.value(field)?)))
         else {
             let cause = format!("{key} has no value to spread around");
-            let fix = match key.ends_with(".base_pitch") {
-                true => format!("write {key} = \"0 um\": the deviation is drawn around 0"),
-                false => format!("give {key} a value"),
+            let fix = if key.ends_with(".base_pitch") {
+                format!("write {key} = \"0 um\": the deviation is drawn around 0")
+            } else {
+                format!("give {key} a value")
             };
             return refused(cause, fix);
         };

@@ -85,10 +85,10 @@ pub(super) fn session(
     };
     screen.take_mouse(settings.mouse)?;
     screen.draw(&app)?;
-    let workers = Workers::start(Arc::new(events.action_sender()))?;
+    let threads = Workers::start(Arc::new(events.action_sender()))?;
     let autosave = Autosave::new(State::find(), Arc::clone(journal_writer));
     let mut workbench =
-        Workbench { app, screen, events, workers, autosave, alarm: None, chosen: None };
+        Workbench { app, screen, events, threads, autosave, alarm: None, chosen: None };
     workbench.app.complete();
     workbench.act(Action::Tick)?;
     workbench.stay()
@@ -134,7 +134,7 @@ struct Workbench {
     app: App,
     screen: Screen,
     events: Events,
-    workers: Workers,
+    threads: Workers,
     autosave: Autosave,
     /// Time of the next frame of the animation.
     alarm: Option<Instant>,
@@ -196,7 +196,7 @@ impl Workbench {
             self.screen.draw(&self.app)?;
         }
         self.autosave.keep_if_due(Instant::now());
-        self.workers.watch(self.app.files());
+        self.threads.watch(self.app.files());
         Ok(None)
     }
 
@@ -212,8 +212,8 @@ impl Workbench {
                         self.screen.clear()?;
                     }
                     Effect::Suspend => self.suspend()?,
-                    Effect::Work(number, work) => self.workers.work(number, work)?,
-                    Effect::Cancel(slot) => self.workers.cancel(slot),
+                    Effect::Work(number, work) => self.threads.work(number, work)?,
+                    Effect::Cancel(slot) => self.threads.cancel(slot),
                     Effect::Keep(settings) => self.chosen = Some(settings),
                     Effect::Copy(text) => self.screen.copy(&text)?,
                     Effect::Mouse(takes) => self.screen.take_mouse(takes)?,
@@ -253,7 +253,7 @@ impl Workbench {
 /// The worker threads. The file watcher starts at once, a thread of work with its first work.
 pub struct Workers {
     send: Send,
-    workers: BTreeMap<Slot, Worker>,
+    threads: BTreeMap<Slot, Worker>,
     watcher: Watcher,
 }
 
@@ -274,7 +274,7 @@ impl Workers {
     /// Returns an error if the system cannot start a thread.
     pub fn start(send: Send) -> io::Result<Workers> {
         let watcher = Watcher::start(Send::clone(&send))?;
-        Ok(Workers { send, workers: BTreeMap::new(), watcher })
+        Ok(Workers { send, threads: BTreeMap::new(), watcher })
     }
 
     /// Watches these files for changes by other programs.
@@ -287,7 +287,7 @@ impl Workers {
     /// # Errors
     /// Returns an error if the system cannot start a thread.
     pub fn work(&mut self, number: u64, work: Work) -> io::Result<()> {
-        let worker = match self.workers.entry(work.slot) {
+        let worker = match self.threads.entry(work.slot) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(free) => {
                 free.insert(Worker::start(&work.slot.to_string(), Send::clone(&self.send))?)
@@ -300,7 +300,7 @@ impl Workers {
 
     /// Stops the work of a slot.
     pub(crate) fn cancel(&self, slot: Slot) {
-        if let Some(worker) = self.workers.get(&slot) {
+        if let Some(worker) = self.threads.get(&slot) {
             worker.wanted.store(0, SeqCst);
         }
     }
@@ -443,7 +443,7 @@ mod tests {
 
     use super::*;
 
-    fn workers() -> (Workers, Receiver<Action>) {
+    fn threads() -> (Workers, Receiver<Action>) {
         let (sender, actions) = channel();
         let send: Send = Arc::new(move |action| sender.send(action).is_ok());
         (Workers::start(send).expect("threads"), actions)
@@ -451,10 +451,10 @@ mod tests {
 
     #[test]
     fn the_latest_work_wins_and_a_stop_ends_the_running_and_the_waiting_work() {
-        let (mut workers, actions) = workers();
+        let (mut threads, actions) = threads();
         let ((begun, has_begun), (go, gate)) = (channel(), channel::<()>());
         let gate = Arc::new(Mutex::new(gate));
-        let request = |workers: &mut Workers, number: u64| {
+        let request = |threads: &mut Workers, number: u64| {
             let (begun, gate) = (begun.clone(), Arc::clone(&gate));
             let work = Work::in_steps(Slot::Folder, move |running| {
                 begun.send(number).expect("the test listens");
@@ -463,7 +463,7 @@ mod tests {
                     running.send(|_| ());
                 }
             });
-            workers.work(number, work).expect("a thread");
+            threads.work(number, work).expect("a thread");
         };
         let next = || {
             let wanted = actions.iter().find_map(|action| match action {
@@ -472,26 +472,26 @@ mod tests {
             });
             wanted.expect("a result")
         };
-        request(&mut workers, 1);
+        request(&mut threads, 1);
         assert_eq!(has_begun.recv(), Ok(1));
-        (2..=9).for_each(|number| request(&mut workers, number));
+        (2..=9).for_each(|number| request(&mut threads, number));
         (0..2).for_each(|_| go.send(()).expect("the worker listens"));
         assert_eq!((has_begun.recv(), next()), (Ok(9), 9));
-        request(&mut workers, 10);
+        request(&mut threads, 10);
         assert_eq!(has_begun.recv(), Ok(10));
-        request(&mut workers, 11);
-        workers.cancel(Slot::Folder);
-        request(&mut workers, 12);
+        request(&mut threads, 11);
+        threads.cancel(Slot::Folder);
+        request(&mut threads, 12);
         (0..2).for_each(|_| go.send(()).expect("the worker listens"));
         assert_eq!((has_begun.recv(), next()), (Ok(12), 12));
     }
 
     #[test]
     fn work_that_panics_sends_its_fault_and_its_end() {
-        let (mut workers, actions) = workers();
+        let (mut threads, actions) = threads();
         for (number, panics) in [(1, true), (2, false)] {
             let work = Work::in_steps(Slot::Folder, move |_| assert!(!panics, "planted"));
-            workers.work(number, work).expect("a thread");
+            threads.work(number, work).expect("a thread");
             let mut sent = actions.recv().expect("an action");
             if panics {
                 assert!(matches!(sent, Action::Worked(Slot::Folder, 1, _)), "{sent:?}");

@@ -31,6 +31,7 @@ fn changed(from: &str, to: &str) -> (tempfile::TempDir, String) {
 
 /// Commands with a part of their pages; a part behind `!` is absent.
 #[test]
+#[expect(clippy::too_many_lines, reason = "a table")]
 fn pages_for_a_person() {
     let dynamic = "solve TABLE_1 --method dynamic";
     prints(&[

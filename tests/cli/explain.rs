@@ -126,7 +126,9 @@ static WHOLE: LazyLock<Vec<Explained>> = LazyLock::new(|| {
 });
 
 fn every_page(cases: &[Explained], mut look: impl FnMut(&str, &Page)) {
-    cases.iter().for_each(|case| case.pages.iter().for_each(|page| look(&case.name, page)));
+    for case in cases {
+        case.pages.iter().for_each(|page| look(&case.name, page));
+    }
 }
 
 fn page(case: &str, key: &str, settings: &[(&str, &str)]) -> Page {

@@ -134,16 +134,18 @@ fn helical(wheel: &str, speed: f64) -> Vec<u8> {
         ("end_relief_datum_face", "\"end_relief_depth_datum_face\", \"floating_point\": 0.02"),
         ("profile_crowning", "\"profile_crowning_amount\", \"floating_point\": 0.001"),
     ];
-    let (mut components, mut references) = (String::new(), String::new());
-    for (id, (kind, attribute)) in (70..).zip(parts) {
-        components += &format!(
+    let added = (70..).zip(parts).map(|(id, (kind, attribute))| {
+        let component = format!(
             "{{\"id\": {id}, \"type\": \"{kind}\", \"attributes\": [{{\"id\": {attribute}}}]}},"
         );
-        references += &format!(
+        let reference = format!(
             "{{\"id\": {id}, \"type\": \"reference\", \"refs\": [{{\"id\": 15, \"role\": \"origin\"}}, \
                 {{\"id\": {id}, \"role\": \"referenced\"}}]}},"
         );
-    }
+        (component, reference)
+    });
+    let (components, references): (Vec<_>, Vec<_>) = added.unzip();
+    let (components, references) = (components.concat(), references.concat());
     let text = fs::read_to_string(model("spur-2.0.rexsj")).unwrap();
     let angle = "\"helix_angle_reference_diameter\", \"unit\": \"deg\", \"floating_point\": ";
     let pinion_side = "{\"id\": \"support_vector\", \"unit\": \"mm\", \"floating_point_array\": [3.0, 0.0, 0.0]}, \

@@ -52,7 +52,7 @@ fn the_formats_of_a_relief_agree_and_the_chosen_relief_solves_without_contact() 
         ["driver", "driven"].iter().flat_map(|gear| ["", "_length"].map(|key| (gear, key)))
     {
         let value = found["relief"][gear][format!("tip_relief{key}")].as_f64().unwrap();
-        case += &format!(" --set '{gear}.tip_relief{key}={value} m'");
+        case = format!("{case} --set '{gear}.tip_relief{key}={value} m'");
     }
     let solved = json(&format!("solve {case} --format json"));
     assert_eq!(solved["outcome"], "no-corner-contact");

@@ -128,9 +128,10 @@ pub(super) fn template(case: &Case, comments: &[(&str, String)]) -> String {
         let _ = writeln!(text, "\n# {help}\n[{table}]\n{lines}");
     }
     let about = of_table(&["about"]);
-    let lines = match about.is_empty() {
-        true => "# [about]\n# project = \"\"\n# author = \"\"".to_owned(),
-        false => format!("[about]\n{}", about.join("\n")),
+    let lines = if about.is_empty() {
+        "# [about]\n# project = \"\"\n# author = \"\"".to_owned()
+    } else {
+        format!("[about]\n{}", about.join("\n"))
     };
     let _ = writeln!(text, "\n# Texts for the page of a report, with any keys.\n{lines}");
     text.push_str("\n# Overrides of the case, for compare, --variant and the workbench.\n");

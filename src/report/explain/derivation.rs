@@ -166,7 +166,7 @@ fn derived(work: Work, formula: Formula, known: &Known) -> Vec<Work> {
             // In some cases words take the place of a formula that depends on the case.
             let is_words = matches!(other, Formula::Made(_)) && numbers.is_none();
             let how = if is_words { How::Described } else { How::Equals };
-            vec![Work { numbers, formula, how, ..work }]
+            vec![Work { formula, how, numbers, ..work }]
         }
     }
 }
