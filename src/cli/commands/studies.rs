@@ -67,7 +67,7 @@ impl Sweep {
             .map_err(|(text, problem)| Failure::of_option("--vary", text, &problem))?;
         self.running.destination.check(&self.input.case)?;
         let is_drawn = self.running.destination.is_picture();
-        self.running.destination.fits(self.format, true)?;
+        self.running.destination.fits(self.format, self.format == Format::Csv)?;
         let first = grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0)));
         let mut opened = self.input.open(&first.collect::<Vec<_>>(), streams)?;
         let mut quantities = self.only.quantities();
