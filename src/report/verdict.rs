@@ -543,6 +543,11 @@ mod tests {
         let found = verdicts(&case, &solution);
         let standings = found.iter().map(|verdict| verdict.standing);
         assert_eq!(standings.collect::<Vec<_>>(), [Standing::Within, Standing::Exceeded]);
+        // A value equal to its limit meets it.
+        let force = value(Quantity::find("mesh_force").unwrap(), &solution).unwrap();
+        let mut equal = case.clone();
+        equal.set_limit("mesh_force", &format!("{force:?} N")).unwrap();
+        assert_eq!(verdicts(&equal, &solution)[2].standing, Standing::Within);
         assert!(
             found[0].to_string().contains("<= 1.3 x mesh_force = 1981.6 N (77 %)"),
             "{}",

@@ -444,5 +444,6 @@ mod tests {
             case.write(0, &format!("title {number}"));
         }
         assert!(history.past.before.iter().all(|(difference, _)| difference.texts.len() == 1));
+        assert_eq!(history.past.before.len(), 999);
     }
 }

@@ -29,6 +29,8 @@ fn an_edit_stores_its_difference_and_undo_has_no_limit() {
     assert!(bytes < 100.0, "{bytes}");
     (0..=EDITS).for_each(|_| {
         desk.keys(&["Ctrl-Z"]);
+        let message = desk.app.message.as_ref().map(|message| message.text.as_str());
+        assert_ne!(message, Some("nothing to undo"));
     });
     assert!(!desk.app.tab.is_unsaved(), "back at the first one");
     assert!(desk.keys(&["Ctrl-Z"]).shows("nothing to undo"));
