@@ -1,5 +1,5 @@
-//! Corner contact in spur gear pairs: where, how hard and how long the tip of an incoming driven
-//! tooth strikes the driver's flank before the normal path of contact begins.
+//! Corner contact in spur and helical gear pairs: where, how hard and how long the tip of an
+//! incoming driven tooth strikes the driver's flank before the normal path of contact begins.
 //!
 //! The program `tipstrike` is a terminal workbench with headless commands. This library is its
 //! computation. A case is a TOML file; a solve turns the case into a [`Solution`]:

@@ -293,7 +293,7 @@ def _assigned(key, value):
 
 
 def read(path):
-    """The case of a file, or the only spur stage of a REXS model (.rexs, .rexsj, .rexsz)."""
+    """The case of a file, or the first stage of a REXS model (.rexs, .rexsj, .rexsz)."""
     return Case.read(_os.fspath(path))
 
 

@@ -15,18 +15,18 @@ use clap::Subcommand;
 pub enum Command {
     /// Solve cases and print the results
     ///
-    /// D is the first contact of the driven tip, E the start and B the end of the path of
-    /// contact, as in the paper; ISO 21771 has A for E, and E for B. CSV: one row per case and
-    /// one column per quantity in SI units, such as `impact_force [N]`; with --stations one row
-    /// per station. JSON: one object per case and line, in SI units; missing values are absent.
+    /// D is the first contact of the driven tip, E the start and B the end of the path of contact,
+    /// as in the paper; ISO 21771 has A for E, and E for B. CSV has one row per case and one column
+    /// per quantity in SI units, such as `impact_force [N]`; with --stations one row per station.
+    /// JSON has one object per case and line, in SI units, without missing values.
     Solve(results::Solve),
     /// Check each case's [limits] against its results, one verdict per line
     ///
-    /// A limit on impact_force applies to the free impact in every method. With static and
-    /// dynamic, the verdict also prints the force by the method; a separate limit can be set on
-    /// that force. Without corner contact every limit on the impact is met. If a quantity has no
-    /// value, the verdict is `unknown` with the reason, and the exit code is 1. JSON: one object
-    /// per verdict, in SI units.
+    /// A limit on impact_force applies to the free impact in every method. With static and dynamic
+    /// the line of the limit also has the force by the method, which can have its own limit.
+    /// Without corner contact every limit on the impact is met. If a quantity has no value, its
+    /// line is `unknown` with the reason, and the exit code is 1. JSON has one object per limit, in
+    /// SI units.
     Check(results::Check),
     /// Explain a quantity of a case: formula, numbers, source, validity and sensitivity
     Explain(results::Explain),
@@ -34,47 +34,46 @@ pub enum Command {
     ///
     /// Each setting is timed on this machine. Its total error is the greatest relative difference
     /// of first contact, forces and curve from the finest setting of method dynamic. The model
-    /// error is that of the finest setting of the same method; the rest is numerical. Where no
-    /// method finds corner contact, no setting is recommended. JSON is one object in SI units;
-    /// missing values are absent.
+    /// error is that of the finest setting of the same method; the rest is numerical. For a pair
+    /// with a load over the face width the settings are numbers of slices, coupled and independent.
+    /// Where no method finds corner contact, no setting is recommended. JSON is one object in SI
+    /// units, without missing values.
     Trade(studies::Trade),
     /// Compare the tooth compliance of every model over the flank with finite elements
     ///
     /// The finite elements are plane strain on the whole gear, as in tooth_compliance =
-    /// "finite-element". CSV: one row per gear and radius, in SI units; a cell is empty where a
-    /// model does not cover the gear. JSON: one object in SI units; missing values are absent,
-    /// and gaps and refusal give the reason.
+    /// "finite-element". CSV has one row per gear and radius, in SI units; a cell is empty where a
+    /// model does not cover the gear. JSON is one object in SI units, in which gaps and refusal
+    /// give the reason of a missing value.
     Stiffness(studies::Stiffness),
     /// Export stiffness, transmission error and forces of the mesh for other solvers
     ///
-    /// The mesh at rest over one base pitch of equal pairs (part `period`), as Fourier series, and
-    /// over the passage of the incoming tooth with its deviation (part `passage`), contact before E
-    /// and after B included. The equation of motion is m x'' + c x' + sum of k_j max(0, x - g_j) = F0
-    /// with x = rb1 phi1 - rb2 phi2, positive where the driver is ahead: gap_ and stiffness_ of each
-    /// pair in reach, reduced_mass m, damping c and mesh_force F0; tooth_stiffness_ gives the force of
-    /// the incoming tooth in the same way. For a linear solver it is m x'' + c x' + k(t) (x - e(t)) =
-    /// F0 with mesh_stiffness k and displacement_excitation e, whose pairs gain and lose contact where
-    /// they do at rest; for constant stiffness exciting_force is the mean stiffness times
-    /// transmission_error less its mean. CSV has one row per place, JSON is one object with the
-    /// constants and the series; all in SI units.
+    /// The part `period` is the mesh at rest over one base pitch of equal pairs, also as Fourier
+    /// series. The part `passage` is the passage of the incoming tooth with its deviation. The
+    /// equation of motion is m x'' + c x' + sum of k_j max(0, x - g_j) = F0 with x = rb1 phi1 - rb2
+    /// phi2, positive where the driver is ahead: reduced_mass m, damping c, stiffness_ k_j and gap_
+    /// g_j of each pair in reach, mesh_force F0. The linear equation is m x'' + c x' + k(t) (x -
+    /// e(t)) = F0 with mesh_stiffness k and displacement_excitation e. CSV has one row per place,
+    /// JSON is one object with the constants and the series; all in SI units. The page
+    /// docs/scripting.md describes every column.
     Excitation(studies::Excitation),
     /// Solve a case over a range of one or more fields, as a table
     ///
-    /// CSV has one row per point: the varied fields in the units of --vary, then the quantities
-    /// in SI units, then the outcome. A cell is empty where a quantity has no value, such as an
-    /// impact force without corner contact. A refused point has the outcome `refused` and no
-    /// values; standard error counts the refused points and gives the reason. JSON is one object
-    /// per line and point. Without --only the quantities are those of [limits], else the impact
-    /// force of the method. --out FILE.svg draws the curves; `tipstrike plot --sweep FILE.csv`
-    /// draws those of a CSV file.
+    /// CSV has one row per point: the varied fields in the units of --vary, then the quantities in
+    /// SI units, then the outcome. A cell is empty where a quantity has no value, such as an impact
+    /// force without corner contact. A refused point has the outcome `refused` and no values;
+    /// standard error counts the refused points and gives the reason. JSON has one object per line
+    /// and point. Without --only the quantities are those of [limits], or else the impact force of
+    /// the method. --out FILE.svg draws the curves; `tipstrike plot --sweep FILE.csv` draws those
+    /// of a CSV file.
     Sweep(studies::Sweep),
     /// Sample the distributions of [spread]: percentiles, probabilities, ranking of the fields
     ///
-    /// The quantities of [limits] are always computed. A distribution is a line of [spread]: the
-    /// field in quotes, then { normal = WIDTH } with the standard deviation, or { uniform = WIDTH
-    /// }, { triangular = WIDTH } or { truncated = WIDTH } (a normal distribution cut off at three
-    /// standard deviations) with half the span, or { grade = CLASS } with a flank tolerance class
-    /// of ISO 1328-1, for a base pitch deviation. CSV has one row per solve in SI units: the
+    /// A distribution is a line of [spread]: the field in quotes, then { normal = WIDTH } with the
+    /// standard deviation; { uniform = WIDTH }, { triangular = WIDTH } or { truncated = WIDTH } (a
+    /// normal distribution cut off at three standard deviations) with half the span; or { grade =
+    /// CLASS } with a flank tolerance class of ISO 1328-1, for a base pitch deviation. The
+    /// quantities of [limits] are always computed. CSV has one row per solve in SI units: the
     /// samples (set a), then the points of the ranking (set b, and b:FIELD with the value of b in
     /// that field). JSON is one object in SI units.
     Tolerance(studies::Tolerance),
@@ -82,12 +81,12 @@ pub enum Command {
     Gather(studies::Gather),
     /// Compare the variants of a case, or several cases, side by side with their differences
     ///
-    /// A variant is a table [variants.NAME] of the case file with the keys that it changes, such
-    /// as "driven.tip_relief" = "48 um". The first column is the reference of all differences. A
-    /// difference is in the unit of the quantity, or in percent if the quantity cannot be
-    /// negative and its value is at most ten times the reference. A refused case or variant keeps
-    /// its column, with the reason. CSV: one row per quantity in SI units. JSON: one object in SI
-    /// units; missing values are absent.
+    /// A variant is a table [variants.NAME] of the case file with the keys that it changes, such as
+    /// "driven.tip_relief" = "48 um". The first column is the reference of all differences. A
+    /// difference is in the unit of the quantity, or in percent if the quantity cannot be negative
+    /// and its value is at most ten times the reference. A refused case or variant keeps its
+    /// column, with the reason. CSV has one row per quantity in SI units. JSON is one object in SI
+    /// units, without missing values.
     Compare(results::Compare),
     /// Find the values of a field at which a condition on the results changes
     ///
@@ -99,24 +98,25 @@ pub enum Command {
     /// Find the tip relief to specify on both gears: no corner contact, least transmission error
     ///
     /// The answer is what a drawing states: amounts in whole um, lengths in steps of 0.1 mm (0.05
-    /// mm or 0.01 mm on short paths of contact), and the roll angle and diameter where each
-    /// relief begins. Corner contact counts before the start and after the end of the path of
-    /// contact, at the greatest load. Every figure is that of the least favourable combination of
-    /// the tolerances. Among the kinds of relief within 10 % of the least transmission error, or
-    /// 2 % of the least peak force, the command chooses the one with the smallest amounts. The
-    /// transmission error is peak to peak, at rest and without base pitch deviations: the
-    /// greatest over six loads of the range, or the mean over a spectrum. With method dynamic the
-    /// motion must have no corner contact either. CSV has one row per choice and point of the
-    /// map, JSON is one object; both are in SI units.
+    /// mm or 0.01 mm on short paths of contact), and the roll angle and diameter where each relief
+    /// begins. Corner contact counts before the start and after the end of the path of contact, at
+    /// the greatest load. Every figure is that of the least favourable combination of the
+    /// tolerances. Of the kinds of relief within 10 % of the least transmission error, or 2 % of
+    /// the least peak force, the command chooses the one with the smallest amounts. The
+    /// transmission error is peak to peak, at rest and without base pitch deviations: the greatest
+    /// over six loads of the range, or the mean over a spectrum. With method dynamic the motion
+    /// must have no corner contact either. --out FILE.svg draws the relief with its tolerances. CSV
+    /// has one row per choice and point of the map, JSON is one object; both are in SI units.
     Relief(studies::Relief),
     /// Write a chart of a case, or its teeth, as a picture (SVG)
     ///
     /// The chart shows the method of the case. If the method has no such chart, the command draws
     /// another method: load_share of paper and exact shows static; impact_energy of static and
     /// dynamic shows exact. The legend names the method. The chart speed shows method dynamic at
-    /// the torque of the case, with the speed rising and falling. The picture follows the light
-    /// or dark setting of the browser. A sweep is drawn over the field with the most values, with
-    /// a curve for each combination of the others.
+    /// the torque of the case, with the speed rising and falling; relief shows the reliefs of both
+    /// gears over the roll angle, and contact_pattern the line load over the face width. The
+    /// picture follows the light or dark setting of the browser. A sweep is drawn over the field
+    /// with the most values, with a curve for each combination of the others.
     Plot(results::Plot),
     /// Write cases side by side as one page or as data: .html, .md, .csv or .json
     ///

@@ -39,12 +39,11 @@ const ABOUT_KEYS: [&str; 6] = [
     "Enter a value with its unit: 5 mm, 16 um, 0.2 in, 15 kW, 20 hp, 2000 rpm, 20 deg. To a \
         number without a unit, the workbench adds the unit of the field.",
     "The frame of a pane shows the keys that select the pane: a digit outside a field, Esc and \
-        the digit in a field. In a field, digits are part of the value. Esc after the first digit \
-        restores the value.",
+        the digit in a field. In a field, digits are part of the value; Ctrl-Z restores the former value.",
     "In an empty or fully selected field, / and : start a command.",
     "An empty field shows its default in brackets; (required) marks a missing required value.",
-    "D is the first contact of the driven tip, E the start of the normal path of contact. The \
-        method paper uses the printed Eqs. 7-20; exact solves for D.",
+    "D is the first contact of the driven tip; E and B are the start and the end of the normal path \
+        of contact, A and E in ISO 21771.",
 ];
 
 /// The signs, by pane.
@@ -495,7 +494,8 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::WORK, "", "reload", files::ask_reload,
         "Read the file of the case again; asks if there are unsaved edits."),
     row(Place::WORK, "Alt-X", "export", export::ask,
-        "Write the report (.html, .md, .csv, .json) or the shown chart or teeth (.svg) to a file."),
+        "Write the report (.html, .md, .csv, .json), the shown chart or teeth (.svg), or the points of \
+            the study (.csv, .json, .svg) to a file."),
     row(Place::WORK, "Ctrl-N", "new", files::fresh_tab,
         "Start an empty case: required fields are marked, the others show their defaults."),
     row(Place::WORK, "Alt-N", "from example", files::ask_example,
