@@ -707,7 +707,7 @@ const MODEL: &[Field] = &[
     )]),
     count("model.slices", "", "slices", (3, MOST_SLICES as u32), Default("auto"), |inputs, value| {
             inputs.slices = (value > 0).then_some(value as usize);
-        }, "Slices of the face width; auto: as many as the load to 0.1 % needs.").reasons(&FACE),
+        }, "Slices of the face width; auto: enough for the load within 0.1 %.").reasons(&FACE),
     choice("model.slice_coupling", "", "slice coupling", FLAG, Default("true"), |inputs, value| inputs.slice_coupling = value == 1, "Whether a force on a slice displaces the slices beside it; without it each slice \
             deflects alone.").reasons(&FACE),
     choice("model.inertia", "", "inertia model", &["outline", "base-circle"], Default("outline"), |inputs, value| {
@@ -775,7 +775,7 @@ const MODEL: &[Field] = &[
     )]),
     count("model.stations", "n", "stations", (1, 10000), Default("64"), |inputs, value| {
             inputs.stations = (value > 0).then_some(value as usize);
-        }, "Intervals between D and E, and in static and dynamic as many again to the last contact; auto: as many as the curve needs.").reasons(&[Partly(always, CURVE)]),
+        }, "Intervals between D and E; static and dynamic have as many again after E. auto: enough for the station tolerance.").reasons(&[Partly(always, CURVE)]),
     number!(
         "model.station_tolerance",
         "",
