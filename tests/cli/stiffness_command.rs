@@ -31,9 +31,6 @@ fn text_of_table_1_fits_80_columns() {
     assert_eq!((code, errors.as_str()), (0, ""));
     let wide = text.lines().find(|line| line.chars().count() > 80);
     assert_eq!(wide, None);
-    let (_, from_driver) = text.split_once("driver: ").unwrap();
-    let (table, _) = from_driver.split_once("\n\n").unwrap();
-    assert!(include_str!("../../docs/methods.md").contains(table));
     insta::assert_snapshot!("stiffness_zhou", text);
 }
 
