@@ -20,7 +20,7 @@ pub enum Command {
     /// per quantity in SI units, such as `impact_force [N]`; with --stations one row per station.
     /// JSON has one object per case and line, in SI units, without missing values.
     Solve(results::Solve),
-    /// Check each case's [limits] against its results, one verdict per line
+    /// Print the verdict of each case and check its [limits], one line each
     ///
     /// A limit on impact_force applies to the free impact in every method. With static and dynamic
     /// the line of the limit also has the force by the method, which can have its own limit.
@@ -128,7 +128,7 @@ pub enum Command {
     Report(results::Report),
     /// List every field of a case with its unit, range, default and meaning
     Fields(results::Fields),
-    /// Write the JSON Schema of a case file, with which editors complete keys
+    /// Write the JSON Schema of a case file; editors use it to complete keys
     Schema(results::Schema),
     /// Write a commented case to start from
     New(results::New),

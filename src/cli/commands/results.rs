@@ -299,7 +299,7 @@ pub struct Plot {
     /// Draw the CSV file of a sweep instead of a case
     #[arg(long, value_name = "FILE", conflicts_with_all = ["case", "chart", "variant", "method", "settings"])]
     sweep: Option<PathBuf>,
-    /// The quantities of the sweep
+    /// Draw only these quantities of the sweep
     #[arg(long, value_name = "QUANTITY,...", requires = "sweep", hide_possible_values = true, value_parser = Quantities)]
     only: Vec<Vec<&'static Quantity>>,
     /// The file

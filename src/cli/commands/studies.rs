@@ -40,7 +40,7 @@ pub struct Sweep {
     #[arg(long, required = true, value_name = "KEY=FROM..TO")]
     vary: Vec<String>,
     /// Number of points of each range, both ends included; default 101, or every whole number.
-    /// Given once for all ranges, or once for each
+    /// Give it once for all ranges, or once for each
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
     points: Vec<usize>,
     /// Use equal ratios between the points of a range instead of equal steps
