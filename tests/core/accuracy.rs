@@ -6,14 +6,13 @@
 //! `TIPSTRIKE_SEED` repeats the pairs of an earlier run.
 use crate::oracle;
 
-use crate::envelope;
+use crate::envelope::{self, Corner, Random};
 mod naive;
 mod rows;
 mod table;
 
 use std::sync::LazyLock;
 
-use envelope::{Corner, Random};
 use oracle::number::{Big, big, decimal, rounded};
 use rows::Row;
 use tipstrike::model::{Inputs, Quantity, Solution, Stages, solve};

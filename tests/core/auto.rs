@@ -1,11 +1,9 @@
 //! Method `auto` chooses what a trade study would recommend, at about its run time.
 //!
 //! `TIPSTRIKE_PAIRS=600 cargo test --test core auto:: -- --nocapture` checks 600 pairs instead of
-//! 60.
+//! 24.
 use crate::support::pairs_or;
 use crate::{pairs, table};
-
-use std::time::Instant;
 
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Outcome, Refusal, Solution, Stages, auto, solve};
@@ -73,28 +71,11 @@ fn auto_chooses_the_method_that_a_trade_recommends_at_its_cost() {
             stages <= 1.5 * named_stages + closed_form + 1.0,
             "{name}: {stages} for {named_stages}"
         );
-        let ratio = least_time(&inputs) / least_time(&named);
         let evaluated = if named_evaluations > 0.0 { evaluations / named_evaluations } else { 1.0 };
-        println!(
-            "{name}: {}, {ratio:.2} times its time, {evaluated:.2} times its evaluations",
-            recommended.name()
-        );
         assert!(evaluated <= 1.5, "{name}: {evaluations} for {named_evaluations}");
-        if ratio > 1.5 {
-            println!("WARNING: {name} takes {ratio:.2} times as long by choice");
-        }
     }
     println!("a dearer method than recommended: {dearer:?}");
     assert!(dearer.len() <= 3, "{dearer:?}");
-}
-
-fn least_time(inputs: &Inputs) -> f64 {
-    let time = |_| {
-        let begun = Instant::now();
-        assert!(solved(inputs).is_ok());
-        begun.elapsed().as_secs_f64()
-    };
-    (0..3).map(time).fold(f64::INFINITY, f64::min)
 }
 
 /// Greatest difference from `dynamic` at 1e-8.
@@ -113,7 +94,7 @@ fn off(inputs: &Inputs, method: Method, truth: &Answer) -> Option<f64> {
 fn auto_is_never_wrong_on_other_pairs_and_seldom_too_expensive() {
     let mut agreed = [0; WITHINS.len()];
     let (mut looked_at, mut wrong) = (0, Vec::new());
-    for number in 0..pairs_or(60) {
+    for number in 0..pairs_or(24) {
         let inputs = pairs::numbered(number);
         let fine = Inputs {
             method: Method::Dynamic,
@@ -151,31 +132,4 @@ fn auto_is_never_wrong_on_other_pairs_and_seldom_too_expensive() {
     );
     assert!(wrong.is_empty(), "not good enough: {wrong:#?}");
     assert!(agreed.iter().all(|&agreed| 5 * agreed >= 4 * looked_at), "{agreed:?} of {looked_at}");
-}
-
-#[test]
-fn first_contact_and_peaks_converge_with_the_tolerance() {
-    for number in 0..40 {
-        let inputs =
-            Inputs { method: Method::Dynamic, stations: Some(1), ..pairs::numbered(number) };
-        let at = |tolerance| {
-            solved(&Inputs { tolerance, ..inputs.clone() })
-                .map(|solution| solution.dynamic.expect("the method"))
-        };
-        let (Ok(coarse), Ok(fine)) = (at(1e-5), at(1e-9)) else { continue };
-        let near = |coarse: f64, fine: f64| (coarse - fine).abs() <= 1e-3 * fine.abs();
-        assert!(
-            near(coarse.peak_force, fine.peak_force),
-            "{number}: {} {}",
-            coarse.peak_force,
-            fine.peak_force
-        );
-        let peaks = (coarse.peak_approach_force, fine.peak_approach_force);
-        assert!(near(peaks.0, peaks.1), "{number}: before E {peaks:?}");
-        let angles = coarse.first_contact_angle.zip(fine.first_contact_angle);
-        assert!(
-            angles.is_none_or(|(coarse, fine)| near(coarse, fine)),
-            "{number}: first contact {angles:?}"
-        );
-    }
 }

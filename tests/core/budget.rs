@@ -1,9 +1,8 @@
 //! Every solve ends within its work budget, for every valid case.
 //!
 //! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core budget:: -- --nocapture` draws a
-//! million cases instead of 1,000 and prints the most expensive ones by counted work and by time.
+//! million cases instead of 250.
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
 
 use crate::envelope::Random;
 use crate::support::{inputs, on_all_cores, pairs_or};
@@ -19,9 +18,6 @@ const MOST_BYTES: u64 = 64 << 20;
 
 /// Work above the budget of a search, which ends after the mesh or step that exceeds the budget.
 const MARGIN: u64 = 100_000;
-
-/// Number of printed cases of each kind.
-const PRINTED: usize = 20;
 
 /// Numbers of fields that are changed from the ordinary pair.
 const MOVED: [usize; 7] = [1, 2, 3, 5, 8, 15, 45];
@@ -104,7 +100,7 @@ fn move_field(case: &mut Case, field: usize, random: &mut Random) {
 /// replaces the field.
 #[test]
 fn every_valid_gear_has_a_field_or_the_beam_with_a_note() {
-    const CASES: u64 = 400;
+    const CASES: u64 = 100;
     let mut seen = BTreeMap::new();
     for number in 0..CASES {
         let mut case = drawn(number);
@@ -138,7 +134,7 @@ fn every_valid_gear_has_a_field_or_the_beam_with_a_note() {
         );
     }
     println!("{seen:?}");
-    assert!(seen.len() > 1 && seen["field"] > 100, "{seen:?}");
+    assert!(seen.len() > 1 && seen["field"] > 25, "{seen:?}");
 }
 
 /// An end of a range, or any value in it with logarithmic distribution; for a range around 0,
@@ -157,49 +153,27 @@ fn anywhere(from: f64, to: f64, random: &mut Random) -> f64 {
     }
 }
 
-/// The cost and the outcome of a solve.
-#[derive(Debug, Clone)]
-struct Taken {
-    number: u64,
-    outcome: String,
-    work: u64,
-    time: Duration,
-    bytes: u64,
-}
-
-/// Solves a case within its budget; every number of its answer or refusal must be finite.
-fn taken(name: &str, number: u64, inputs: &Inputs) -> Taken {
-    let begun = Instant::now();
+/// Solves a case within its budget. Returns the outcome; every number of the answer or refusal must
+/// be finite.
+fn ended(name: &str, inputs: &Inputs) -> String {
     let mut solved = Err(Refusal::Stopped);
     let info = allocation_counter::measure(|| solved = solve(inputs, every_quantity()));
-    let time = begun.elapsed();
-    let bytes = info.bytes_max;
-    assert!(bytes <= MOST_BYTES, "{name}: {bytes} bytes");
-    Taken {
-        number,
-        outcome: outcome(name, inputs, &solved),
-        work: match &solved {
-            Ok(solution) => work(name, solution),
-            Err(Refusal::MotionTooLong { .. } | Refusal::MotionTooLarge { .. }) => MOTION_WORK,
-            Err(_) => 0,
-        },
-        time,
-        bytes,
+    assert!(info.bytes_max <= MOST_BYTES, "{name}: {} bytes", info.bytes_max);
+    if let Ok(solution) = &solved {
+        assert_within_budget(name, solution);
     }
+    outcome(name, inputs, &solved)
 }
 
-/// The work of a solution, with every part within its budget.
-fn work(name: &str, solution: &Solution) -> u64 {
+fn assert_within_budget(name: &str, solution: &Solution) {
     let mesh = solution.mesh.as_ref().map_or(0, |mesh| mesh.work());
     let motion = solution.dynamic.as_ref().map_or(0, |dynamic| dynamic.work);
     assert!(motion <= MOTION_WORK, "{name}: {motion} of the motion");
     assert!(mesh <= MARGIN, "{name}: {mesh} of the mesh");
-    let search = solution.clearing.map_or(0, |clearing| {
-        assert!(clearing.runs <= SEARCH_TRIES, "{name}: {} tries", clearing.runs);
-        clearing.work
-    });
-    assert!(search <= SEARCH_WORK + MARGIN, "{name}: {search} of the search");
-    mesh + motion + search
+    if let Some(search) = solution.clearing {
+        assert!(search.runs <= SEARCH_TRIES, "{name}: {} tries", search.runs);
+        assert!(search.work <= SEARCH_WORK + MARGIN, "{name}: {} of the search", search.work);
+    }
 }
 
 /// The outcome as a short text; every number of the answer must be finite.
@@ -231,74 +205,33 @@ fn outcome(name: &str, inputs: &Inputs, solved: &Result<Solution, Refusal>) -> S
     }
 }
 
-/// Prints the number of each outcome, and the most expensive cases.
-fn print(all: &[Taken], outcomes: &BTreeMap<&str, u64>) {
-    type Size = (&'static str, fn(&Taken) -> u64);
-    for (outcome, count) in outcomes {
-        println!("{count:8} {outcome}");
-    }
-    let sizes: [Size; 3] = [
-        ("work", |taken| taken.work),
-        ("time", |taken| taken.time.as_nanos() as u64),
-        ("memory", |taken| taken.bytes),
-    ];
-    for (name, size) in sizes {
-        println!("\nmost {name}");
-        let mut costliest: Vec<&Taken> = all.iter().collect();
-        costliest.sort_by_key(|taken| std::cmp::Reverse(size(taken)));
-        for Taken { number, outcome, work, time, bytes } in costliest.into_iter().take(PRINTED) {
-            let (time, kilobytes, moved) = (time.as_secs_f64(), bytes / 1000, moved(*number));
-            println!("{work:9} units {time:7.3} s {kilobytes:6} kB  {outcome}: {moved}");
-        }
-    }
-}
-
-/// The differences of a drawn case from Table 1.
-fn moved(number: u64) -> String {
-    let (case, fresh) = (drawn(number), ordinary());
-    let moved = (0..FIELDS.len()).filter(|&field| case.text(field) != fresh.text(field));
-    let written = |field: usize| {
-        let text = case.text(field).unwrap_or("-");
-        format!("{} = {text}", FIELDS[field].key)
-    };
-    moved.map(written).collect::<Vec<_>>().join(", ")
-}
-
 #[test]
 fn a_valid_case_however_extreme_ends_within_its_budget() {
-    let all = on_all_cores(pairs_or(1000), |number| {
+    let all = on_all_cores(pairs_or(250), |number| {
         let inputs = drawn(number).inputs().expect("a valid case");
-        taken(&format!("case {number}"), number, &inputs)
+        ended(&format!("case {number}"), &inputs)
     });
-    let mut outcomes = BTreeMap::new();
-    for one in &all {
-        *outcomes.entry(one.outcome.as_str()).or_default() += 1;
+    let mut outcomes = BTreeMap::<&str, u64>::new();
+    for outcome in &all {
+        *outcomes.entry(outcome).or_default() += 1;
     }
-    print(&all, &outcomes);
+    println!("{outcomes:#?}");
     let count = |start: &str| {
         let all = outcomes.iter().filter(|(outcome, _)| outcome.starts_with(start));
         all.map(|(_, count)| count).sum::<u64>()
     };
     let (answered, refused) = (count("c"), count("refused"));
-    let least = pairs_or(1000) / 5;
+    let least = pairs_or(250) / 5;
     assert!(answered > least && refused > least, "{answered} and {refused}");
 }
 
 /// Cases that took more than 20 s in the past, from a random search: with their outcome, and the
 /// required additional tip relief in um.
-const SLOW: [(&str, &str, &str); 13] = [
+const SLOW: [(&str, &str, &str); 5] = [
     ("1210-dynamic", "corner-contact", "22.628"),
-    ("1738-dynamic", "corner-contact", "22.628"),
-    ("1895-auto", "corner-contact", "22.628"),
     ("2171-auto", "corner-contact, clearing-relief-not-found", ""),
-    ("2506-dynamic", "corner-contact", "22.628"),
-    ("2822-dynamic", "corner-contact", "22.628"),
-    ("3071-auto", "corner-contact", "22.628"),
     ("3502-dynamic", "corner-contact", "22.627"),
     ("3598-dynamic", "corner-contact", "39.436"),
-    ("363-auto", "corner-contact", "22.628"),
-    ("3938-dynamic", "corner-contact", "22.628"),
-    ("4063-auto", "corner-contact", "22.628"),
     ("739-auto", "corner-contact", "22.628"),
 ];
 
@@ -306,7 +239,7 @@ const SLOW: [(&str, &str, &str); 13] = [
 fn cases_that_took_more_than_20_s_end_within_their_budget() {
     for (name, expected, relief) in SLOW {
         let inputs = inputs(&format!("tests/slow/{name}.toml"));
-        assert_eq!(taken(name, 0, &inputs).outcome, expected, "{name}");
+        assert_eq!(ended(name, &inputs), expected, "{name}");
         let solution = solve(&inputs, Stages::of(Stage::Clearing)).expect("a solution");
         let found = solution.clearing.and_then(|clearing| clearing.relief);
         let shown = found.map_or(String::new(), |relief| format!("{:.3}", 1e6 * relief));
@@ -319,7 +252,7 @@ fn cases_that_took_more_than_20_s_end_within_their_budget() {
 fn the_case_with_the_longest_curve_stays_within_the_memory_of_a_solve() {
     let number = 112_869;
     let inputs = drawn(number).inputs().expect("a valid case");
-    taken("case 112869", number, &inputs);
+    ended("case 112869", &inputs);
 }
 
 /// Contact and loss of contact alternate at the end of a relief if the load deflects the teeth by
@@ -364,8 +297,7 @@ fn a_motion_whose_steps_need_more_memory_than_a_solve_may_take_is_refused() {
         ("operation.speed", "0.25 rpm"),
     ]);
     let inputs = case.inputs().expect("a valid case");
-    let outcome = taken("0.25 rpm", 0, &inputs).outcome;
-    assert_eq!(outcome, "refused: motion-too-large");
+    assert_eq!(ended("0.25 rpm", &inputs), "refused: motion-too-large");
     let refusal = solve(&inputs, Stages::of(Stage::Dynamic)).unwrap_err();
     assert_eq!(key_of(refusal.at()), "operation.speed");
     let fix = "give a higher speed, or set model.method to static";

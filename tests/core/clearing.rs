@@ -168,7 +168,7 @@ fn figures(sentence: &str) -> (String, Option<String>) {
 fn the_required_relief_prevents_contact_when_it_is_typed_in() {
     let mut looked_at = 0;
     for (number, method) in
-        (0..pairs_or(40)).flat_map(|number| METHODS.map(|method| (number, method)))
+        (0..pairs_or(20)).flat_map(|number| METHODS.map(|method| (number, method)))
     {
         for given in [0.0, 1e-6, 3.217e-6] {
             let mut inputs = Inputs { method, ..pairs::numbered(number) };
@@ -196,7 +196,7 @@ fn the_required_relief_prevents_contact_when_it_is_typed_in() {
             }
         }
     }
-    assert!(looked_at > 300, "{looked_at}");
+    assert!(looked_at > 150, "{looked_at}");
 }
 
 #[test]
@@ -234,8 +234,8 @@ fn applied(inputs: &Inputs, relief: f64, unit: &str) -> f64 {
 fn the_required_relief_in_full_digits_is_enough_in_every_unit() {
     let mut looked_at = [0; METHODS.len()];
     let mut failed = Vec::new();
-    for (at, (method, count)) in METHODS.into_iter().zip([300, 300, 250, 36]).enumerate() {
-        let count = count.max(pairs_or(40));
+    for (at, (method, count)) in METHODS.into_iter().zip([120, 120, 100, 18]).enumerate() {
+        let count = count.max(pairs_or(0));
         for number in 0..count {
             let mut inputs = Inputs { method, ..built(number) };
             let module = inputs.module;
@@ -278,7 +278,7 @@ fn the_required_relief_in_full_digits_is_enough_in_every_unit() {
     }
     println!("{looked_at:?} {failed:#?}");
     assert!(failed.is_empty(), "{} of {looked_at:?}", failed.len());
-    assert!(looked_at[1] > 250 && looked_at[2] > 200 && looked_at[3] > 20, "{looked_at:?}");
+    assert!(looked_at[1] > 90 && looked_at[2] > 70 && looked_at[3] > 9, "{looked_at:?}");
 }
 
 #[test]

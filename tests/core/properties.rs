@@ -2,13 +2,12 @@
 //!
 //! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core properties::` checks a million pairs
 //! instead of 25,000.
-use crate::envelope;
+use crate::envelope::{Corner, Random, pair};
 use crate::scaling::{factor, scaled};
 use crate::support::{off, on_all_cores, pairs_or, value};
 
 use std::collections::BTreeMap;
 
-use envelope::{Corner, Random, pair};
 use tipstrike::model::inputs::{ContactCompliance, Method, ToothCompliance};
 use tipstrike::model::{
     Geometry, Inputs, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages, geometry, notes, solve,

@@ -148,7 +148,6 @@ fn every_case_beyond_the_fit_within_1e_10() {
     }
 }
 
-/// Table 1 by one of the methods, with ten stations.
 fn table_1(method: Method) -> Solution {
     let inputs = Inputs { method, stations: Some(10), ..case("zhou-chen-2014") };
     solve(&inputs, Stages::ALL).expect("a solution")

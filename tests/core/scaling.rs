@@ -12,6 +12,7 @@ use tipstrike::model::inputs::{
     ContactCompliance, Drive, Gear, InertiaModel, Method, ReliefShape, ToothCompliance,
 };
 use tipstrike::model::{Inputs, QUANTITIES, Quantity, Solution, Stage, Stages, notes, solve};
+use tipstrike::report::stations::{Column, columns};
 
 /// Lengths times `length`, times times `time`, forces times `length`², so that every stress is
 /// unchanged.
@@ -47,7 +48,6 @@ pub(crate) fn scaled(inputs: &Inputs, length: f64, time: f64) -> Inputs {
     }
 }
 
-/// The factor of a unit under this scaling.
 pub(crate) fn factor(unit: &str, length: f64, time: f64) -> f64 {
     match unit {
         "m" | "N/m" => length,
@@ -119,37 +119,16 @@ fn values(solution: &Solution) -> Vec<Value> {
     // The standard has constants with dimensions: 100 N/mm, 206 GPa.
     let scales = |quantity: &&Quantity| !quantity.key.starts_with("iso_");
     let mut all: Vec<Value> = QUANTITIES.iter().filter(scales).map(quantity).collect();
-    let free = solution.stations.iter().map(|station| {
-        vec![
-            ("roll_angle_driven", "rad", Some(station.roll_angle_driven)),
-            ("radius_driver", "m", station.radius_driver()),
-            ("normal_velocity", "m/s", Some(station.normal_velocity)),
-            ("sliding_velocity", "m/s", Some(station.sliding_velocity)),
-            ("impact_force", "N", Some(station.force)),
-            ("gap", "m", Some(station.gap)),
-            ("pair_compliance", "m2/N", station.pair_compliance),
-            ("impact_energy", "J", station.impact_energy()),
-        ]
-    });
-    let mesh = [
-        solution.static_load.as_ref().map(|load| &load.stations),
-        solution.dynamic.as_ref().map(|motion| &motion.stations),
-    ];
-    let shared = mesh.into_iter().flatten().flatten().map(|station| {
-        vec![
-            ("roll_angle_driven", "rad", Some(station.roll_angle_driven)),
-            ("force", "N", Some(station.force)),
-            ("load_share", "1", station.load_share()),
-            ("transmission_error", "m", station.transmission_error()),
-            ("normal_velocity", "m/s", Some(station.normal_velocity)),
-            ("sliding_velocity", "m/s", Some(station.sliding_velocity)),
-            ("gap", "m", Some(station.gap)),
-            ("pair_compliance", "m2/N", station.pair_compliance),
-            ("time", "s", station.time()),
-            ("rate", "m/s", station.rate()),
-        ]
-    });
-    let rows: Vec<_> = free.chain(shared).collect();
+    let rest = solution.static_load.as_ref().map(|load| (Method::Static, &load.stations));
+    let motion = solution.dynamic.as_ref().map(|motion| (Method::Dynamic, &motion.stations));
+    let curves = [Some((Method::Exact, &solution.stations)), rest, motion];
+    let mut rows = Vec::new();
+    for (method, stations) in curves.into_iter().flatten() {
+        for station in stations {
+            let value = |of: &Column| (of.key, of.unit, (of.value)(solution, station));
+            rows.push(columns(method).map(value).collect::<Vec<_>>());
+        }
+    }
     let largest = |name: &str| {
         let column = rows.iter().flatten().filter(|column| column.0 == name);
         column.fold(0.0, |most: f64, column| most.max(column.2.unwrap_or(0.0).abs()))

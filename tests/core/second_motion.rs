@@ -88,7 +88,6 @@ struct Oscillator<'a> {
     touching: Vec<i32>,
 }
 
-/// The pairs at one time.
 struct PairState {
     pairs: PairSet,
     touching: Touching,

@@ -4,14 +4,11 @@ use tipstrike::case::spread::Shape;
 use tipstrike::case::{Case, Spread};
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Outcome, QUANTITIES, Quantity, Stage, Stages, solve};
-use tipstrike::study::axis::Grid;
-use tipstrike::study::axis::{AxisRange, Sampling};
+use tipstrike::study::axis::{AxisRange, Grid, Sampling};
 use tipstrike::study::batch::{Batch, Control, PointOutcome, Points, Row, Stopped, solve_all};
-use tipstrike::study::seek::{Condition, State};
-use tipstrike::study::seek::{Found, seek};
+use tipstrike::study::seek::{Condition, Found, State, seek};
 use tipstrike::study::statistics::{Estimate, Indices, Ranked, indices};
-use tipstrike::study::tolerance::{Design, Distribution, Member};
-use tipstrike::study::tolerance::{Samples, Size, Tolerance};
+use tipstrike::study::tolerance::{Design, Distribution, Member, Samples, Size, Tolerance};
 
 /// Every quantity except the required relief and the peaks over the speed, which are slow.
 fn quick_quantities() -> Vec<&'static Quantity> {
@@ -93,24 +90,6 @@ fn every_row_of_a_sweep_is_a_plain_solve_to_the_last_bit() {
                 assert_eq!((row.outcome, bits(row)), plain, "{place}");
             }
         }
-    }
-}
-
-#[test]
-fn rows_do_not_depend_on_the_number_of_threads() {
-    let inputs = Case::table_1().inputs().unwrap();
-    let grid = grid(&["driven.tip_relief=0..80 um", "driver.bore_radius=30..50 mm"], 60);
-    let quantities = [Quantity::find("impact_force").unwrap()];
-    let one = solved(&inputs, &grid, 1, &quantities);
-    let outcomes = [Outcome::CornerContact, Outcome::NoCornerContact].map(PointOutcome::Solved);
-    for outcome in outcomes.into_iter().chain([PointOutcome::Refused]) {
-        assert!(one.iter().any(|row| row.outcome == outcome), "{}", outcome.name());
-    }
-    for jobs in [2, 5] {
-        let other = solved(&inputs, &grid, jobs, &quantities);
-        let cells = |rows: &[Row]| rows.iter().flat_map(bits).collect::<Vec<_>>();
-        assert_eq!(cells(&one), cells(&other));
-        assert_eq!(one, other);
     }
 }
 

@@ -348,13 +348,6 @@ fn slices_of_a_helical_pair_are_compared_coupled_and_independent() {
     assert_eq!(json["reference"]["slices"], 513);
 }
 
-#[test]
-fn the_page_is_eighty_columns_wide() {
-    for line in text(traded_table_1()).lines() {
-        assert!(line.chars().count() <= 80, "{line}");
-    }
-}
-
 /// Twice as many cycles or stations take twice as many evaluations, plus a constant; cycles only
 /// while they differ.
 #[test]

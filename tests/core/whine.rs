@@ -7,8 +7,7 @@ use tipstrike::model::inputs::{Drive, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::solve::speeds;
 use tipstrike::model::speeds::SPEEDS;
-use tipstrike::model::static_load::HARMONICS;
-use tipstrike::model::static_load::balance;
+use tipstrike::model::static_load::{HARMONICS, balance};
 use tipstrike::model::{Inputs, Note, Refusal, Solution, Stages, Steady, notes, solve};
 
 fn solved(inputs: &Inputs) -> Solution {
@@ -21,7 +20,6 @@ fn steady(solution: &Solution) -> &Steady {
     found.as_ref().unwrap_or_else(|refusal| panic!("{refusal}"))
 }
 
-/// The amplitudes of equidistant samples of a period.
 fn amplitudes(samples: &[f64]) -> Vec<f64> {
     let count = samples.len() as f64;
     let amplitude = |order: usize| {

@@ -182,53 +182,6 @@ fn energies_balance_to_the_tolerance() {
     }
 }
 
-/// The coupled equation in Runge-Kutta steps of fixed length without events, with the forces of the
-/// linear complementarity problem at every place.
-fn plain_peak(mesh: &Mesh, settings: &Settings, steps: u32) -> f64 {
-    let damping = 2.0 * settings.damping_ratio * (mesh.mean_stiffness() * settings.mass).sqrt();
-    let forces = |t: f64, x: f64| {
-        let pairs = mesh.pair_set(t * mesh.speed, t * mesh.speed);
-        let forces = pairs.forces(x);
-        let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0);
-        (forces.iter().sum::<f64>(), incoming.map_or(0.0, |incoming| forces[incoming]))
-    };
-    let slope = |t: f64, y: State| {
-        let (total, _) = forces(t, y[0]);
-        let drag = if total > 0.0 { damping * y[1] } else { 0.0 };
-        State::new(y[1], (mesh.force - total - drag) / settings.mass)
-    };
-    let start = -f64::from(settings.warmup_cycles) * mesh.base_pitch;
-    let h = (1.2 * mesh.length - start) / mesh.speed / f64::from(steps);
-    let inside = start + 1e-9 * mesh.base_pitch;
-    let mut y = State::new(static_load::balance(mesh, start, inside).displacement, 0.0);
-    let mut peak = 0.0f64;
-    for step in 0..steps {
-        let t = start / mesh.speed + f64::from(step) * h;
-        let one = slope(t, y);
-        let two = slope(t + 0.5 * h, y + 0.5 * h * one);
-        let three = slope(t + 0.5 * h, y + 0.5 * h * two);
-        let four = slope(t + h, y + h * three);
-        y += h / 6.0 * (one + 2.0 * (two + three) + four);
-        peak = peak.max(forces(t + h, y[0]).1);
-    }
-    peak
-}
-
-#[test]
-fn plain_steps_with_coupled_pairs_give_the_same_peak() {
-    for (friction, deviation) in [(0.0, 12e-6), (0.0, 40e-6)] {
-        let (mesh, settings) = coupled(|inputs| {
-            inputs.friction_coefficient = Some(friction);
-            inputs.base_pitch_deviation = deviation;
-        });
-        let settings = Settings { warmup_cycles: 2, ..settings };
-        let found = dynamic(&mesh, &settings, &|_| true).unwrap();
-        let off = |steps| (plain_peak(&mesh, &settings, steps) / found.peak_force - 1.0).abs();
-        let (coarse, fine) = (off(4_000), off(64_000));
-        assert!(fine < 2e-7 && fine < 0.5 * coarse.max(4e-9), "{coarse:e} and {fine:e}");
-    }
-}
-
 /// At low speed the forces are those of the static balance of coupled pairs.
 #[test]
 fn slow_coupled_gears_carry_the_static_load() {

@@ -87,7 +87,6 @@ fn path() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/core/accuracy/rows.json")
 }
 
-/// The frozen rows.
 pub(crate) fn frozen() -> Vec<Row> {
     let text = std::fs::read_to_string(path()).expect("the frozen rows");
     let file: Value = serde_json::from_str(&text).expect("JSON");
@@ -248,7 +247,6 @@ const FIELDS: [Field; 30] = [
     ("backlash", |i| Slot::Number(&mut i.backlash)),
 ];
 
-/// The choices of the inputs as text.
 fn choices(inputs: &Inputs) -> String {
     let drive = if matches!(inputs.drive, Drive::Power(_)) { "power" } else { "torque" };
     let tooth = inputs.tooth_compliance.map_or("by-range", ToothCompliance::name);

@@ -45,10 +45,8 @@ struct Line {
     cells: Vec<Option<Cell>>,
 }
 
-/// The table.
 pub(crate) struct Table(Vec<Line>);
 
-/// The decade of the Δ of a row.
 pub(crate) fn decade(row: &Row) -> i32 {
     row.answer("total_deviation").expect("a deviation").log10().floor() as i32
 }
@@ -91,13 +89,11 @@ impl Table {
         )
     }
 
-    /// The stored table.
     pub(crate) fn stored() -> Table {
         let text = std::fs::read_to_string(path()).expect("the stored table");
         Table(text.lines().skip(2).map(read_line).collect())
     }
 
-    /// As Markdown.
     pub(crate) fn markdown(&self) -> String {
         let mut text = "| quantity | formula |".to_owned();
         for decade in DECADES {
