@@ -350,20 +350,6 @@ fn a_flood_of_faults_is_cut() {
 }
 
 #[test]
-fn long_and_hostile_names_are_shown_short_and_visible() {
-    let key = format!("\"{}\\u001b[2J\" = 1", "k".repeat(1000));
-    let found = faults(&GOOD.replacen(MODULE, &format!("{key}\n{MODULE}"), 1));
-    let shown = printed(&found);
-    assert!(shown.len() < 400, "{shown}");
-    let named = Document::parse("\u{1b}]0;x\u{7}.toml", "").map(|_| ()).unwrap_err();
-    assert!(
-        named.iter().all(|fault| !fault.to_string().contains(char::is_control)),
-        "{}",
-        printed(&named)
-    );
-}
-
-#[test]
 fn bytes_that_are_no_text_are_placed() {
     let mut bytes = GOOD.as_bytes().to_vec();
     let at = GOOD.find("5 mm\"").unwrap_or(0) + "5 ".len();

@@ -3,13 +3,12 @@
 use crate::program::{has, in_a_line, json, page, prints, program, ran, run, texts};
 use serde_json::Value;
 use std::fs;
-use std::io::{BufRead, BufReader, Write};
+use std::io::Write;
 use std::process::Stdio;
 use tipstrike::case::EXAMPLES;
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 
-/// A run with a text on standard input.
 fn run_with_input(arguments: &[&str], input: &str) -> (i32, String, String) {
     let (piped, mut command) = (Stdio::piped, program(arguments));
     command.stdin(piped()).stdout(piped()).stderr(piped());
@@ -172,22 +171,6 @@ fn json_has_the_promised_shape() {
 }
 
 #[test]
-fn json_stations_run_from_d_to_e() {
-    let solved = json("solve TABLE_1 --format json --stations 10");
-    let stations = solved["stations"].as_array().unwrap();
-    assert_eq!(stations.len(), 11);
-    for (at, force) in [(0, 2191.016), (9, 219.977), (10, 0.0)] {
-        assert!((stations[at]["impact_force"].as_f64().unwrap() - force).abs() < 5e-4);
-    }
-    assert_eq!(
-        stations[0]["roll_angle_driven"],
-        solved["quantities"]["approach_angle_driven"]["value"]
-    );
-    let without = json("solve TABLE_1 --format json --only impact_force");
-    assert_eq!(without.get("stations"), None);
-}
-
-#[test]
 fn an_absent_value_is_omitted_and_the_outcome_does_not_depend_on_the_selection() {
     let solved = json(
         "solve TABLE_1 --format json --set 'deviations.base_pitch=0 um' --set 'model.deflection=0 um'",
@@ -243,17 +226,6 @@ fn csv_has_a_row_a_case_or_a_station_with_units_in_the_header() {
     assert!(lines[11].ends_with(",0.0"), "{}", lines[11]);
 }
 
-#[test]
-fn settings_and_method_change_the_case() {
-    let value = |options: &str| {
-        let solved = json(&format!("solve TABLE_1 --format json --only impact_force {options}"));
-        solved["quantities"]["impact_force"]["value"].as_f64().unwrap()
-    };
-    assert!((value("--method paper") - 84.649).abs() < 5e-4);
-    assert!((value("--set model.method=paper") - 84.649).abs() < 5e-4);
-    assert!(value("--set 'operation.speed=4000 rpm'") > 4000.0);
-}
-
 /// Runs that print no results: the exit code and a part of the message.
 #[test]
 fn a_command_that_cannot_run_has_an_exit_code_and_a_message() {
@@ -261,10 +233,7 @@ fn a_command_that_cannot_run_has_an_exit_code_and_a_message() {
     let newer = format!("solve {newer}");
     for (line, exit, says) in [
         ("solve TABLE_1 --only impact_forc", 2, "did you mean impact_force?"),
-        ("solve TABLE_1 --set 'pair.modul=5 mm'", 2, "pair.module"),
         ("solve TABLE_1 --set pair.module", 2, "KEY=VALUE"),
-        ("solve TABLE_1 --set pair.module=5", 2, "5 mm"),
-        ("solve TABLE_1 --set 'pair.module=5 kg'", 2, "mm"),
         ("solve TABLE_1 --set driver.teeth=2", 2, "5"),
         ("solve", 2, "CASE"),
         ("solve TABLE_1 --stations 0", 2, "stations"),
@@ -441,88 +410,6 @@ fn the_results_of_a_method_come_before_the_free_impact() {
     }
 }
 
-#[test]
-fn the_printed_relief_prevents_contact_and_a_little_less_does_not() {
-    for (method, given) in ["paper", "exact", "static", "dynamic"]
-        .into_iter()
-        .flat_map(|method| [(method, 0.0), (method, 3.7)])
-    {
-        let with = |relief: f64, format: &str| {
-            format!(
-                "solve cases/nasa-lewis-28-28.toml --method {method} --format {format} --set \
-                 'driven.tip_relief={relief:.6} um'"
-            )
-        };
-        let text = in_a_line(&page(&with(given, "text")));
-        let words =
-            [" um of tip relief on the driven gear", " um more tip relief on the driven gear"];
-        let before = words.iter().find_map(|words| Some(text.split_once(words)?.0));
-        let amount = before.and_then(|before| before.rsplit(' ').next()).unwrap_or_default();
-        let amount: f64 = amount.parse().unwrap_or_else(|_| panic!("{method}: {text}"));
-        for (part, outcome) in [(1.0, "no-corner-contact"), (0.99, "corner-contact")] {
-            let solved = json(&with(given + amount * part, "json"));
-            assert_eq!(solved["outcome"], outcome, "{method} from {given}: {text}");
-        }
-    }
-}
-
-#[test]
-fn a_limit_is_tried_on_another_method_and_on_a_changed_field() {
-    let dynamic = page("check TABLE_1 --method dynamic");
-    let beside = "for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this quantity \
-            has no limit";
-    let held = format!("ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %) {beside}\n");
-    assert!(dynamic.ends_with(&held), "{dynamic}");
-    let by_auto = page("check TABLE_1 --method auto");
-    assert_eq!(by_auto, dynamic, "the name means the same whatever the method");
-    let (_folder, own) = changed(
-        "impact_force = \"2500 N\"",
-        "dynamic_peak_approach_force = \"2500 N\"\ncontact_ratio = 1.7",
-    );
-    let own = page(&format!("check {own} --method dynamic"));
-    has(&own, &["dynamic_peak_approach_force 1410.8 N <= 2500 N (56 %)\n"]);
-    assert!(!own.contains("free impact"), "{own}");
-    let relieved = page("check TABLE_1 --set 'driven.tip_relief=60 um'");
-    let line =
-        format!("\nok {TABLE_1}: impact_force does not occur: no corner contact (limit 2500 N)\n");
-    assert!(relieved.ends_with(&line), "{relieved}");
-}
-
-#[test]
-fn no_control_of_a_file_or_a_name_reaches_the_terminal() {
-    let (folder, _) = changed("format", "format");
-    let text = fs::read_to_string(TABLE_1).unwrap();
-    let hostile =
-        text.replace("title = \"Zhou", "title = \"\\u001b[2J\\u009b\\u007f\\u202E\\u200b Zhou");
-    let path = folder.path().join("\u{1b}[31m\u{202e}.toml");
-    fs::write(&path, &hostile).unwrap();
-    let path = path.to_str().unwrap();
-    let broken = folder.path().join("\u{1b}]0;\u{7}.toml");
-    fs::write(&broken, hostile.replace("teeth", "te\u{1b}eth")).unwrap();
-    for arguments in [
-        &["solve", path][..],
-        &["solve", path, "--format", "json"],
-        &["solve", path, "--format", "csv"],
-        &["check", path],
-        &["explain", "impact_force", path],
-        &["explain", "impact_force", path, "--format", "json"],
-        &["solve", broken.to_str().unwrap()],
-        &["solve", "no-such\u{9b}file"],
-        &["solve", TABLE_1, "--\u{1b}[2J"],
-    ] {
-        let (_, text, errors) = run(arguments);
-        let shown = text + &errors;
-        let raw = shown
-            .chars()
-            .find(|&c| c.is_control() && c != '\n' || ('\u{200b}'..='\u{202e}').contains(&c));
-        assert_eq!(raw, None, "{arguments:?}: {shown}");
-    }
-    let (_, text, _) = run(&["solve", path, "--format", "json"]);
-    let solved: Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(solved["case"], path);
-    assert!(solved["title"].as_str().unwrap().starts_with("\u{1b}[2J\u{9b}\u{7f}\u{202e}"));
-}
-
 /// The required values of a case, by key.
 const REQUIRED: [(&str, &str); 7] = [
     ("pair.module", "4 mm"),
@@ -632,29 +519,6 @@ fn fields_explanations_and_trades_are_data_for_scripts() {
         (own.len(), &own[0]["method"], &own[0]["stations"]),
         (1, &"exact".into(), &64.into())
     );
-}
-
-#[test]
-fn a_closed_reader_ends_the_program_without_a_message() {
-    let mut child = program(&["solve", TABLE_1, "--stations", "10000", "--format", "csv"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut first = String::new();
-    BufReader::new(child.stdout.take().unwrap()).read_line(&mut first).unwrap();
-    assert!(first.starts_with("case,"));
-    let (code, _, errors) = texts(child.wait_with_output().unwrap());
-    assert_eq!((code, errors.as_str()), (0, ""));
-}
-
-#[test]
-#[cfg(target_os = "linux")]
-fn an_output_that_cannot_be_written_is_no_success() {
-    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-    let (code, _, errors) = texts(program(&["solve", TABLE_1]).stdout(full).output().unwrap());
-    assert_eq!(code, 5);
-    has(&errors, &["standard output"]);
 }
 
 #[test]

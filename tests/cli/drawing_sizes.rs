@@ -4,7 +4,8 @@ use std::fs;
 
 use crate::program::{has, program, texts};
 use serde_json::Value;
-use tipstrike::case::{Case, Document, FIELDS, fields::index_of};
+use tipstrike::case::fields::index_of;
+use tipstrike::case::{Case, Document, FIELDS};
 
 const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
 

@@ -11,7 +11,6 @@ pub(crate) fn program(arguments: &[&str]) -> Command {
     command
 }
 
-/// The output of a run.
 pub(crate) fn output(arguments: &[&str]) -> Output {
     program(arguments).output().unwrap()
 }

@@ -9,7 +9,6 @@ use tipstrike::report::stations::GRAPHS;
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 const FZG: &str = "cases/fzg-type-c.toml";
 
-/// The file of a report of these cases.
 fn report(cases: &[&str], ending: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join(format!("report.{ending}"));

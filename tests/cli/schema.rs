@@ -1,22 +1,11 @@
 //! The JSON Schemas contain every key of a case and of a result.
 
 use std::collections::BTreeSet;
-use std::process::{Command, Stdio};
 
+use crate::program::json;
 use serde_json::Value;
 use tipstrike::case::FIELDS;
 use tipstrike::model::QUANTITIES;
-
-fn json(arguments: &[&str]) -> Value {
-    let output = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .stdin(Stdio::null())
-        .output()
-        .unwrap();
-    assert!(output.status.success());
-    serde_json::from_slice(&output.stdout).unwrap()
-}
 
 fn keys(object: &Value) -> BTreeSet<&str> {
     object.as_object().unwrap().keys().map(String::as_str).collect()
@@ -24,7 +13,7 @@ fn keys(object: &Value) -> BTreeSet<&str> {
 
 #[test]
 fn the_schema_of_a_case_has_every_field_and_limit() {
-    let schema = json(&["schema"]);
+    let schema = json("schema");
     let properties = &schema["properties"];
     for field in &FIELDS {
         let table = match field.table() {
@@ -48,10 +37,9 @@ fn the_schema_of_a_case_has_every_field_and_limit() {
 
 #[test]
 fn the_schema_of_the_results_has_every_key_that_solve_prints() {
-    let schema = json(&["schema", "--results"]);
+    let schema = json("schema --results");
     for method in ["exact", "dynamic"] {
-        let arguments = ["solve", "cases/zhou-chen-2014.toml", "--format", "json"];
-        let solved = json(&[&arguments[..], &["--method", method]].concat());
+        let solved = json(&format!("solve TABLE_1 --format json --method {method}"));
         let properties = &schema["properties"];
         assert!(keys(&solved).is_subset(&keys(properties)));
         let quantities = keys(&properties["quantities"]["properties"]);

@@ -139,9 +139,6 @@ fn refused_points_are_counted_and_named_with_those_of_one_reason_in_one_line() {
 fn a_bad_study_gets_place_cause_and_fix() {
     for (line, part) in [
         ("sweep operation.sped=1..2 rpm", "--vary operation.sped=1..2 rpm: unknown key"),
-        ("sweep operation.speed=30..5 rpm", "the range is reversed: 30 rpm is above 5 rpm"),
-        ("sweep title=a..b", "title is a text"),
-        ("sweep driven.tip_relief=-5..5 um", "below the limit of 0 um"),
         ("sweep operation.speed=1..2 rpm' --points '0", "1000000 points, and not 0"),
         ("sweep operation.speed=1..2 rpm' --points 'x", "write a whole number"),
         ("sweep operation.speed=1..2 rpm' --vary 'operation.speed=3..4 rpm", "varied twice"),
@@ -157,11 +154,6 @@ fn a_bad_study_gets_place_cause_and_fix() {
         (
             "seek operation.speed=1..2 rpm' --until 'dynamic_peak_force<=1 N",
             "method exact does not compute",
-        ),
-        ("seek operation.speed=1,2 rpm' --until 'impact_force<=1 N", "this is not a range"),
-        (
-            "seek driver.teeth=18..30' --until 'impact_force<=1 N",
-            "use sweep --vary 'driver.teeth=18..30'",
         ),
     ] {
         let (command, vary) = line.split_once(' ').unwrap();

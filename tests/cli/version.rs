@@ -19,7 +19,6 @@ fn script(folder: &Path) -> PathBuf {
     script
 }
 
-/// The commit that the script prints in a folder.
 fn commit(script: &Path, folder: &Path, variables: &[(&str, &str)]) -> Option<String> {
     let output = Command::new(script)
         .current_dir(folder)
