@@ -8,9 +8,7 @@ use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
 use tipstrike::case::Case;
 use tipstrike::model::{Stages, solve};
-use tipstrike::tui::testing::teeth::{self, Picture};
-use tipstrike::tui::testing::teeth::{Centre, TeethView};
-use tipstrike::tui::testing::theme::Look;
+use tipstrike::tui::testing::{Centre, Look, Picture, TeethView, teeth};
 
 fn pictures(criterion: &mut Criterion) {
     let inputs =

@@ -108,6 +108,8 @@ fn a_save_keeps_edits_and_comments() {
             .unwrap_or_else(|faults| panic!("{}\n{rendered}", faults[0]));
         assert_same(&document, &again);
         assert_eq!(again.render(), rendered);
+        let template = Document::new(document.case.clone()).render();
+        assert_same(&document, &Document::parse("case", &template).expect("a case"));
         // A comment inside a multi-line text is not a comment, and removing a variant also
         // removes the comments inside it.
         let is_same = is_same && !edits.iter().any(|edit| matches!(edit, Edit::Invariant));

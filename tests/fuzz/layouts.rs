@@ -169,7 +169,6 @@ impl Layout {
         }
     }
 
-    /// A header for the table of each member.
     fn nested(&mut self, table: &str, members: &[(&str, &str)]) {
         for (name, value) in members {
             let Some((above, name)) = name.split_once('.') else {

@@ -1,17 +1,16 @@
 //! Random bytes for the built program on a real terminal: it keeps running, quits on request, and
 //! restores the terminal.
 
-use std::fs;
 use std::process::Command;
-use std::thread;
 use std::time::{Duration, Instant};
+use std::{fs, thread};
 
 use portable_pty::ExitStatus;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
 use tipstrike::case::Document;
-use tipstrike::tui::testing::session::Journal;
+use tipstrike::tui::testing::Journal;
 
 use crate::hold;
 use crate::tty::{PATIENCE, Tty, journals};
@@ -56,10 +55,10 @@ fn after_any_input_the_workbench_quits_and_restores_the_terminal() {
 #[test]
 fn floods_are_survived() {
     let keys = [&b"7"[..], b"\x1b[B", b"\x7f", b"\x1b[C", b"\t", b"m"].concat();
-    let flood = keys.repeat(100_000 / 6);
-    let paste = |end: &[u8]| [b"\x1b[200~", "5 mm\r\n歯".repeat(1 << 17).as_bytes(), end].concat();
-    let broken = b"\xff\xc3\x28\xf0\x9f\x1b[\xe2\x82".repeat(5000);
-    let floods = [flood, paste(b"\x1b[201~"), paste(b""), broken, b"\x1b".repeat(20_000)];
+    let flood = keys.repeat(30_000 / 6);
+    let paste = |end: &[u8]| [b"\x1b[200~", "5 mm\r\n歯".repeat(1 << 15).as_bytes(), end].concat();
+    let broken = b"\xff\xc3\x28\xf0\x9f\x1b[\xe2\x82".repeat(2000);
+    let floods = [flood, paste(b"\x1b[201~"), paste(b""), broken, b"\x1b".repeat(5000)];
     // Each program waits for its terminal most of the time.
     thread::scope(|scope| {
         for bytes in floods {

@@ -77,7 +77,6 @@ enum Mutation {
     Write(usize, String),
     /// Two lines are swapped.
     Swap(Index, Index),
-    /// A line is deleted.
     Delete(Index),
     /// A line is repeated at a second place.
     Double(Index, Index),
@@ -87,7 +86,6 @@ enum Mutation {
     Name(Index, &'static str),
     /// A line gets another syntax.
     Restyle(Index, Style),
-    /// A text is inserted.
     Insert(Index, &'static str),
     /// The value of a line is nested this deep.
     Nest(Index, usize),

@@ -16,20 +16,12 @@ use ratatui::layout::{Position, Rect, Size};
 use tempfile::TempDir;
 use tipstrike::case::Document;
 use tipstrike::study::trade::Time;
-use tipstrike::tui::testing::actions::{self, Action, Effect, Work};
-use tipstrike::tui::testing::app::App;
 use tipstrike::tui::testing::commands::named as command;
-use tipstrike::tui::testing::dialogs::Prompt;
-use tipstrike::tui::testing::jobs::Slot;
-use tipstrike::tui::testing::session::Autosave;
-use tipstrike::tui::testing::session::JournalWriter;
-use tipstrike::tui::testing::settings::Settings;
-use tipstrike::tui::testing::solver::{self, Answer};
-use tipstrike::tui::testing::store::State;
 use tipstrike::tui::testing::store::recents;
-use tipstrike::tui::testing::theme::{Look, MONO};
-use tipstrike::tui::testing::update::update;
-use tipstrike::tui::testing::{effects, store, update, view};
+use tipstrike::tui::testing::{
+    Action, Answer, App, Autosave, Effect, JournalWriter, Look, MONO, Prompt, Settings, Slot,
+    State, Work, effects, of_key, opened, solver, store, update, view,
+};
 
 pub(crate) const SMALL: Size = Size { width: 80, height: 24 };
 pub(crate) const LARGE: Size = Size { width: 140, height: 45 };
@@ -62,7 +54,7 @@ impl Desk {
         let mut solved = SOLVED.lock().unwrap_or_else(PoisonError::into_inner);
         let known = solved.iter().find(|app| app.layout.size() == size).cloned();
         let app = known.unwrap_or_else(|| {
-            let app = update::opened(store::built_in(), None, Look::FULL, size);
+            let app = opened(store::built_in(), None, Look::FULL, size);
             solved.push(app.clone());
             app
         });
@@ -111,7 +103,7 @@ impl Desk {
     fn of_file(size: Size, folder: TempDir, name: &str) -> Desk {
         let path = folder.path().join(name);
         let document = Document::read(&path).expect("a good case");
-        let app = update::opened(document, Some(path), Look::FULL, size);
+        let app = opened(document, Some(path), Look::FULL, size);
         Desk::in_folder(app, folder)
     }
 
@@ -148,7 +140,7 @@ impl Desk {
     }
 
     pub(crate) fn press(&mut self, event: KeyEvent) {
-        if let Some(action) = actions::of_key(event, self.app.place()) {
+        if let Some(action) = of_key(event, self.app.place()) {
             self.act(action);
         }
     }
@@ -157,7 +149,7 @@ impl Desk {
     pub(crate) fn effects(&mut self, key: &str) -> Vec<Effect> {
         let letter = || KeyCode::Char(key.chars().next().expect("a key")).into();
         let event = named(key).unwrap_or_else(letter);
-        let action = actions::of_key(event, self.app.place()).expect("an action");
+        let action = of_key(event, self.app.place()).expect("an action");
         update(&mut self.app, action)
     }
 
@@ -300,8 +292,22 @@ impl Desk {
     }
 
     #[track_caller]
-    pub(crate) fn assert_shows(&self, text: &str) {
-        self.assert_at(text, self.shows(text));
+    pub(crate) fn assert_shows(&self, text: &str) -> &Desk {
+        self.has(&[text])
+    }
+
+    /// Checks that the screen has every text.
+    #[track_caller]
+    pub(crate) fn has(&self, texts: &[&str]) -> &Desk {
+        texts.iter().for_each(|text| self.assert_at(text, self.shows(text)));
+        self
+    }
+
+    /// Checks that the screen has none of the texts.
+    #[track_caller]
+    pub(crate) fn lacks(&self, texts: &[&str]) -> &Desk {
+        texts.iter().for_each(|text| self.assert_at(text, !self.shows(text)));
+        self
     }
 
     fn rows(&self, size: Size) -> Vec<String> {
@@ -349,7 +355,6 @@ pub(crate) fn show_recents(app: &mut App, paths: &[PathBuf]) {
     }
 }
 
-/// The action that runs the command with a name.
 pub(crate) fn run(name: &str) -> Action {
     Action::Do(command(name).next().expect("a command of that name"), 1)
 }
@@ -361,7 +366,6 @@ pub(crate) fn results(number: u64, work: Work) -> Vec<Action> {
     sent.into_inner()
 }
 
-/// The requested work of a slot, with its number.
 pub(crate) fn requested(effects: Vec<Effect>, slot: Slot) -> Option<(u64, Work)> {
     effects.into_iter().find_map(|effect| match effect {
         Effect::Work(number, work) if work.slot == slot => Some((number, work)),

@@ -45,7 +45,6 @@ impl Random {
 /// A region of the envelope.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Corner {
-    /// Anywhere.
     Anywhere,
     /// Inside the fit of Eq. 56, so that forces have a closed form.
     Fit,

@@ -250,7 +250,6 @@ fn teeth(given: &Given, pair: &Pair, radii: &[Big; 2]) -> Option<Big> {
     (rounded(&driver) > 0.0 && rounded(&driven) > 0.0).then(|| driver + driven)
 }
 
-/// One tooth by Eq. 56.
 fn tooth(given: &Given, gear: &Gear, circles: &Circles, radius: &Big) -> Big {
     let cubic = |coefficients: [&str; 4]| {
         coefficients

@@ -5,7 +5,6 @@ use tipstrike::model::inputs::{ContactCompliance, Drive, Method, ToothCompliance
 
 use super::number::{Big, big, whole};
 
-/// One gear.
 pub(crate) struct Gear {
     pub(crate) teeth: i64,
     pub(crate) profile_shift: Big,

@@ -27,7 +27,6 @@ const SETTLED: f64 = 1e-45;
 /// Greatest angle of the search for a contact, in rad.
 const LARGEST_ANGLE: f64 = 1.5;
 
-/// Circles of one gear.
 struct Circles {
     reference: Big,
     base: Big,
@@ -36,7 +35,6 @@ struct Circles {
     edge: Big,
 }
 
-/// Geometry of the pair.
 struct Pair {
     driver: Circles,
     driven: Circles,

@@ -24,7 +24,6 @@ pub(crate) fn big(value: f64) -> Big {
     CONSTANTS.with(|constants| Big::new(exact.with_precision(PRECISION).value(), constants.clone()))
 }
 
-/// A whole number.
 pub(crate) fn whole(value: i64) -> Big {
     let exact = FBig::<HalfEven, 2>::from(value);
     CONSTANTS.with(|constants| Big::new(exact.with_precision(PRECISION).value(), constants.clone()))
@@ -44,7 +43,6 @@ pub(crate) fn decimal(printed: &str) -> Big {
     sign * value * power_of_ten(places)
 }
 
-/// An integer power of 10.
 fn power_of_ten(exponent: i32) -> Big {
     let power = (0..exponent.abs()).fold(whole(1), |power, _| power * 10);
     if exponent < 0 { 1 / power } else { power }

@@ -1,9 +1,7 @@
 //! What several tests share: cases, values, counts, and work on all cores.
 
-use std::env;
-use std::fs;
 use std::path::{Path, PathBuf};
-use std::thread;
+use std::{env, fs, thread};
 
 use tipstrike::case::{Case, Document};
 use tipstrike::model::inputs::{Drive, Gear};
@@ -20,12 +18,10 @@ pub(crate) fn inputs(file: &str) -> Inputs {
     document.case.inputs().unwrap_or_else(|problems| panic!("{file}: {}", problems[0]))
 }
 
-/// The inputs of an example.
 pub(crate) fn case(name: &str) -> Inputs {
     inputs(&format!("cases/{name}.toml"))
 }
 
-/// The case files of a folder of the source folder, by name.
 pub(crate) fn files(folder: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(path(folder)).expect("a folder");
     let paths = entries.map(|entry| entry.expect("an entry").path());
@@ -35,7 +31,6 @@ pub(crate) fn files(folder: &str) -> Vec<PathBuf> {
     paths
 }
 
-/// The name and inputs of each case of a folder, with the answers beside it.
 pub(crate) fn cases_with_answers(folder: &str) -> Vec<(String, Inputs, serde_json::Value)> {
     let of = |path: PathBuf| {
         let answers = fs::read_to_string(path.with_extension("json")).expect("answers");
@@ -68,7 +63,6 @@ pub(crate) fn standard_pair(driver_teeth: u32, driven_teeth: u32, module: f64) -
     }
 }
 
-/// The value of a quantity.
 pub(crate) fn value(solution: &Solution, key: &str) -> Option<f64> {
     (Quantity::find(key).unwrap_or_else(|| panic!("no quantity {key}")).value)(solution)
 }

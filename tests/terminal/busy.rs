@@ -1,10 +1,8 @@
 //! During long work, the echo of a key is not delayed, and Esc or Ctrl-C ends the work.
-use crate::tty;
+use crate::tty::{Launch, PATIENCE, TABLE_1, Tty, stat};
 
 use std::fs;
 use std::time::{Duration, Instant};
-
-use tty::{Launch, PATIENCE, TABLE_1, Tty, stat};
 
 const KEYS: usize = 40;
 const PART: Duration = Duration::from_millis(1);
@@ -55,8 +53,7 @@ fn echo_of(tty: &mut Tty, key: &str) -> Duration {
 fn begin(text: &str) -> Tty {
     let launch = Launch::on_table_1().size(40, 240);
     fs::write(launch.case(), text).expect("room on the disk");
-    let mut tty = launch.start();
-    tty.wait_for("F1 help");
+    let mut tty = launch.shown("F1 help");
     tty.type_in("\x1b[1;5H\x15");
     tty
 }
@@ -91,11 +88,9 @@ fn keys_are_echoed_while_a_solve_runs() {
 fn a_long_solve_shows_its_progress_and_esc_stops_it() {
     let mut tty = begin(&slow_case());
     tty.wait_for("solving dynamic; Ctrl-C cancels");
-    tty.type_in("\x1b");
-    tty.wait_for("solving dynamic; Esc cancels");
+    tty.type_for("\x1b", "solving dynamic; Esc cancels");
     let start = Instant::now();
-    tty.type_in("\x1b");
-    tty.wait_for("method dynamic is stopped; the closed form is shown until the next edit");
+    tty.type_for("\x1b", "method dynamic is stopped; the closed form is shown until the next edit");
     println!(
         "Esc ends the solve within {:.1?}, including 50 ms for the timeout of an escape sequence",
         start.elapsed()
@@ -111,8 +106,7 @@ fn a_long_solve_shows_its_progress_and_esc_stops_it() {
     std::thread::sleep(Duration::from_millis(300));
     let used = ticks() - before;
     assert!(used <= 3, "a solve still runs: {used} ticks");
-    tty.type_in("i7");
-    tty.wait_for("solving dynamic; Ctrl-C cancels");
+    tty.type_for("i7", "solving dynamic; Ctrl-C cancels");
     leave(tty);
 }
 
@@ -124,8 +118,7 @@ fn esc_ends_long_work_and_keys_are_echoed_meanwhile() {
     for _ in 0..3 {
         tty.type_in("\x1b");
         tty.settle(Duration::from_millis(150));
-        tty.type_in("5m");
-        tty.wait_for("Esc cancels");
+        tty.type_for("5m", "Esc cancels");
         let start = Instant::now();
         tty.type_in("\x1b");
         tty.wait_until("the work to end", |tty| !tty.shows("Esc cancels"));
@@ -144,8 +137,7 @@ fn a_trade_shows_its_progress_and_ctrl_c_ends_it() {
     let launch = Launch::on_table_1();
     fs::write(launch.case(), slow_case()).expect("room on the disk");
     let case = launch.case();
-    let mut tty = Launch::of(launch.folder).argument("trade").argument(case).start();
-    tty.wait_for("settings, ");
+    let mut tty = Launch::of(launch.folder).argument("trade").argument(case).shown("settings, ");
     tty.type_in("\x03");
     let start = Instant::now();
     tty.wait_until("no bar", |tty| !tty.shows("settings"));

@@ -1,14 +1,11 @@
 //! The same faults for the workbench and for common editors: the state of the file and of the typed
 //! text.
-use crate::tty;
+use crate::tty::{Launch, PROGRAM, TABLE_1, Tty, is_there, skip};
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::thread;
 use std::time::{Duration, Instant};
-
-use tty::{Launch, PROGRAM, TABLE_1, Tty, is_there, skip};
+use std::{fs, thread};
 
 /// The typed text, which no file contains before.
 const TYPED: &str = "6.8125 mm";

@@ -1,20 +1,17 @@
 //! Saves under injected faults: at every step that can fail or be the last, the old file or the new
 //! one is complete.
-use crate::tty;
+use crate::tty::{Launch, PROGRAM, TABLE_1, is_there, skip};
 
-use std::env;
-use std::fs;
 use std::io::Write;
 use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::sync::LazyLock;
+use std::{env, fs};
 
 use tempfile::TempDir;
 use tipstrike::case::{Document, fields};
-
-use tty::{Launch, PROGRAM, TABLE_1, is_there, skip};
 
 /// Every system call that creates, writes or renames a file.
 const CALLS: &str = "openat,write,fsync,fdatasync,fchmod,fchown,lgetxattr,fgetxattr,fsetxattr,rename,renameat,renameat2,link,linkat,unlink,close,ftruncate";
@@ -22,7 +19,6 @@ const CALLS: &str = "openat,write,fsync,fdatasync,fchmod,fchown,lgetxattr,fgetxa
 const MOST_STEPS: usize = 100;
 /// Environment variable with the target of the disturbed save.
 const TARGET: &str = "TIPSTRIKE_SAVE_TARGET";
-/// The attribute with the access list of a file.
 const LIST: &str = "system.posix_acl_access";
 const SAVED: i32 = 0;
 const REFUSED: i32 = 5;
@@ -426,8 +422,7 @@ fn a_failed_save_of_the_workbench_is_reported_and_the_edits_stay() {
         for fault in ["error=ENOSPC", "error=EIO"] {
             let mut tty = Launch::on_table_1().under_fault(call, fault, None).start();
             tty.wait_for("Corner contact");
-            tty.type_in("\x156 mm\x13");
-            tty.wait_for("not saved: ");
+            tty.type_for("\x156 mm\x13", "not saved: ");
             assert!(tty.shows("*unsaved*"), "{call} {fault}");
             assert_eq!(fs::read_to_string(tty.case()).expect("it is there"), TABLE_1);
             tty.discard();
@@ -454,15 +449,12 @@ fn a_read_error_during_a_save_is_named_and_is_no_change_on_disk() {
         let launch = Launch::on_table_1();
         let case = launch.case();
         let fault = format!("error=EIO:when={step}");
-        let mut tty = launch.under_fault(call, &fault, Some(&case)).start();
-        tty.wait_for("Corner contact");
-        tty.type_in("\x156 mm\x13");
-        tty.wait_for("not saved: ");
+        let mut tty = launch.under_fault(call, &fault, Some(&case)).shown("Corner contact");
+        tty.type_for("\x156 mm\x13", "not saved: ");
         tty.wait_for("Input/output error");
         assert!(!tty.shows("has changed on disk"), "{call} {step}");
         assert!(tty.shows("*unsaved*"), "{call} {step}");
-        tty.type_in("\x13");
-        tty.wait_for("saved ");
+        tty.type_for("\x13", "saved ");
         tty.wait_until("the mark to go", |tty| !tty.shows("*unsaved*"));
         tty.quit();
         assert!(fs::read_to_string(case).is_ok_and(|text| text == new_text()));

@@ -1,7 +1,7 @@
 //! Files in all states: changed by another program, linked, closed, missing; no edit is lost and
 //! nothing blocks.
-use crate::harness;
-use crate::tty;
+use crate::harness::{self, Desk, LARGE, SMALL, TABLE_1};
+use crate::tty::{Launch, PROGRAM};
 
 use std::fs::{self, File, Permissions};
 use std::io::ErrorKind;
@@ -11,16 +11,10 @@ use std::process::Command;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
-use harness::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::layout::Size;
 use tipstrike::case::file::SaveError;
 use tipstrike::case::{Document, fields};
-use tipstrike::tui::testing::actions::Action;
-use tipstrike::tui::testing::actions::Effect;
-use tipstrike::tui::testing::session::SaveFault;
-use tipstrike::tui::testing::session::{Found, Next};
-use tipstrike::tui::testing::update::update;
-use tty::{Launch, PROGRAM};
+use tipstrike::tui::testing::{Action, Effect, Found, Next, SaveFault, update};
 
 fn edited() -> Desk {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
@@ -105,8 +99,7 @@ fn overwrite_asks_again_after_a_change_that_was_not_shown() {
     meddle(&desk, "newer", &theirs("2100 rpm"));
     desk.keys(&["Ctrl-S"]);
     meddle(&desk, "same time", &theirs("2200 rpm"));
-    desk.keys(&["o"]);
-    desk.assert(desk.shows("has changed on disk") && desk.shows("2200 rpm in the file"));
+    desk.keys(&["o"]).has(&["has changed on disk", "2200 rpm in the file"]);
     assert!(desk.read("case.toml").contains("2200 rpm"));
     desk.keys(&["o"]);
     assert!(desk.app.prompts.is_empty() && desk.read("case.toml").contains("1500 rpm"));
@@ -114,8 +107,7 @@ fn overwrite_asks_again_after_a_change_that_was_not_shown() {
     let other = desk.write("other.toml", &theirs("2100 rpm"));
     desk.keys(&["F2", "Ctrl-U", other.to_str().expect("UTF-8"), "Enter"]);
     desk.write("other.toml", &theirs("2200 rpm"));
-    desk.keys(&["o"]);
-    assert!(desk.shows("The file exists") && desk.shows("2200 rpm in the file"));
+    desk.keys(&["o"]).has(&["The file exists", "2200 rpm in the file"]);
     fs::remove_file(&other).expect("our own file");
     desk.keys(&["o"]);
     assert!(desk.read("other.toml").contains("1500 rpm"));
@@ -176,37 +168,12 @@ fn a_save_creates_a_deleted_file_again_with_its_mode_and_reports_this() {
     desk.act(Action::Resize(LARGE));
     desk.fill("operation.speed", "1500 rpm");
     fs::remove_file(&path).expect("our own file");
-    desk.keys(&["Ctrl-S"]);
-    desk.assert(
-        desk.shows("saved ") && desk.shows("the file was deleted, and this save created it again"),
-    );
+    desk.keys(&["Ctrl-S"]).has(&["saved ", "the file was deleted, and this save created it again"]);
     let mode = fs::metadata(&path).expect("it is there").mode();
     assert_eq!(mode & 0o7777, 0o600);
     assert!(desk.read("case.toml").contains("1500 rpm") && !desk.app.tab.is_unsaved());
     desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
-    desk.assert(desk.shows("saved ") && !desk.shows("deleted"));
-}
-
-#[test]
-fn distributions_stay_in_the_file_of_a_case_and_a_new_case_shows_one() {
-    let text = format!("{TABLE_1}\n[spread]\n\"pair.module\" = {{ normal = \"1 um\" }}\n");
-    let mut desk = Desk::on(SMALL, "case.toml", &text);
-    desk.keys(&["Down"]);
-    desk.assert(!desk.shows("[spread]"));
-    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
-    assert_eq!(desk.read("case.toml"), text.replace("2000 rpm", "1500 rpm"));
-    for command in ["solve", "check"] {
-        let output = Command::new(PROGRAM)
-            .arg(command)
-            .arg(desk.path("case.toml"))
-            .output()
-            .expect("the program starts");
-        let words = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.success() && words.is_empty(), "{words}");
-    }
-    let new = Command::new(PROGRAM).arg("new").output();
-    let new = new.expect("the program starts").stdout;
-    assert!(String::from_utf8_lossy(&new).contains("# \"deviations.base_pitch\" = { normal"));
+    desk.assert_shows("saved ").lacks(&["deleted"]);
 }
 
 #[test]
@@ -226,7 +193,7 @@ fn the_fix_of_a_failed_save_is_on_the_smallest_screen() {
     let path = desk.path("case.toml");
     let full = SaveError::Unwritable("folder/case.toml".to_owned(), ErrorKind::StorageFull.into());
     desk.act(Action::Saved(path, Next::Stay, Err(SaveFault::Failed(full.to_string()))));
-    desk.assert(desk.shows("not saved: folder/case.toml") && desk.shows("save elsewhere"));
+    desk.has(&["not saved: folder/case.toml", "save elsewhere"]);
 }
 
 #[test]
@@ -239,18 +206,7 @@ fn changed_comments_and_a_file_that_is_no_case_are_named() {
     ] {
         let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
         meddle(&desk, "newer", &text);
-        desk.keys(&["Ctrl-S"]);
-        assert!(desk.shows(expected), "{expected}\n{}", desk.screen());
-    }
-}
-
-#[test]
-fn a_mere_touch_does_not_ask() {
-    for how in ["same time", "older", "newer", "replaced"] {
-        let mut desk = edited();
-        meddle(&desk, how, TABLE_1);
-        desk.keys(&["Ctrl-S"]);
-        desk.assert_at(how, desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"));
+        desk.keys(&["Ctrl-S"]).assert_shows(expected);
     }
 }
 
@@ -281,122 +237,52 @@ fn after_a_save_form_and_file_are_equal() {
 }
 
 #[test]
-fn links_and_modes_stay_and_hard_links_are_refused() {
-    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
-    fs::create_dir(desk.path("sub")).expect("a folder");
-    symlink("../case.toml", desk.path("sub/one.toml")).expect("a link");
-    symlink("sub/one.toml", desk.path("two.toml")).expect("a link");
-    fs::set_permissions(desk.path("case.toml"), Permissions::from_mode(0o604))
-        .expect("our own file");
-    desk.keys(&["Ctrl-O", "two", "Enter"]).fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
-    desk.assert_shows("saved ");
-    for link in ["two.toml", "sub/one.toml"] {
-        assert!(fs::symlink_metadata(desk.path(link)).expect("it is there").is_symlink(), "{link}");
-    }
-    assert!(desk.read("case.toml").contains("1500 rpm"));
-    assert_eq!(fs::metadata(desk.path("case.toml")).expect("it is there").mode() & 0o7777, 0o604);
-    fs::hard_link(desk.path("case.toml"), desk.path("hard.toml")).expect("a link");
-    desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
-    desk.assert(desk.shows("2 names (hard links)") && desk.app.tab.is_unsaved());
-    assert!(desk.read("hard.toml").contains("1500 rpm"));
-}
-
-#[test]
-fn a_path_that_is_no_file_is_reported_by_the_workbench() {
-    for (name, expected) in [
-        ("pipe.toml", "not a regular file"),
-        ("folder.toml", "this is a folder"),
-        ("loop.toml", "cannot be"),
-    ] {
-        let mut desk = edited();
-        assert!(
-            Command::new("mkfifo")
-                .arg(desk.path("pipe.toml"))
-                .status()
-                .is_ok_and(|status| status.success())
-        );
-        fs::create_dir(desk.path("folder.toml")).expect("a folder");
-        symlink("loop.toml", desk.path("loop.toml")).expect("a link");
-        let path = desk.path(name).display().to_string();
-        desk.keys(&["F2", "Ctrl-U", &path, "Enter"]);
-        if desk.shows("The file exists") {
-            desk.keys(&["o"]);
-        }
-        assert!(desk.shows("not saved: ") && desk.shows(expected), "{name}\n{}", desk.screen());
-        assert!(desk.app.tab.is_unsaved(), "{name}");
-        if name != "folder.toml" {
-            desk.keys(&["Esc", "Esc", "Ctrl-O", "d", "Ctrl-U", &path, "Enter"]);
-            assert!(desk.shows("cannot be opened"), "{name}\n{}", desk.screen());
-        }
-    }
-}
-
-#[test]
 fn a_path_that_is_no_file_is_reported_without_a_terminal() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name);
     assert!(Command::new("mkfifo").arg(path("pipe")).status().is_ok_and(|status| status.success()));
-    symlink("loop", path("loop")).expect("a link");
-    symlink("nowhere", path("dangling")).expect("a link");
-    for name in ["pipe", "loop", "dangling", "none", ".", "none/case.toml"] {
-        for command in ["solve", "check"] {
-            let output = Command::new(PROGRAM)
-                .arg(command)
-                .arg(path(name))
-                .output()
-                .expect("the program starts");
-            let words = String::from_utf8_lossy(&output.stderr).into_owned();
-            assert_eq!(output.status.code(), Some(5), "{command} {name}: {words}");
-            assert!(
-                output.stdout.is_empty() && words.lines().count() == 1,
-                "{command} {name}: {words}"
-            );
-        }
+    for (target, link) in [("loop", "loop"), ("nowhere", "dangling"), ("nodir/y", "far")] {
+        symlink(target, path(link)).expect("a link");
     }
-    for name in ["pipe", "loop", ".", "none/case.toml"] {
-        let output =
-            Command::new(PROGRAM).arg("new").arg(path(name)).output().expect("the program starts");
-        let words = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(
-            (output.status.code(), words.lines().count()),
-            (Some(5), 1),
-            "new {name}: {words}"
-        );
-    }
-    symlink("nodir/y", path("far")).expect("a link");
     fs::write(path("file"), "").expect("room on the disk");
+    let run = |command: &str, name: &str| {
+        Command::new(PROGRAM).arg(command).arg(path(name)).output().expect("the program starts")
+    };
+    let refused = |command: &str, name: &str| {
+        let output = run(command, name);
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(5), "{command} {name}: {words}");
+        assert!(
+            output.stdout.is_empty() && words.lines().count() == 1,
+            "{command} {name}: {words}"
+        );
+        words
+    };
+    for name in ["pipe", "loop", "dangling", "none", ".", "none/case.toml"] {
+        refused("solve", name);
+        refused("check", name);
+    }
     let here = folder.path().display();
+    let missing = |name: &str| {
+        format!(
+            "the folder {here}/{name} does not exist: create the folder (mkdir -p '{here}/{name}')"
+        )
+    };
     for (name, cause) in [
-        (
-            "far",
-            format!(
-                "the folder {here}/nodir does not exist: create the folder (mkdir -p '{here}/nodir')"
-            ),
-        ),
-        (
-            "my own/x",
-            format!(
-                "the folder {here}/my own does not exist: create the folder (mkdir -p '{here}/my \
-                    own')"
-            ),
-        ),
+        ("pipe", "not a regular file".to_owned()),
+        ("loop", String::new()),
+        (".", "this is a folder".to_owned()),
+        ("far", missing("nodir")),
+        ("my own/x", missing("my own")),
         ("new/", format!("the folder {here}/new does not exist")),
         ("file/x/y", format!("{here}/file is not a folder")),
         ("/", "/: this is a folder: add the name of a file to it, such as /case.toml".to_owned()),
     ] {
-        let output =
-            Command::new(PROGRAM).arg("new").arg(path(name)).output().expect("the program starts");
-        let words = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(5), "new {name}: {words}");
+        let words = refused("new", name);
         assert!(words.contains(&cause), "new {name}: {words}");
     }
     // A dangling link is the name of a new file.
-    let output = Command::new(PROGRAM)
-        .arg("new")
-        .arg(path("dangling"))
-        .output()
-        .expect("the program starts");
-    assert!(output.status.success() && path("nowhere").is_file());
+    assert!(run("new", "dangling").status.success() && path("nowhere").is_file());
 }
 
 #[test]
@@ -406,8 +292,7 @@ fn a_path_to_save_to_is_completed_where_possible() {
     let (folder, missing, good) = (path("."), path("none/such/case.toml"), path("good.toml"));
     desk.keys(&["F2", "Ctrl-U", &folder, "Enter"]);
     desk.assert_shows("this is a folder: add the name of a file");
-    desk.keys(&["Ctrl-U", &missing, "Enter"]);
-    desk.assert_shows("does not exist: create");
+    desk.keys(&["Ctrl-U", &missing, "Enter"]).assert_shows("does not exist: create");
     assert!(desk.app.message.as_ref().is_some_and(|message| message.text.contains("mkdir -p")));
     desk.keys(&["Ctrl-U", &good, "Enter"]);
     desk.assert(desk.shows("saved ") && Path::new(&good).is_file());
@@ -420,15 +305,11 @@ fn a_tilde_is_the_home_folder_where_paths_are_typed() {
     fs::create_dir(&home).expect("a folder");
     fs::write(home.join("there.toml"), TABLE_1.replace("2000 rpm", "2100 rpm"))
         .expect("room on the disk");
-    let mut tty = launch.variable("HOME", home.to_str().expect("UTF-8")).start();
-    tty.wait_for("Corner contact");
-    tty.type_in("\x1bs\x15~/mine.toml\r");
-    tty.wait_for("saved ");
+    let mut tty = launch.variable("HOME", home.to_str().expect("UTF-8")).shown("Corner contact");
+    tty.type_for("\x1bs\x15~/mine.toml\r", "saved ");
     assert!(home.join("mine.toml").is_file());
-    tty.type_in("\x0f\x15~/");
-    tty.wait_for("there.toml");
-    tty.type_in("there\r");
-    tty.wait_for("opened ");
+    tty.type_for("\x0f\x15~/", "there.toml");
+    tty.type_for("there\r", "opened ");
     tty.wait_for("home/there.toml");
     tty.quit();
     assert!(!tty.folder.path().join("~").exists());
@@ -436,8 +317,7 @@ fn a_tilde_is_the_home_folder_where_paths_are_typed() {
 
 #[test]
 fn a_file_written_by_another_program_is_read_again_without_edits() {
-    let mut tty = Launch::on_table_1().size(24, 80).start();
-    tty.wait_for("5 mm");
+    let mut tty = Launch::on_table_1().size(24, 80).shown("5 mm");
     let theirs = TABLE_1.replace("\"5 mm\"", "\"6 mm\"");
     fs::write(tty.case(), &theirs).expect("room on the disk");
     tty.wait_for("it changed on disk");
@@ -456,17 +336,14 @@ fn a_file_written_by_another_program_is_read_again_without_edits() {
     fs::write(tty.case(), &theirs).expect("room on the disk");
     tty.wait_for("6 mm");
 
-    tty.type_in("\x158 mm");
-    tty.wait_for("8 mm");
+    tty.type_for("\x158 mm", "8 mm");
     fs::write(tty.case(), TABLE_1).expect("room on the disk");
     tty.wait_for("changed on disk: Esc :reload reads it");
     assert!(tty.shows("8 mm"));
     tty.type_in("\x1b");
     tty.settle(Duration::from_millis(200));
-    tty.type_in(":reload\r");
-    tty.wait_for("has unsaved edits");
-    tty.type_in("d");
-    tty.wait_for("5 mm");
+    tty.type_for(":reload\r", "has unsaved edits");
+    tty.type_for("d", "5 mm");
 }
 
 #[test]
@@ -496,8 +373,7 @@ fn another_file_at_the_path_of_the_case_is_read() {
             "folder above" => "v1/deep/case.toml",
             _ => "v1/case.toml",
         };
-        let mut tty = Launch::of(Arc::clone(&folder)).argument(at(case)).start();
-        tty.wait_for("5 mm");
+        let mut tty = Launch::of(Arc::clone(&folder)).argument(at(case)).shown("5 mm");
         tty.settle(Duration::from_millis(100));
         match swap {
             "link" => rename("next", "case.toml"),
@@ -508,8 +384,7 @@ fn another_file_at_the_path_of_the_case_is_read() {
             }
         }
         tty.wait_for("6 mm");
-        tty.type_in("\x157 mm\x13");
-        tty.wait_for("saved ");
+        tty.type_for("\x157 mm\x13", "saved ");
         assert!(fs::read_to_string(at(case)).is_ok_and(|text| text.contains("7 mm")), "{swap}");
         tty.quit();
     }
@@ -518,13 +393,11 @@ fn another_file_at_the_path_of_the_case_is_read() {
 #[test]
 fn a_change_of_the_file_at_the_moment_of_a_key_stays_visible() {
     for delay in 0..12 {
-        let mut tty = Launch::on_table_1().start();
-        tty.wait_for("5 mm");
+        let mut tty = Launch::on_table_1().shown("5 mm");
         let theirs = TABLE_1.replace("20 deg", "21 deg");
         fs::write(tty.case(), &theirs).expect("room on the disk");
         tty.settle(Duration::from_millis(delay * 10 + 1));
-        tty.type_in("7");
-        tty.wait_for("7 mm");
+        tty.type_for("7", "7 mm");
         for key in ["\x1b[D", "\x1b[C"] {
             tty.settle(Duration::from_millis(40));
             tty.type_in(key);
@@ -542,12 +415,9 @@ fn a_change_of_the_file_at_the_moment_of_a_key_stays_visible() {
 
 #[test]
 fn our_own_save_and_a_mere_touch_are_no_change_of_the_file() {
-    let mut tty = Launch::on_table_1().size(24, 80).start();
-    tty.wait_for("5 mm");
-    tty.type_in("\x156 mm");
-    tty.wait_for("6 mm");
-    tty.type_in("\x13");
-    tty.wait_for("saved ");
+    let mut tty = Launch::on_table_1().size(24, 80).shown("5 mm");
+    tty.type_for("\x156 mm", "6 mm");
+    tty.type_for("\x13", "saved ");
     let later = SystemTime::now() + Duration::from_secs(5);
     File::options()
         .write(true)

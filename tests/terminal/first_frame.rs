@@ -1,10 +1,8 @@
 //! The first frame is as fast as that of an editor, and a headless solve has no noticeable delay.
-use crate::tty;
+use crate::tty::{Launch, PROGRAM, is_there};
 
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-
-use tty::{Launch, PROGRAM, is_there};
 
 /// Starts a program on a new terminal. Returns the time until its screen shows the text, and the
 /// number of bytes.

@@ -1,7 +1,7 @@
 //! No byte of a file, a name or an error controls a terminal: on any screen of any size, and in the
 //! output of any command.
-use crate::harness;
-use crate::tty;
+use crate::harness::{Desk, LARGE, SMALL, TABLE_1};
+use crate::tty::{Launch, PROGRAM};
 
 use std::ffi::OsStr;
 use std::fs;
@@ -9,20 +9,12 @@ use std::os::unix::ffi::OsStrExt;
 use std::path::PathBuf;
 use std::process::Command;
 
-use harness::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 use tempfile::TempDir;
-use tipstrike::case::Change;
-use tipstrike::case::Document;
 use tipstrike::case::sanitize::is_hidden;
-use tipstrike::tui::testing::actions::Action;
-use tipstrike::tui::testing::session::SaveFault;
-use tipstrike::tui::testing::session::{Access, Claim, Offer};
-use tipstrike::tui::testing::session::{Found, Next};
-use tipstrike::tui::testing::theme::Look;
-use tipstrike::tui::testing::view;
-use tty::{Launch, PROGRAM};
+use tipstrike::case::{Change, Document};
+use tipstrike::tui::testing::{Access, Action, Claim, Found, Look, Next, Offer, SaveFault, view};
 
 /// Escape sequences, C1 controls, direction overrides, zero-width characters, line ends.
 const HOSTILE: &str = "\u{1b}[2J\u{1b}]0;x\u{7}\u{9b}31m\u{90}q\u{9c}\u{202e}\u{2066}\u{200b}\u{feff}\u{7f}\r\n\t\u{8}x";
@@ -118,7 +110,7 @@ fn on(text: &str, size: Size, look: Look) -> Desk {
     let mut desk = Desk::new(size);
     let path = desk.write(&HOSTILE.replace('/', ""), text);
     let document = Document::read(&path).expect("it opens");
-    desk.app = tipstrike::tui::testing::update::opened(document, Some(path), look, size);
+    desk.app = tipstrike::tui::testing::opened(document, Some(path), look, size);
     desk
 }
 
@@ -186,8 +178,8 @@ fn every_size_is_drawn_on_every_screen() {
     for keys in SCREENS {
         let mut desk = on(TABLE_1, SMALL, Look::FULL);
         desk.keys(keys);
-        let widths = (0..=90u16).step_by(3).chain([100, 140, 200]);
-        let heights = || (0..=30u16).step_by(2).chain([5, 15, 17, 35, 60, 80]);
+        let widths = (0..=90u16).step_by(7).chain([100, 140, 200]);
+        let heights = || (0..=30u16).step_by(3).chain([5, 15, 17, 35, 60, 80]);
         for (width, height) in widths.flat_map(|width| heights().map(move |height| (width, height)))
         {
             let size = Size { width, height };

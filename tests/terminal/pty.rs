@@ -1,21 +1,17 @@
 //! The built program on a real terminal: it types, saves, quits, and restores the terminal.
-use crate::tty;
+use crate::tty::{Launch, PROGRAM, TABLE_1, Tty, journals};
 
 use std::fs;
 use std::process::{Command, Stdio};
-
-use tty::{Launch, PROGRAM, TABLE_1, Tty, journals};
 
 #[test]
 fn it_types_saves_quits_and_gives_the_terminal_back() {
     let mut tty = Tty::open();
     tty.wait_for("Corner contact");
     tty.assert_taken();
-    tty.type_in("\x151 in");
-    tty.wait_for("*unsaved*");
+    tty.type_for("\x151 in", "*unsaved*");
     tty.wait_for("1 in");
-    tty.type_in("\x13");
-    tty.wait_for("saved ");
+    tty.type_for("\x13", "saved ");
     tty.quit();
     tty.assert_restored();
     assert_eq!(
@@ -57,8 +53,7 @@ fn every_deadly_signal_restores_the_terminal_keeps_the_edit_and_ends_the_process
     for (signal, name) in DEADLY {
         let mut tty = Tty::open();
         tty.wait_for("Corner contact");
-        tty.type_in("\x151.25 in");
-        tty.wait_for("1.25 in");
+        tty.type_for("\x151.25 in", "1.25 in");
         tty.send_signal(signal);
         assert_eq!(tty.wait_for_end().signal(), Some(name), "{signal}");
         tty.assert_restored();
@@ -70,32 +65,14 @@ fn every_deadly_signal_restores_the_terminal_keeps_the_edit_and_ends_the_process
 }
 
 #[test]
-fn the_workbench_suspends_and_resumes() {
-    let mut tty = Tty::open();
-    tty.wait_for("Corner contact");
-    tty.send_signal("TSTP");
-    tty.wait_until("the alternate screen to be left", |tty| !tty.screen().alternate_screen());
-    tty.wait_until("it to stop", |tty| tty.state() == Some('T'));
-    tty.assert_restored();
-    tty.send_signal("CONT");
-    tty.wait_until("the workbench to resume", |tty| {
-        tty.screen().alternate_screen() && tty.shows("Corner contact")
-    });
-    tty.quit();
-    tty.assert_restored();
-}
-
-#[test]
 fn the_last_case_is_opened_again_and_a_broken_one_is_reported() {
     let mut tty = Tty::open();
     tty.wait_for("Corner contact");
     tty.quit();
-    let mut tty = Launch::of(tty.folder.clone()).start();
-    tty.wait_for("case.toml (last case; Alt-T: Table 1)");
+    let mut tty = Launch::of(tty.folder.clone()).shown("case.toml (last case; Alt-T: Table 1)");
     tty.quit();
     fs::write(tty.case(), "no case").expect("room on the disk");
-    let mut tty = Launch::of(tty.folder.clone()).start();
-    tty.wait_for("the last case cannot be opened");
+    let mut tty = Launch::of(tty.folder.clone()).shown("the last case cannot be opened");
     assert!(tty.shows("built-in Table 1"));
     tty.quit();
 }

@@ -1,20 +1,18 @@
 //! Output, wake-ups and remains of the workbench on a real terminal: every exit, every terminal,
 //! counted bytes.
-use crate::tty;
+use crate::tty::{
+    self, Launch, PATIENCE, TABLE_1, Tty, cells, has_faults_on_demand, is_there, journals,
+    number_after,
+};
 
 use std::fs;
 use std::time::{Duration, Instant};
-
-use tty::{
-    Launch, PATIENCE, TABLE_1, Tty, cells, has_faults_on_demand, is_there, journals, number_after,
-};
 
 /// The output is complete if nothing arrives for this time.
 const QUIET: Duration = Duration::from_millis(150);
 
 fn opened(launch: Launch) -> Tty {
-    let mut tty = launch.start();
-    tty.wait_for("quit");
+    let mut tty = launch.shown("quit");
     tty.settle(QUIET);
     tty
 }
@@ -25,8 +23,7 @@ fn a_panic_of_the_screen_restores_the_terminal_and_keeps_the_edits() {
         return;
     }
     let mut tty = opened(Launch::on_table_1().variable("TIPSTRIKE_FAULT", "screen"));
-    tty.type_in("\x151.25 in");
-    tty.wait_for("1.25 in");
+    tty.type_for("\x151.25 in", "1.25 in");
     tty.type_in("\x0c");
     assert_eq!(tty.wait_for_end().exit_code(), 101);
     tty.assert_restored();
@@ -43,8 +40,7 @@ fn a_panic_of_the_worker_is_reported_and_the_workbench_continues() {
         return;
     }
     let mut tty = opened(Launch::on_table_1().variable("TIPSTRIKE_FAULT", "solver"));
-    tty.type_in("\x156 mm");
-    tty.wait_for("the solver failed");
+    tty.type_for("\x156 mm", "the solver failed");
     assert!(tty.screen().alternate_screen(), "the screen is still ours");
     tty.type_in("\x157 mm\x13");
     let case = tty.case();
@@ -150,8 +146,7 @@ fn a_shell_ends_a_stopped_workbench_without_resuming_it() {
 #[test]
 fn a_terminal_that_accepts_no_bytes_does_not_block_the_end() {
     let mut tty = opened(Launch::on_table_1());
-    tty.type_in("\x151.25 in");
-    tty.wait_for("1.25 in");
+    tty.type_for("\x151.25 in", "1.25 in");
     // Nobody reads: once the buffer of the terminal is full, a write blocks.
     tty.stall();
     tty.send_signal("TERM");
@@ -233,36 +228,37 @@ fn a_storm_of_sizes_ends_in_the_right_picture() {
 
 #[test]
 fn every_kind_of_terminal_gets_its_character_set_and_colours() {
-    for term in ["xterm", "xterm-256color", "screen", "tmux-256color", "vt100", "linux"] {
-        for locale in ["C.UTF-8", "C", "POSIX", "de_DE.ISO-8859-1"] {
-            for colour in ["", "1"] {
-                let launch = Launch::on_table_1()
-                    .variable("TERM", term)
-                    .variable("LC_ALL", locale)
-                    .variable("NO_COLOR", colour);
-                let mut tty = launch.start();
-                tty.wait_for("quit");
-                let screen = tty.screen();
-                let is_ascii = screen.contents().is_ascii();
-                assert_eq!(
-                    is_ascii,
-                    ["linux", "vt100"].contains(&term) || locale != "C.UTF-8",
-                    "{term} {locale}"
-                );
-                let cells = (0..24)
-                    .flat_map(|row| (0..80).filter_map(move |column| screen.cell(row, column)));
-                let plain = vt100::Color::Default;
-                let (mut is_coloured, mut bold, mut inverse) = (false, 0, 0);
-                for cell in cells {
-                    is_coloured |= (cell.fgcolor(), cell.bgcolor()) != (plain, plain);
-                    bold += usize::from(cell.bold());
-                    inverse += usize::from(cell.inverse());
-                }
-                assert_eq!(is_coloured, colour.is_empty(), "{term} {locale} NO_COLOR={colour:?}");
-                assert!(bold > 0 && inverse > 0, "without colours, bold and reverse remain");
-                tty.quit();
-            }
+    // Each terminal, each locale, and no colours with both character sets.
+    for (term, locale, colour) in [
+        ("xterm", "C.UTF-8", ""),
+        ("xterm-256color", "C.UTF-8", ""),
+        ("screen", "C.UTF-8", ""),
+        ("tmux-256color", "C.UTF-8", ""),
+        ("vt100", "C.UTF-8", ""),
+        ("linux", "C.UTF-8", ""),
+        ("xterm", "C", ""),
+        ("screen", "POSIX", ""),
+        ("linux", "de_DE.ISO-8859-1", ""),
+        ("xterm-256color", "C.UTF-8", "1"),
+        ("vt100", "C", "1"),
+    ] {
+        let launch = Launch::on_table_1().variable("TERM", term);
+        let launch = launch.variable("LC_ALL", locale).variable("NO_COLOR", colour);
+        let mut tty = launch.shown("quit");
+        let screen = tty.screen();
+        let is_ascii = ["linux", "vt100"].contains(&term) || locale != "C.UTF-8";
+        assert_eq!(screen.contents().is_ascii(), is_ascii, "{term} {locale}");
+        let plain = vt100::Color::Default;
+        let (mut is_coloured, mut bold, mut inverse) = (false, 0, 0);
+        for (row, column) in (0..24).flat_map(|row| (0..80).map(move |column| (row, column))) {
+            let cell = screen.cell(row, column).expect("a cell");
+            is_coloured |= (cell.fgcolor(), cell.bgcolor()) != (plain, plain);
+            bold += usize::from(cell.bold());
+            inverse += usize::from(cell.inverse());
         }
+        assert_eq!(is_coloured, colour.is_empty(), "{term} {locale} NO_COLOR={colour:?}");
+        assert!(bold > 0 && inverse > 0, "without colours, bold and reverse remain");
+        tty.quit();
     }
     for term in ["dumb", ""] {
         let mut tty = Launch::on_table_1().variable("TERM", term).start();
@@ -286,8 +282,7 @@ fn a_flood_and_a_long_paste_are_cheap_and_press_no_button() {
     println!("100,000 keys: {written} bytes out, {:.0?} with {QUIET:?} of quiet", start.elapsed());
     assert!(written <= 64 << 10, "{written} bytes");
     // Into a question, a megabyte of the first letters of every button.
-    tty.type_in("\x11");
-    tty.wait_for("Discard");
+    tty.type_for("\x11", "Discard");
     tty.pour(
         vec![b"\x1b[200~".to_vec(), b"dscyn\r \x11\x03".repeat(1 << 17), b"\x1b[201~".to_vec()],
         &[],
@@ -330,12 +325,10 @@ fn a_reply_that_nobody_asked_for_and_an_unfinished_sequence_leave_the_keys_alive
             tty.settle(QUIET);
         }
         tty.type_in("\x15");
-        tty.type_in("1.25 in");
-        tty.wait_for("1.25 in");
+        tty.type_for("1.25 in", "1.25 in");
         // A control character ends an unfinished sequence without a delay.
         let stray = if is_paste { b"" } else { stray };
-        tty.type_in([stray, b"\x11"].concat());
-        tty.wait_for("Discard");
+        tty.type_for([stray, b"\x11"].concat(), "Discard");
         tty.type_in("d");
         assert_eq!(tty.wait_for_end().exit_code(), 0, "{stray:?}");
     }
@@ -344,8 +337,7 @@ fn a_reply_that_nobody_asked_for_and_an_unfinished_sequence_leave_the_keys_alive
 #[test]
 fn a_paste_without_an_end_ends_after_a_silence() {
     let mut tty = opened(Launch::on_table_1());
-    tty.type_in("\x15\x1b[200~1.25 in");
-    tty.wait_for("1.25 in");
+    tty.type_for("\x15\x1b[200~1.25 in", "1.25 in");
     tty.discard();
 }
 

@@ -16,7 +16,6 @@ use tipstrike::study::trade::{Differences, METHODS, Setting, Subject, Trade, gre
 /// Errors below this are rounding and may differ between machines.
 const ROUNDING: f64 = 1e-11;
 
-/// The cases, by name.
 pub(crate) fn cases() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
     let files =
@@ -53,7 +52,6 @@ pub(crate) fn tidy(tolerance: f64) -> f64 {
 /// A setting over all cases.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Row {
-    /// The setting as text.
     pub(crate) setting: String,
     /// Median time, in s.
     pub(crate) seconds: Option<f64>,
@@ -63,7 +61,6 @@ pub(crate) struct Row {
     pub(crate) errors: [Option<(f64, f64)>; 3],
 }
 
-/// The table.
 pub(crate) struct Table(pub(crate) Vec<Row>);
 
 fn path() -> PathBuf {
@@ -120,7 +117,6 @@ impl Table {
         std::fs::write(path(), text).expect("the table is written");
     }
 
-    /// As Markdown.
     pub(crate) fn markdown(&self) -> String {
         let mut text = "| setting | time | evaluations | numbers | curve | total \
                 |\n|---|---|---|---|---|---|\n"
@@ -228,7 +224,6 @@ fn is_listed(setting: &Setting) -> bool {
     few && !setting.accurate && has_default_compliance(setting)
 }
 
-/// Whether the compliance is the default one.
 fn has_default_compliance(setting: &Setting) -> bool {
     let usual = settings().into_iter().find(|usual| usual.method == setting.method);
     usual.is_none_or(|usual| usual.models == setting.models)
@@ -264,7 +259,6 @@ fn without_curve(differences: &Differences) -> Differences {
     numbers
 }
 
-/// Median and greatest.
 pub(crate) fn median(mut values: Vec<f64>) -> Option<(f64, f64)> {
     values.sort_by(f64::total_cmp);
     Some((*values.get(values.len() / 2)?, *values.last()?))

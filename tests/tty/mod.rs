@@ -128,6 +128,13 @@ impl Launch {
         self.folder.path().join("case.toml")
     }
 
+    /// Starts the program and waits for a text.
+    pub(crate) fn shown(self, text: &str) -> Tty {
+        let mut tty = self.start();
+        tty.wait_for(text);
+        tty
+    }
+
     pub(crate) fn start(self) -> Tty {
         let (rows, cols) = self.size;
         let pair = native_pty_system()
@@ -242,6 +249,11 @@ impl Tty {
 
     pub(crate) fn wait_for(&mut self, text: &str) {
         self.wait_until(&format!("{text:?} on the screen"), |tty| tty.shows(text));
+    }
+
+    pub(crate) fn type_for(&mut self, keys: impl AsRef<[u8]>, text: &str) {
+        self.type_in(keys);
+        self.wait_for(text);
     }
 
     pub(crate) fn wait_until(&mut self, what: &str, is_so: impl Fn(&mut Tty) -> bool) {

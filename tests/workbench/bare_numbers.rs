@@ -1,21 +1,18 @@
 //! A bare number typed into a field of the form gets the unit that the field shows.
-use crate::harness;
+use crate::harness::{Desk, LARGE, SMALL, TABLE_1};
 
-use harness::{Desk, LARGE, SMALL, TABLE_1};
 use tipstrike::case::units::System;
 
 #[test]
 fn a_bare_number_gets_its_unit_during_typing() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    desk.fill("deviations.base_pitch", "48");
-    desk.assert(desk.shows("Unit added: um.") && desk.shows("48 um"));
+    desk.fill("deviations.base_pitch", "48").has(&["Unit added: um.", "48 um"]);
     assert!(!desk.shows("LAST VALID") && !desk.shows("2191.0"), "the results are those of 48 um");
     assert_eq!(
         (desk.app.tab.form.input.value(), desk.text("deviations.base_pitch")),
         ("48", "48 um")
     );
-    desk.keys(&["Down"]);
-    desk.assert(desk.shows("48 um") && !desk.shows("Unit added"));
+    desk.keys(&["Down"]).assert_shows("48 um").lacks(&["Unit added"]);
     desk.keys(&["Ctrl-S"]);
     assert_eq!(desk.read("case.toml"), TABLE_1.replace("16 um", "48 um"));
     desk.keys(&["Up", "Esc"]);
@@ -61,8 +58,7 @@ fn the_unit_is_the_written_one_or_else_the_displayed_one() {
     desk.fill("driver.tip_radius", "0.2");
     assert_eq!(desk.text("driver.tip_radius"), "0.2 mm");
     desk.app.settings.units = System::Inch;
-    desk.fill("driven.tip_radius", "0.02");
-    assert!(desk.shows("Unit added: in."));
+    desk.fill("driven.tip_radius", "0.02").assert_shows("Unit added: in.");
     assert_eq!(desk.text("driven.tip_radius"), "0.02 in");
     desk.fill("pair.module", "4");
     assert_eq!(desk.text("pair.module"), "4 mm", "it was written in mm");
@@ -71,16 +67,14 @@ fn the_unit_is_the_written_one_or_else_the_displayed_one() {
 #[test]
 fn a_typed_unit_is_never_replaced() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    desk.fill("deviations.base_pitch", "48 m");
-    desk.assert_shows("Not yet: 48 m is above the limit of");
+    desk.fill("deviations.base_pitch", "48 m").assert_shows("Not yet: 48 m is above the limit of");
     assert_eq!(desk.text("deviations.base_pitch"), "48 m");
     desk.keys(&["Down"]);
     desk.assert_at(
         "after the user leaves the field the value is invalid:",
         desk.shows("! 48 m is above the limit of"),
     );
-    desk.keys(&["Ctrl-S"]);
-    assert!(desk.shows("not saved"));
+    desk.keys(&["Ctrl-S"]).assert_shows("not saved");
     desk.fill("driver.young", "200 M");
     assert_eq!(desk.text("driver.young"), "200 M", "MPa or Mpsi");
     desk.assert_shows("Not yet: unknown unit M");
@@ -94,8 +88,7 @@ fn an_equal_text_is_not_an_edit() {
     desk.go_to("deviations.base_pitch").keys(&["End", "Backspace", "Backspace", "Backspace"]);
     assert_eq!(desk.app.tab.form.input.value(), "16");
     assert!(!desk.app.tab.is_unsaved());
-    desk.keys(&["Ctrl-Z"]);
-    assert!(desk.shows("nothing to undo"));
+    desk.keys(&["Ctrl-Z"]).assert_shows("nothing to undo");
 }
 
 #[test]

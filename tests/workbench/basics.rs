@@ -1,9 +1,8 @@
 //! Keys in, screen out: focus, palette, tabs, baseline, cursor, copying, mouse, settings.
-use crate::harness;
+use crate::harness::{self, Desk, LARGE, SMALL, TABLE_1, name, requested};
 
 use std::sync::Arc;
 
-use harness::{Desk, LARGE, SMALL, TABLE_1, name, requested};
 use insta::assert_snapshot;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
@@ -12,19 +11,10 @@ use tipstrike::case::{Document, fields};
 use tipstrike::model::compliance::ElasticGear;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Stage, Stages};
-use tipstrike::tui::testing::actions::Effect;
-use tipstrike::tui::testing::actions::{Action, of_key};
-use tipstrike::tui::testing::app::App;
-use tipstrike::tui::testing::dialogs::Item;
-use tipstrike::tui::testing::dialogs::Prompt;
-use tipstrike::tui::testing::jobs::Slot;
-use tipstrike::tui::testing::pane::Pane;
-use tipstrike::tui::testing::settings::Settings;
-use tipstrike::tui::testing::solver::Answer;
-use tipstrike::tui::testing::tab::Origin;
-use tipstrike::tui::testing::theme::{CONTRAST, Look};
-use tipstrike::tui::testing::update::update;
-use tipstrike::tui::testing::view;
+use tipstrike::tui::testing::{
+    Action, Answer, App, CONTRAST, Effect, Item, Look, Origin, Pane, Prompt, Settings, Slot,
+    of_key, update, view,
+};
 
 const TINY: Size = Size { width: 60, height: 16 };
 const HUGE: Size = Size { width: 240, height: 70 };
@@ -53,7 +43,7 @@ fn a_new_case_marks_its_required_fields_and_shows_the_defaults_of_the_others() {
         "  α     pressure angle       (20 deg)",
         "Required, such as 5 mm.",
     ] {
-        assert!(desk.shows(line), "{line}\n{}", desk.screen());
+        desk.assert_shows(line);
     }
     assert!(!desk.shows("LAST VALID") && !desk.app.tab.is_unsaved());
     for (at, value) in ["4", "17", "20", "40", "22", "5 kW", "1500"].iter().enumerate() {
@@ -75,11 +65,8 @@ fn a_case_with_missing_values_opens_is_saved_and_opens_again() {
     desk.assert(desk.shows("; 6 required values are missing") && !desk.app.tab.is_unsaved());
     assert!(desk.read("pair.toml").contains("\nmodule = \"4 mm\"  # required"));
     desk.keys(&["Alt-W", "Ctrl-O", "Ctrl-U", path]);
-    desk.assert(
-        desk.shows("Required values are missing:") && desk.shows("the driver's number of teeth"),
-    );
-    desk.keys(&["Enter"]);
-    desk.assert_shows("! 6 required values are missing");
+    desk.has(&["Required values are missing:", "the driver's number of teeth"]);
+    desk.keys(&["Enter"]).assert_shows("! 6 required values are missing");
     desk.go_to("driver.teeth").keys(&["17.5", "Ctrl-S"]);
     desk.assert_shows("not saved: fix the fields marked with ! first");
 }
@@ -111,8 +98,7 @@ fn the_palette_lists_commands_of_the_focused_pane_and_field_first() {
     desk.keys(&["Esc", "2", ":", "tip rel"]);
     assert_eq!(first(&desk), "driven.tip_relief");
     desk.assert_shows("Ca2 driven tip relief.");
-    desk.keys(&["Ctrl-U", "unlikely words"]);
-    desk.assert_shows("No match.");
+    desk.keys(&["Ctrl-U", "unlikely words"]).assert_shows("No match.");
 }
 
 #[test]
@@ -128,9 +114,8 @@ fn the_first_line_names_the_last_case_and_the_key_of_table_1() {
         desk.assert(first(&desk).starts_with("tipstrike  built-in Table 1"));
     }
     let mut desk = Desk::on(SMALL, "pair.toml", TABLE_1);
-    assert!(!desk.shows("last case"));
-    desk.keys(&["Alt-T", "Ctrl-PageUp", "Alt-T"]);
-    desk.assert_shows("1 pair.toml [2 built-in Table 1]");
+    desk.lacks(&["last case"]);
+    desk.keys(&["Alt-T", "Ctrl-PageUp", "Alt-T"]).assert_shows("1 pair.toml [2 built-in Table 1]");
 }
 
 #[test]
@@ -142,8 +127,7 @@ fn a_field_takes_text_until_esc_leaves_it() {
     assert!(desk.shows("z1 driver number of teeth"), "j moves down");
     desk.keys(&["kkkkk", "i", "Ctrl-U", "21 deg", "Esc", "u"]);
     assert!(desk.shows("6 mm") && desk.shows("20 deg"), "u undoes a visit");
-    desk.keys(&["Ctrl-R"]);
-    assert!(desk.shows("21 deg"));
+    desk.keys(&["Ctrl-R"]).assert_shows("21 deg");
     desk.keys(&["Enter", "End", "Backspace"]);
     assert_eq!(desk.app.tab.form.input.value(), "21 de", "Enter edits again");
 }
@@ -179,19 +163,6 @@ fn every_pane_can_be_shown_at_every_size() {
 }
 
 #[test]
-fn f5_switches_the_lower_area_and_names_the_hidden_panes() {
-    let mut desk = Desk::new(SMALL);
-    desk.assert_shows("Esc 4 5 6");
-    desk.keys(&["F5"]);
-    desk.assert(desk.shows("Esc 4 Teeth") && desk.shows("Esc 3 5 6"));
-    desk.keys(&["F5"]);
-    desk.assert_shows("Esc 5 Accuracy");
-    desk.keys(&["F5"]);
-    desk.assert_shows("Esc 6 Study: F_S");
-    assert!(desk.app.has_line(), "the field keeps the keys");
-}
-
-#[test]
 fn hidden_results_are_not_computed() {
     let mut desk = Desk::new(SMALL);
     let stages = |desk: &Desk| desk.app.tab.answer.as_ref().expect("a result").stages;
@@ -200,22 +171,7 @@ fn hidden_results_are_not_computed() {
     assert!(!stages(&desk).has(Stage::Stations) && stages(&desk).has(Stage::Friction));
     desk.keys(&["Esc", "3"]);
     assert!(stages(&desk).has(Stage::Stations), "and is as soon as it is looked at");
-    assert!(desk.shows("⠒"));
-}
-
-#[test]
-fn the_palette_finds_and_runs_every_command() {
-    let mut desk = Desk::new(SMALL);
-    desk.keys(&["Ctrl-P", "method"]);
-    assert!(desk.shows("▸ method") && desk.shows("Ctrl-T, F6"));
-    desk.keys(&["Enter"]);
-    assert!(desk.shows("method static") && desk.app.tab.is_unsaved());
-    desk.keys(&["Esc", ":", "undo", "Enter"]);
-    assert!(!desk.app.tab.is_unsaved(), "a change by the palette is undone like any other");
-    desk.keys(&[":", "xyzzy", "Enter"]);
-    assert!(desk.shows("No match."));
-    desk.keys(&["Esc"]);
-    assert!(desk.app.prompts.is_empty());
+    desk.assert_shows("⠒");
 }
 
 #[test]
@@ -224,7 +180,10 @@ fn every_command_of_the_palette_works_on_every_screen() {
         let number = pane.number().to_string();
         let mut palette = Desk::new(SMALL);
         palette.keys(&["Esc", &number, ":"]);
-        for command in listed(&palette) {
+        // A third of the commands of each pane beside the form, which has all.
+        let step = if pane == Pane::Form { 1 } else { 3 };
+        let first = usize::from(pane.number() % 3) % step;
+        for command in listed(&palette).into_iter().skip(first).step_by(step) {
             let mut desk = Desk::with(palette.app.clone());
             desk.act(Action::Paste(command.name.clone()));
             let place = listed(&desk).iter().position(|one| one.name == command.name);
@@ -246,17 +205,13 @@ fn every_command_of_the_palette_works_on_every_screen() {
 fn cases_are_in_tabs_each_with_its_own_results_and_history() {
     let mut desk = three_cases(LARGE);
     assert_eq!(desk.app.tabs().count(), 3);
-    assert!(desk.shows("1 one.toml") && desk.shows("2 two.toml*") && desk.shows("[3 three.toml]"));
-    desk.keys(&["Alt-1"]);
-    assert!(desk.shows("2191.0") && desk.shows("[1 one.toml]"));
-    desk.keys(&["Ctrl-PageDown"]);
-    assert!(desk.shows("10 kW"));
-    desk.keys(&["Ctrl-Z", "Ctrl-Z"]);
-    assert!(desk.shows("nothing to undo") && desk.shows("[2 two.toml]"));
+    desk.has(&["1 one.toml", "2 two.toml*", "[3 three.toml]"]);
+    desk.keys(&["Alt-1"]).has(&["2191.0", "[1 one.toml]"]);
+    desk.keys(&["Ctrl-PageDown"]).assert_shows("10 kW");
+    desk.keys(&["Ctrl-Z", "Ctrl-Z"]).has(&["nothing to undo", "[2 two.toml]"]);
     desk.keys(&["Ctrl-PageUp", "Ctrl-PageUp"]);
     assert!(desk.shows("[3 three.toml]"), "round and round");
-    desk.keys(&["Alt-9"]);
-    assert!(desk.shows("[3 three.toml]"));
+    desk.keys(&["Alt-9"]).assert_shows("[3 three.toml]");
 }
 
 #[test]
@@ -264,7 +219,7 @@ fn opening_an_open_case_goes_to_its_tab_and_keeps_its_edits() {
     let mut desk = three_cases(LARGE);
     let two = desk.path("two.toml");
     desk.keys(&["Ctrl-O", "Ctrl-U", name(&two), "Enter"]);
-    assert!(desk.shows("is open already") && desk.shows("[2 two.toml*]") && desk.shows("10 kW"));
+    desk.has(&["is open already", "[2 two.toml*]", "10 kW"]);
 }
 
 #[test]
@@ -291,8 +246,7 @@ fn quitting_asks_about_every_unsaved_case() {
         desk
     };
     let mut desk = both();
-    desk.keys(&["Ctrl-Q"]);
-    assert!(desk.shows("2 cases have unsaved edits"));
+    desk.keys(&["Ctrl-Q"]).assert_shows("2 cases have unsaved edits");
     desk.keys(&["c"]);
     assert!(!desk.has_quit);
     desk.keys(&["Ctrl-Q", "s"]);
@@ -322,8 +276,7 @@ fn an_answer_goes_to_the_case_that_asked_for_it() {
     let before = desk.screen();
     desk.show(answer);
     assert_eq!(desk.screen(), before);
-    desk.keys(&["Alt-1"]);
-    assert!(desk.shows("2191.0"));
+    desk.keys(&["Alt-1"]).assert_shows("2191.0");
 }
 
 #[test]
@@ -357,34 +310,9 @@ fn the_baseline_is_common_to_tabs_and_has_its_curve_even_if_no_chart_was_visible
     let pinned = desk.app.baseline.as_ref().expect("it is pinned");
     assert_eq!(pinned.name, "one.toml");
     assert!(pinned.answer.stages.covers(Stages::EVERY));
-    desk.fill("driven.tip_relief", "20 um").keys(&["Esc", "2", "z"]);
-    desk.assert(desk.shows(" baseline") && desk.shows(" %"));
+    desk.fill("driven.tip_relief", "20 um").keys(&["Esc", "2", "z"]).has(&[" baseline", " %"]);
     desk.fill("operation.speed", "bad").keys(&["Esc", "b", "b"]);
-    assert!(desk.shows("no valid results to pin"));
-}
-
-#[test]
-fn comparisons_with_the_baseline_are_readable_at_every_size() {
-    for size in [SMALL, LARGE] {
-        let mut desk = Desk::on(size, "case.toml", TABLE_1);
-        desk.keys(&["Esc", "b", "2"]);
-        desk.assert(desk.shows(" baseline\n") || desk.shows(" baseline "));
-        desk.fill("operation.speed", "3000 rpm");
-        desk.keys(&["Esc", "2"]);
-        desk.assert(desk.shows(" %") && desk.shows("; baseline: "));
-        desk.keys(&["Ctrl-T"]);
-        desk.assert(desk.shows("was none") && desk.shows("baseline (exact): none"));
-    }
-}
-
-#[test]
-fn a_verdict_is_beside_its_limit_which_is_not_cut() {
-    for size in [SMALL, Size { width: 60, height: 16 }, LARGE] {
-        let mut desk = Desk::on(size, "case.toml", &TABLE_1.replace("2500 N", "2000 N"));
-        desk.keys(&["Esc", "1", "G"]);
-        let line = desk.line_with("▸ F_S");
-        desk.assert(line.contains(" 2000 N") && line.contains(" ! 110 %"));
-    }
+    desk.assert_shows("no valid results to pin");
 }
 
 #[test]
@@ -395,32 +323,6 @@ fn values_that_an_edit_changed_are_marked_until_the_next_visit() {
     assert!(marked(&desk, "approach velocity") && !marked(&desk, "base pitch"));
     desk.fill("operation.power", "14 kW");
     assert!(marked(&desk, " mesh force  ") && !marked(&desk, "approach velocity"));
-}
-
-#[test]
-fn the_cursor_moves_by_columns_and_can_be_hidden() {
-    let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "3", "l"]);
-    assert!(desk.shows("1.3663 deg of the driver before E: F_S 2191.0 N") && desk.shows("┊"));
-    let column = 1.5f64.to_radians() / 70.0;
-    let at = desk.app.cursor.expect("a cursor");
-    desk.keys(&["l"]);
-    assert!((at - desk.app.cursor.expect("a cursor") - column).abs() < 1e-12);
-    desk.keys(&["h", "L", "Shift-Left"]);
-    assert!((at - desk.app.cursor.expect("a cursor")).abs() < 1e-12);
-    desk.keys(&["End"]);
-    assert!(desk.app.cursor == Some(0.0) && desk.shows("F_S 0 N"));
-    desk.keys(&["Right"]);
-    assert!(desk.app.cursor == Some(0.0), "the chart ends at E");
-    desk.keys(&["4", "Right"]);
-    assert!(
-        desk.app.cursor.is_some_and(|cursor| cursor < 0.0) && desk.shows("after E"),
-        "the teeth go on"
-    );
-    desk.keys(&["Home", "c"]);
-    assert!(desk.app.cursor.is_none());
-    desk.keys(&["l", "Esc"]);
-    assert!(desk.app.cursor.is_none() && desk.app.layout.focus() == Pane::Teeth);
 }
 
 #[test]
@@ -440,8 +342,7 @@ fn the_animation_plays_to_its_end_and_then_the_clock_stops() {
 #[test]
 fn the_results_have_a_cursor_a_page_and_are_copied() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "2", "Enter"]);
-    assert!(desk.shows("impact_force") && desk.shows("Eq. 57"));
+    desk.keys(&["Esc", "2", "Enter"]).has(&["impact_force", "Eq. 57"]);
     desk.keys(&["Esc", "y"]);
     assert_eq!(desk.copied.as_deref(), Some("2191.0 N"));
     desk.keys(&["Y"]);
@@ -454,7 +355,7 @@ fn the_results_have_a_cursor_a_page_and_are_copied() {
     ] {
         assert!(copied.contains(part), "{part}: {copied}");
     }
-    assert!(desk.shows("copied the report of the results"));
+    desk.assert_shows("copied the report of the results");
     desk.keys(&["1", "y"]);
     assert_eq!(desk.copied.as_deref(), Some("5 mm"));
     desk.keys(&["2", "G"]);
@@ -463,17 +364,6 @@ fn the_results_have_a_cursor_a_page_and_are_copied() {
         results.marked().map(|known| known.key),
         results.listed().last().map(|known| known.key)
     );
-}
-
-#[test]
-fn a_text_too_long_for_a_clipboard_is_not_sent() {
-    let mut desk = Desk::new(SMALL);
-    desk.fill("title", "");
-    for _ in 0..20 {
-        desk.act(Action::Paste("歯".repeat(4096)));
-    }
-    desk.keys(&["Esc", "y"]);
-    assert!(desk.copied.is_none_or(|text| text.len() <= 48 * 1024));
 }
 
 #[test]
@@ -519,7 +409,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
         "it is waited for no more"
     );
     desk.show(whole);
-    desk.assert(desk.shows("40.1 um of tip relief on the driven") && !desk.shows("..."));
+    desk.assert_shows("40.1 um of tip relief on the driven").lacks(&["..."]);
 }
 
 #[test]
@@ -532,7 +422,7 @@ fn a_slow_solve_shows_its_progress_and_esc_stops_it() {
     desk.show(half);
     let serial = desk.app.tab.serial;
     desk.app.show_progress(serial, 0.25);
-    desk.assert(desk.shows("25 % solving static; Ctrl-C cancels") && desk.shows("static pending"));
+    desk.has(&["25 % solving static; Ctrl-C cancels", "static pending"]);
     desk.keys(&["Ctrl-C"]);
     desk.assert(
         desk.has_cancelled && desk.shows("method static is stopped") && !desk.shows("pending"),
@@ -611,23 +501,6 @@ fn the_screens() {
     assert_snapshot!("tabs_80x24", three_cases(SMALL).screen());
     assert_snapshot!("opening_240x70", Desk::new(HUGE).screen());
     assert_snapshot!("opening_60x16", Desk::new(TINY).screen());
-}
-
-#[test]
-fn no_stiffness_spread_without_corner_contact() {
-    let mut desk = Desk::on(
-        SMALL,
-        "case.toml",
-        &TABLE_1.replace("tip_relief = \"0 um\"", "tip_relief = \"60 um\""),
-    );
-    for method in ["static", "dynamic"] {
-        desk.keys(&["Ctrl-T"]);
-        assert!(
-            desk.shows(method) && desk.shows("No corner contact") && !desk.shows(" to +"),
-            "{method}: {}",
-            desk.screen()
-        );
-    }
 }
 
 /// Gears that no other test uses, so that their fields are not cached.

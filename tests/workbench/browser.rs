@@ -1,6 +1,6 @@
 //! The file browser: folders, previews with their verdict, recent cases; no content of a folder
 //! delays the screen.
-use crate::harness;
+use crate::harness::{self, Desk, LARGE, SMALL, TABLE_1, name, requested, results};
 
 use std::ffi::OsStr;
 use std::fs;
@@ -9,14 +9,10 @@ use std::os::unix::fs::symlink;
 use std::path::PathBuf;
 use std::process::Command;
 
-use harness::{Desk, LARGE, SMALL, TABLE_1, name, requested, results};
 use insta::assert_snapshot;
-use tipstrike::tui::testing::actions::Effect;
-use tipstrike::tui::testing::actions::{self, Action};
 use tipstrike::tui::testing::ascii::is_safe;
-use tipstrike::tui::testing::jobs::Slot;
 use tipstrike::tui::testing::store::case_search;
-use tipstrike::tui::testing::update::update;
+use tipstrike::tui::testing::{Action, Effect, Slot, of_key, update};
 
 /// Five cases and a folder; the second case is open.
 fn shelf(desk: &mut Desk) {
@@ -156,8 +152,7 @@ fn an_entry_with_the_typed_name_is_selected_before_those_that_contain_it() {
     desk.keys(&["Ctrl-U", "DEEP"]);
     assert_eq!(marked(&desk), "sub/deep.toml", "cases below the folder are found");
     desk.write(".hidden.toml", TABLE_1);
-    desk.keys(&["Esc", "Ctrl-O"]);
-    assert!(!desk.shows("hidden"));
+    desk.keys(&["Esc", "Ctrl-O"]).lacks(&["hidden"]);
     desk.keys(&[".hi"]);
     assert_eq!(marked(&desk), ".hidden.toml", "hidden ones are there where their dot is typed");
 }
@@ -167,16 +162,10 @@ fn recent_cases_are_on_the_same_page_and_missing_files_are_marked() {
     let mut desk = desk_before_a_shelf(SMALL);
     desk.recents =
         vec![desk.path("a-strikes.toml"), desk.path("gone.toml"), desk.path("sub/deep.toml")];
-    desk.keys(&["Ctrl-O"]);
-    assert!(
-        desk.shows("Recent cases")
-            && desk.shows("gone.toml  (missing)")
-            && desk.shows("deep.toml  in sub/")
-    );
+    desk.keys(&["Ctrl-O"]).has(&["Recent cases", "gone.toml  (missing)", "deep.toml  in sub/"]);
     desk.keys(&["Alt-R", "Down"]);
     assert!(preview(&desk).contains("It cannot be opened: file not found"));
-    desk.keys(&["Enter"]);
-    assert!(desk.shows("gone.toml cannot be opened") && desk.shows("file not found"));
+    desk.keys(&["Enter"]).has(&["gone.toml cannot be opened", "file not found"]);
     desk.keys(&["Esc", "Alt-R"]);
     assert!(!preview(&desk).contains("file not found"), "back in the folder");
     desk.keys(&["deep", "Enter"]);
@@ -209,8 +198,7 @@ fn names_that_no_terminal_should_see_are_shown_as_text_and_open() {
     }
     desk.keys(&["Ctrl-O", "z5", "Enter"]);
     assert_eq!(marked(&desk), "in.toml", "{}", desk.screen());
-    desk.keys(&["Enter"]);
-    desk.assert_shows("opened ");
+    desk.keys(&["Enter"]).assert_shows("opened ");
 }
 
 #[test]
@@ -241,11 +229,8 @@ fn a_file_that_is_no_case_is_refused_with_a_message() {
         desk.keys(&["Esc", "Esc"]);
     }
     desk.keys(&["Ctrl-O", "nowhere/"]);
-    desk.assert(
-        desk.shows("This folder cannot be read: No such") && desk.shows("file or directory"),
-    );
-    desk.keys(&["Ctrl-U", "case.toml/"]);
-    desk.assert_shows("This folder cannot be read: Not a");
+    desk.has(&["This folder cannot be read: No such", "file or directory"]);
+    desk.keys(&["Ctrl-U", "case.toml/"]).assert_shows("This folder cannot be read: Not a");
 }
 
 #[test]
@@ -260,7 +245,7 @@ fn a_folder_of_ten_thousand_is_read_once_and_a_key_requests_at_most_one_preview(
     let keys = ["PageDown", "Down", "Down", "9", "9", "9", "Backspace", "Up"];
     for key in keys {
         let event = harness::event(key);
-        let action = actions::of_key(event, desk.app.place()).expect("a key of the browser");
+        let action = of_key(event, desk.app.place()).expect("a key of the browser");
         asked.extend(update(&mut desk.app, action));
         desk.screen();
     }
@@ -280,12 +265,12 @@ fn a_folder_of_ten_thousand_is_read_once_and_a_key_requests_at_most_one_preview(
 fn keys_work_during_the_reading_of_a_folder_and_a_late_result_is_dropped() {
     let mut desk = desk_before_a_shelf(SMALL);
     let press = |desk: &mut Desk, key: &str| {
-        let action = actions::of_key(harness::event(key), desk.app.place()).expect("a key");
+        let action = of_key(harness::event(key), desk.app.place()).expect("a key");
         update(&mut desk.app, action)
     };
     let (number, work) = requested(press(&mut desk, "Ctrl-O"), Slot::Folder).expect("a listing");
     let late = results(number, work);
-    assert!(desk.shows("reading ..."));
+    desk.assert_shows("reading ...");
     for letter in ["s", "u", "b", "/"] {
         press(&mut desk, letter);
     }
@@ -299,11 +284,7 @@ fn keys_work_during_the_reading_of_a_folder_and_a_late_result_is_dropped() {
 fn a_new_case_begins_with_an_example_and_has_no_file() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Alt-N"]);
-    assert!(
-        desk.shows("New case from an example")
-            && desk.shows("▸ zhou-chen-2014")
-            && desk.shows("impact force 2191.0 N")
-    );
+    desk.has(&["New case from an example", "▸ zhou-chen-2014", "impact force 2191.0 N"]);
     desk.keys(&["Down"]);
     assert!(
         preview(&desk).contains("FZG type C test gears")
@@ -316,8 +297,7 @@ fn a_new_case_begins_with_an_example_and_has_no_file() {
             && desk.app.tabs().count() == 2
     );
     assert!(desk.app.tab.path.is_none() && !desk.app.tab.is_unsaved());
-    desk.fill("operation.speed", "1234 rpm").keys(&["Ctrl-S"]);
-    assert!(desk.shows("Save as") && desk.shows("case.toml"));
+    desk.fill("operation.speed", "1234 rpm").keys(&["Ctrl-S"]).has(&["Save as", "case.toml"]);
     let path = desk.path("mine.toml");
     desk.keys(&["Ctrl-U", name(&path), "Enter"]);
     let saved = desk.read("mine.toml");
@@ -371,8 +351,7 @@ fn typing_searches_the_folders_below_and_the_examples() {
     desk.assert(
         desk.app.prompts.is_empty() && desk.shows("new case from fzg-type-c; it has no file yet"),
     );
-    desk.keys(&["Ctrl-O", "no such"]);
-    desk.assert_shows("No match here or below.");
+    desk.keys(&["Ctrl-O", "no such"]).assert_shows("No match here or below.");
 }
 
 #[test]

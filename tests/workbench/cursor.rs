@@ -1,8 +1,7 @@
 //! The prompt that moves the cursor of charts and teeth to an angle, a time or a point.
-use crate::harness;
+use crate::harness::{Desk, LARGE, SMALL, TABLE_1};
 
-use harness::{Desk, LARGE, SMALL, TABLE_1};
-use tipstrike::tui::testing::dialogs::Prompt;
+use tipstrike::tui::testing::Prompt;
 
 fn at(desk: &mut Desk, typed: &str) -> f64 {
     desk.keys(&["a", "Ctrl-U", typed, "Enter"]);
@@ -62,15 +61,12 @@ fn a_wrong_text_shows_the_reason_and_stays() {
         assert!(matches!(desk.app.prompts[..], [Prompt::CursorTo(_)]) && desk.app.cursor.is_none());
     }
     let mut desk = Desk::on(SMALL, "case.toml", include_str!("../../cases/tip-relief-enough.toml"));
-    desk.keys(&["Esc", "a", "D", "Enter"]);
-    desk.assert_shows("no corner contact, so no D");
+    desk.keys(&["Esc", "a", "D", "Enter"]).assert_shows("no corner contact, so no D");
 }
 
 #[test]
 fn the_chart_opens_if_no_pane_shows_the_cursor() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "5", "a", "0.6", "Enter"]);
-    desk.assert_shows("▸ 3 Force");
-    desk.keys(&["4", "1", "a", "0.6", "Enter"]);
-    desk.assert(desk.shows("▸ 1 Form") && desk.shows("─ 4 "));
+    desk.keys(&["Esc", "5", "a", "0.6", "Enter"]).assert_shows("▸ 3 Force");
+    desk.keys(&["4", "1", "a", "0.6", "Enter"]).has(&["▸ 1 Form", "─ 4 "]);
 }

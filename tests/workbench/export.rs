@@ -1,13 +1,10 @@
 //! Reports and pictures written from the workbench.
 
-use crate::harness;
+use crate::harness::{self, Desk, LARGE, SMALL, TABLE_1};
 
 use std::fs;
 
-use harness::{Desk, LARGE, SMALL, TABLE_1};
-use tipstrike::tui::testing::actions::{Effect, of_key};
-use tipstrike::tui::testing::jobs::Slot;
-use tipstrike::tui::testing::update::update;
+use tipstrike::tui::testing::{Effect, Slot, of_key, update};
 
 /// A workbench on `pair.toml` with an unsaved edit.
 fn edited() -> Desk {
@@ -30,8 +27,7 @@ fn names(desk: &Desk) -> Vec<String> {
 #[test]
 fn the_report_of_the_form_is_written_and_the_status_line_shows_its_path() {
     let mut desk = edited();
-    desk.keys(&["Alt-X"]);
-    assert!(desk.shows("Export") && desk.shows("pair.html"));
+    desk.keys(&["Alt-X"]).has(&["Export", "pair.html"]);
     desk.keys(&["sent", "Enter"]);
     let page = desk.read("sent.html");
     assert!(page.contains("<html") && page.contains("24 um"), "the edit is in the page");
@@ -64,8 +60,7 @@ fn the_extension_and_the_focused_pane_select_the_content() {
         assert!(text.contains(part), "{name}: {text}");
     }
     let mut desk = edited();
-    desk.keys(&["Esc", "3", "Alt-X"]);
-    assert!(desk.shows("pair.svg"));
+    desk.keys(&["Esc", "3", "Alt-X"]).assert_shows("pair.svg");
 }
 
 fn desk_path(desk: &Desk, name: &str) -> String {
@@ -76,8 +71,7 @@ fn desk_path(desk: &Desk, name: &str) -> String {
 fn a_file_that_exists_is_replaced_on_demand_alone() {
     let mut desk = edited();
     desk.write("pair.html", "mine");
-    desk.keys(&["Alt-X", "Enter"]);
-    assert!(desk.shows("The file exists"));
+    desk.keys(&["Alt-X", "Enter"]).assert_shows("The file exists");
     desk.keys(&["Enter"]);
     assert_eq!(desk.read("pair.html"), "mine");
     assert!(desk.shows("Export"), "another name may be typed");
@@ -89,13 +83,11 @@ fn a_file_that_exists_is_replaced_on_demand_alone() {
 fn an_impossible_export_is_refused_and_writes_nothing() {
     let mut desk = edited();
     desk.keys(&["Alt-X", "Ctrl-U", &desk_path(&desk, "page.pdf"), "Enter"]);
-    assert!(desk.shows("not exported: unknown file extension"));
-    desk.keys(&["Ctrl-U", "Enter"]);
-    assert!(desk.shows("a file needs a name"));
+    desk.assert_shows("not exported: unknown file extension");
+    desk.keys(&["Ctrl-U", "Enter"]).assert_shows("a file needs a name");
     desk.keys(&["Esc"]);
     desk.fill("deviations.base_pitch", "24 lb");
-    desk.keys(&["Alt-X"]);
-    assert!(desk.shows("not exported: complete the fields marked with !"));
+    desk.keys(&["Alt-X"]).assert_shows("not exported: complete the fields marked with !");
     assert_eq!(names(&desk), ["pair.toml"]);
 }
 
@@ -107,8 +99,7 @@ fn one_export_runs_at_a_time_and_quitting_asks_about_it() {
     let accept = of_key(harness::event("Enter"), desk.app.place()).expect("an action");
     let effects = update(&mut desk.app, accept);
     assert!(matches!(effects.first(), Some(Effect::Work(_, work)) if work.slot == Slot::Export));
-    desk.keys(&["Enter"]);
-    desk.assert_shows("still runs: wait for its end");
+    desk.keys(&["Enter"]).assert_shows("still runs: wait for its end");
     desk.keys(&["Esc", "Esc", "Ctrl-S", "Ctrl-Q"]);
     desk.assert(desk.shows("An export runs") && !desk.has_quit);
     desk.keys(&["w", "Ctrl-Q", "q"]);

@@ -1,14 +1,13 @@
 //! Cases of earlier versions open without a change of their bytes; newer ones are shown and never
 //! overwritten; saves leave no temporary files.
-use crate::harness;
+use crate::harness::{Desk, SMALL, TABLE_1};
 
 use std::fs;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-use harness::{Desk, SMALL, TABLE_1};
 use tipstrike::case::Document;
-use tipstrike::tui::testing::actions::Effect;
+use tipstrike::tui::testing::Effect;
 
 #[test]
 fn every_frozen_case_opens_and_an_untouched_save_keeps_its_bytes() {
@@ -34,7 +33,7 @@ fn a_newer_format_is_shown_and_never_written() {
     let mut desk = Desk::new(SMALL);
     let path = desk.write("newer.toml", &newer);
     desk.perform(Effect::Load(path.clone()));
-    desk.assert(desk.shows("*read-only*") && desk.shows("newer format"));
+    desk.has(&["*read-only*", "newer format"]);
     assert!(desk.shows("5 mm"), "what this version knows is shown");
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
     desk.assert(desk.shows("not saved: ") && desk.app.tab.is_unsaved());
@@ -57,7 +56,6 @@ fn a_save_deletes_temporary_files_that_a_killed_save_left_a_day_ago() {
         let file = file.expect("our own file");
         file.set_modified(now - Duration::from_secs(3600 * hours)).expect("our own file");
     }
-    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
-    desk.assert_shows("saved ");
+    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]).assert_shows("saved ");
     assert_eq!(names.map(|name| desk.path(name).exists()), [false, true, true]);
 }

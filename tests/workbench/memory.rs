@@ -1,11 +1,10 @@
 //! Memory of an open case, an edit and a benchmark.
-use crate::harness;
+use crate::harness::{Desk, LARGE, SMALL, TABLE_1};
 
-use harness::{Desk, LARGE, SMALL, TABLE_1};
 use tipstrike::case::Document;
 use tipstrike::model::inputs::Method;
 use tipstrike::study::trade::MeasuredSetting;
-use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::Action;
 
 /// Remaining bytes per run, over a number of runs.
 fn kept(times: usize, mut run: impl FnMut(usize)) -> f64 {
@@ -15,7 +14,7 @@ fn kept(times: usize, mut run: impl FnMut(usize)) -> f64 {
 
 #[test]
 fn an_edit_stores_its_difference_and_undo_has_no_limit() {
-    const EDITS: usize = 5000;
+    const EDITS: usize = 1500;
     let mut desk = Desk::new(SMALL);
     let edit = |desk: &mut Desk, text: &str| {
         desk.keys(&["Ctrl-U"]).act(Action::Paste(text.to_owned()));

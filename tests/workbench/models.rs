@@ -2,7 +2,7 @@
 
 use crate::harness::{Desk, SMALL};
 
-use tipstrike::tui::testing::actions::Effect;
+use tipstrike::tui::testing::Effect;
 
 const MODEL: &str = include_str!("../cli/rexs/two-stages-1.0.rexs");
 
@@ -12,7 +12,7 @@ fn a_model_opens_as_a_case_that_is_saved_beside_it() {
     let path = desk.write("gears.rexs", MODEL);
     let other = desk.write("other.rexs", &MODEL.replace("Stirnradstufe", "Another"));
     desk.perform(Effect::Load(path.clone()));
-    desk.assert(desk.shows("gears.toml") && desk.shows("3 mm"));
+    desk.has(&["gears.toml", "3 mm"]);
     desk.perform(Effect::Load(other));
     desk.assert_shows("other.toml");
     desk.perform(Effect::Load(path));
@@ -28,8 +28,7 @@ fn a_model_by_another_path_is_saved_by_the_session_that_opened_it() {
     desk.write("gears.rexs", MODEL);
     std::fs::create_dir(desk.path("sub")).unwrap();
     desk.perform(Effect::Load(desk.path("sub/../gears.rexs")));
-    desk.keys(&["Ctrl-S"]);
-    desk.assert_shows("saved");
+    desk.keys(&["Ctrl-S"]).assert_shows("saved");
     assert!(desk.read("gears.toml").contains("module = \"3 mm\""));
 }
 

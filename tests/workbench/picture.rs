@@ -1,14 +1,13 @@
 //! The pictures of the README are screens of the workbench: `TIPSTRIKE_REGENERATE=1 cargo test
 //! --test picture` draws them again.
-use crate::harness;
+use crate::harness::{Desk, LARGE};
 
 use std::fmt::Write;
 
-use harness::{Desk, LARGE};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 use tipstrike::case::{Document, EXAMPLES};
-use tipstrike::tui::testing::theme::Look;
+use tipstrike::tui::testing::Look;
 
 const CELL: (f64, f64) = (8.4, 18.0);
 const MARGIN: f64 = 12.0;
@@ -46,7 +45,7 @@ fn taken(title: &str, keys: &[&str]) -> String {
     }
     desk.recents = vec![desk.path("gears/zhou-chen-2014.toml"), desk.path("gears/gone.toml")];
     let path = desk.path("gears/zhou-chen-2014.toml");
-    desk.app = tipstrike::tui::testing::update::opened(
+    desk.app = tipstrike::tui::testing::opened(
         Document::read(&path).expect("a good case"),
         Some(path),
         Look::FULL,
@@ -78,7 +77,6 @@ fn picture(title: &str, buffer: &Buffer) -> String {
     svg + "</svg>\n"
 }
 
-/// Adds one piece of a row in one style.
 fn add(svg: &mut String, piece: &[Cell], column: usize, row: usize) {
     let text: String = piece.iter().map(Cell::symbol).collect();
     let (x, y) = (MARGIN + column as f64 * CELL.0, MARGIN + row as f64 * CELL.1);
@@ -118,7 +116,6 @@ fn is_dotted(cell: char) -> bool {
     ('\u{2800}'..='\u{28ff}').contains(&cell)
 }
 
-/// The dots of a cell of Braille at a position.
 fn dots(cell: char, x: f64, y: f64) -> Vec<String> {
     const PLACES: [(u8, u8); 8] = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (1, 3)];
     let set = if is_dotted(cell) { u32::from(cell) - 0x2800 } else { 0 };

@@ -1,9 +1,8 @@
 //! The mouse, if the setting is on: a click selects, a second click is Enter.
-use crate::harness;
+use crate::harness::{Desk, LARGE, SMALL, TABLE_1};
 
-use harness::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::layout::{Position, Size};
-use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::Action;
 
 /// Clicks the first letter of a word.
 fn press(desk: &mut Desk, word: &str) {

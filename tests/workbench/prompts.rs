@@ -1,14 +1,10 @@
 //! Dialogs and the lines around the panes: at 80x24, at 140x45 and in ASCII.
-use crate::harness;
+use crate::harness::{self, Desk, LARGE, SMALL, TABLE_1, without_folder};
 
-use harness::{Desk, LARGE, SMALL, TABLE_1, without_folder};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::case::Change;
-use tipstrike::tui::testing::actions::Action;
-use tipstrike::tui::testing::session::Next;
-use tipstrike::tui::testing::session::SaveFault;
-use tipstrike::tui::testing::session::{Access, Claim, Offer};
+use tipstrike::tui::testing::{Access, Action, Claim, Next, Offer, SaveFault};
 
 const HOLDER: &str = "process 4711 on drawing-office, since 12 min";
 
@@ -148,8 +144,7 @@ fn the_dialog_names_the_file_that_a_save_would_replace() {
 #[test]
 fn typing_replaces_a_refused_angle() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "a", "0,5", "Enter"]);
-    desk.assert_shows("write 0.5, not 0,5");
+    desk.keys(&["Esc", "a", "0,5", "Enter"]).assert_shows("write 0.5, not 0,5");
     desk.keys(&["0.5", "Enter"]);
     desk.assert(desk.app.prompts.is_empty() && desk.shows("0.5000 deg of the driver before E"));
 }

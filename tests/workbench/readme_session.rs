@@ -3,12 +3,10 @@
 //!
 //! `TIPSTRIKE_REGENERATE=1 cargo test --test workbench readme_session::` writes the output of the
 //! commands again.
-use crate::harness;
+use crate::harness::{Desk, LARGE, TABLE_1};
 
 use std::fmt::Write as _;
 use std::process::Command;
-
-use harness::{Desk, LARGE, TABLE_1};
 
 const FOLDER: &str = env!("CARGO_MANIFEST_DIR");
 const GUIDE: &str = include_str!("../../docs/guide.md");

@@ -1,7 +1,5 @@
 //! The search for the tip relief to specify, in the workbench.
-use crate::harness;
-
-use harness::{Desk, LARGE, SMALL, TABLE_1};
+use crate::harness::{Desk, LARGE, SMALL, TABLE_1};
 
 #[test]
 fn the_relief_to_specify_is_written_into_the_case_as_one_edit() {
@@ -23,14 +21,11 @@ fn the_relief_to_specify_is_written_into_the_case_as_one_edit() {
 #[test]
 fn a_typed_demand_starts_a_search_and_an_invalid_one_gets_a_reason() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
-    desk.keys(&["Esc", ":", "relief", "Enter"]);
-    desk.assert_shows("for 25 to 110 %");
+    desk.keys(&["Esc", ":", "relief", "Enter"]).assert_shows("for 25 to 110 %");
     desk.keys(&["Ctrl-U", "110..25 %", "Enter"]);
     desk.assert_shows("! the range is reversed: write a range");
-    desk.keys(&["Ctrl-U", "50..100 %, 2 um"]);
-    desk.assert_shows("Results of the earlier input");
-    desk.keys(&["Enter"]);
-    desk.assert(desk.shows("for 50 to 100 %") && desk.shows("tolerances 2 um"));
+    desk.keys(&["Ctrl-U", "50..100 %, 2 um"]).assert_shows("Results of the earlier input");
+    desk.keys(&["Enter"]).has(&["for 50 to 100 %", "tolerances 2 um"]);
     desk.keys(&["PageDown", "Down", "Esc"]);
     assert!(!desk.app.tab.is_unsaved() && desk.app.prompts.is_empty());
 }

@@ -1,11 +1,10 @@
 //! The screens: at 80x24 and at 140x45.
-use crate::harness;
+use crate::harness::{self, Desk, LARGE, SMALL, TABLE_1, without_folder};
 
-use harness::{Desk, LARGE, SMALL, TABLE_1, without_folder};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::model::inputs::Method;
-use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::Action;
 
 const TINY: Size = Size { width: 60, height: 16 };
 
@@ -105,8 +104,7 @@ fn a_too_small_terminal_shows_a_message_and_keeps_the_state() {
 #[test]
 fn the_chart_alone_and_the_form_without_it() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["F9"]);
-    assert!(!desk.shows("driver angle before E in deg"));
+    desk.keys(&["F9"]).lacks(&["driver angle before E in deg"]);
     desk.keys(&["F9", "Esc", "3", "z"]);
     assert_snapshot!("chart_80x24", desk.screen());
 }
