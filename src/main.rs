@@ -7,6 +7,10 @@ use std::process::ExitCode;
 
 use tipstrike::cli::{self, Arguments, Streams};
 
+#[cfg(target_env = "musl")]
+#[global_allocator]
+static MEMORY: dlmalloc::GlobalDlmalloc = dlmalloc::GlobalDlmalloc;
+
 fn main() -> ExitCode {
     tipstrike::system::report_file_limit_as_error();
     let mut streams = Streams::standard();
