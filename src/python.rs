@@ -22,7 +22,7 @@ use crate::case::{
 };
 use crate::cli::{self, Arguments, Streams};
 use crate::model::inputs::Method;
-use crate::model::{Inputs, Quantity, Refusal, Stages};
+use crate::model::{Inputs, Quantity, Refusal, Solution, Stages};
 use crate::report::charts::{NoPicture, Pattern, find, pictures};
 use crate::report::compare::{ComparedCase, Comparison};
 use crate::report::data::{self, stations, write_json};
@@ -333,17 +333,18 @@ impl Case {
         Ok(self.document.case.effective(field))
     }
 
-    fn solve(&self, py: Python<'_>, only: Vec<String>, stations: bool) -> PyResult<Solved> {
+    fn solve(case: Py<Case>, py: Python<'_>, only: Vec<String>, stations: bool) -> PyResult<Solved> {
         let only = quantities(&only)?;
         let selection = Selection { stations: stations || only.is_empty(), only };
-        let wanted = selection.only.len();
-        let (name, case, inputs) =
-            (self.name.clone(), self.document.case.clone(), self.inputs()?.clone());
-        let report = py.detach(|| Report::solve(name, case, inputs, selection));
-        let report = report.map_err(|refusal| self.refused(&refusal))?;
-        match report.solution.withheld {
-            Some(refusal) if report.values().count() < wanted => Err(self.refused(&refusal)),
-            _ => Ok(Solved { report, stations }),
+        let this = case.get();
+        let inputs = this.inputs()?.clone();
+        let solved = py.detach(|| selection.solve(inputs));
+        let (inputs, solution) = solved.map_err(|refusal| this.refused(&refusal))?;
+        match solution.withheld {
+            Some(refusal) if selection.values(&solution).count() < selection.only.len() => {
+                Err(this.refused(&refusal))
+            }
+            _ => Ok(Solved { case, inputs, solution, selection, stations }),
         }
     }
 
@@ -525,9 +526,21 @@ impl Case {
 /// The results of a solve.
 #[pyclass(frozen, module = "tipstrike")]
 struct Solved {
-    report: Report,
+    case: Py<Case>,
+    inputs: Inputs,
+    solution: Solution,
+    selection: Selection,
     /// Whether the text has the stations.
     stations: bool,
+}
+
+impl Solved {
+    /// The report with its notes, which few calls need.
+    fn report(&self) -> Report {
+        let Case { name, document, .. } = self.case.get();
+        let (inputs, solution) = (self.inputs.clone(), self.solution.clone());
+        Report::of(name.clone(), document.case.clone(), inputs, solution, self.selection.clone())
+    }
 }
 
 #[pymethods]
@@ -535,7 +548,7 @@ impl Solved {
     /// The value of a quantity, by name or symbol, and its unit.
     fn get<'py>(&self, py: Python<'py>, name: &str) -> Option<(Bound<'py, PyAny>, &'static str)> {
         let quantity = Quantity::named(name)?;
-        let mut values = self.report.values();
+        let mut values = self.selection.values(&self.solution);
         let (_, value) = values.find(|(known, _)| known.key == quantity.key)?;
         let value = if quantity.is_flag() {
             PyBool::new(py, value != 0.0).to_owned().into_any()
@@ -546,44 +559,43 @@ impl Solved {
     }
 
     fn keys(&self) -> Vec<&'static str> {
-        self.report.values().map(|(quantity, _)| quantity.key).collect()
+        self.selection.values(&self.solution).map(|(quantity, _)| quantity.key).collect()
     }
 
     #[getter]
     fn method(&self) -> &'static str {
-        self.report.solution.method.name()
+        self.solution.method.name()
     }
 
     #[getter]
     fn outcome(&self) -> &'static str {
-        self.report.solution.outcome.name()
+        self.solution.outcome.name()
     }
 
     #[getter]
-    fn notes(&self) -> Vec<(&'static str, &str)> {
-        self.report.notes.iter().map(|note| (note.code, note.message.as_str())).collect()
+    fn notes(&self) -> Vec<(&'static str, String)> {
+        self.report().notes.into_iter().map(|note| (note.code, note.message)).collect()
     }
 
     /// The line of `tipstrike solve --format json`.
     fn json(&self) -> PyResult<String> {
-        written(|out| write_json(&self.report, out))
+        written(|out| write_json(&self.report(), out))
     }
 
     /// The text of `tipstrike solve`.
     fn text(&self, py: Python<'_>) -> String {
-        let mut report = self.report.clone();
+        let mut report = self.report();
         report.selection.stations = self.stations;
         py.detach(|| data::render(&report.with_others()))
     }
 
     /// The stations; of a pair in slices also the line load of the incoming tooth over angle and face.
     fn stations(&self, py: Python<'_>) -> PyResult<Vec<Column>> {
-        let Report { inputs, solution, selection, .. } = &self.report;
-        if !selection.stations {
+        if !self.selection.stations {
             return Ok(Vec::new());
         }
-        let mut all = columns(py, &stations(&self.report))?;
-        if let Some(pattern) = Pattern::of(inputs, solution) {
+        let mut all = columns(py, &stations(&self.report()))?;
+        if let Some(pattern) = Pattern::of(&self.inputs, &self.solution) {
             let (angles, places, loads) = pattern.grid();
             all.push(numbers(py, ("line_load_roll_angle_driver", "rad"), angles.into_iter()));
             all.push(numbers(py, ("line_load_z", "m"), places.iter().copied()));

@@ -76,6 +76,11 @@ impl Selection {
         self.only.iter().copied().chain(table)
     }
 
+    /// The requested quantities that have a value, in SI: finite, and zero without a sign.
+    pub fn values(&self, solution: &Solution) -> impl Iterator<Item = (&'static Quantity, f64)> {
+        self.quantities().filter_map(|quantity| Some((quantity, value(quantity, solution)?)))
+    }
+
     /// The stages that the requested quantities need.
     pub fn stages(&self) -> Stages {
         let stations = if self.stations { Stages::STATIONS } else { Stages::NONE };
@@ -128,9 +133,7 @@ impl Report {
 
     /// The requested quantities that have a value, in SI: finite, and zero without a sign.
     pub fn values(&self) -> impl Iterator<Item = (&'static Quantity, f64)> {
-        self.selection
-            .quantities()
-            .filter_map(|quantity| Some((quantity, value(quantity, &self.solution)?)))
+        self.selection.values(&self.solution)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::case::{Case, Evaluator, Problem};
 use crate::model::inputs::Method;
 use crate::model::solve::speeds;
 use crate::model::speeds::{SPEEDS, SpeedCurve};
-use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Stage, Stages};
+use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
 use crate::study::batch::Control;
 use crate::study::seek::{distinct, headline};
 use crate::study::shard::Format;
@@ -16,6 +16,19 @@ use crate::study::stiffness::{
     FLANK_POINTS, Flanks, PATH_POINTS, PathComparison, compare_flanks, compare_path,
 };
 use crate::study::tolerance::{Samples, Size, Tolerance};
+
+impl Selection {
+    /// Solves a case as far as the selection and the outcome of the method need it. Returns the inputs
+    /// of the solve with the solution.
+    ///
+    /// # Errors
+    /// The refusal of the model.
+    pub fn solve(&self, inputs: Inputs) -> Result<(Inputs, Solution), Refusal> {
+        let inputs = inputs.needing(self.only.iter().map(|quantity| quantity.stage));
+        let solution = model::solve(&inputs, self.stages().and(inputs.method.deciding_stages()))?;
+        Ok((inputs, solution))
+    }
+}
 
 impl Report {
     /// Solves the case as far as the selection and the outcome of the method need it.
@@ -28,9 +41,7 @@ impl Report {
         inputs: Inputs,
         selection: Selection,
     ) -> Result<Report, Refusal> {
-        let inputs = inputs.needing(selection.only.iter().map(|quantity| quantity.stage));
-        let solution =
-            model::solve(&inputs, selection.stages().and(inputs.method.deciding_stages()))?;
+        let (inputs, solution) = selection.solve(inputs)?;
         Ok(Report::of(name, case, inputs, solution, selection))
     }
 
