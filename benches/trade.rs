@@ -1,6 +1,5 @@
-//! Accuracy against run time over the cases in `cases/`: `cargo bench --bench trade` prints the
-//! table and draws the picture. With `TIPSTRIKE_REGENERATE=1` it writes `tests/trade/table.md`,
-//! `assets/trade.svg` and the lines of docs/speed.md.
+//! Accuracy against run time over spur and helical pairs of every size: `cargo bench --bench trade`
+//! prints the tables. With `TIPSTRIKE_REGENERATE=1` it writes those of docs/speed.md and `assets/trade.svg`.
 #![allow(
     clippy::expect_used,
     clippy::panic,
@@ -8,104 +7,199 @@
     reason = "a benchmark prints its results"
 )]
 
-#[path = "../tests/trade/table.rs"]
-mod table;
-
-use table::{Row, Table};
-use tipstrike::model::inputs::Method;
+use tipstrike::case::Case;
+use tipstrike::model::impact::StiffnessModels;
 use tipstrike::report::chart::{Axis, Chart, Kind, Point, Series};
 use tipstrike::report::svg;
-use tipstrike::report::trade::{plotted_error, power_of_time};
-use tipstrike::study::trade::{METHODS, STEADY, Setting, Subject};
+use tipstrike::report::trade::{duration, percent, plotted_error, power_of_time};
+use tipstrike::study::trade::{METHODS, MeasuredSetting, STEADY, Setting, Subject, Trade, trade};
+
+/// Module in mm, teeth, profile shifts, helix angle in deg.
+type Pair = (f64, [u32; 2], [f64; 2], f64);
+
+const SPUR: [Pair; 18] = [
+    (0.1, [12, 60], [0.3, 0.0], 0.0),
+    (0.2, [5, 40], [0.6, 0.0], 0.0),
+    (0.3, [20, 20], [0.0, 0.0], 0.0),
+    (0.5, [17, 43], [0.0, 0.0], 0.0),
+    (0.8, [30, 120], [0.0, 0.0], 0.0),
+    (1.0, [1000, 1000], [0.0, 0.0], 0.0),
+    (1.0, [25, 500], [0.2, 0.0], 0.0),
+    (1.5, [18, 36], [0.2, 0.0], 0.0),
+    (2.0, [10, 10], [0.5, 0.5], 0.0),
+    (2.5, [23, 47], [0.3, 0.1], 0.0),
+    (3.0, [28, 28], [0.0, 0.0], 0.0),
+    (4.0, [16, 24], [0.2, 0.2], 0.0),
+    (6.0, [20, 60], [0.0, 0.0], 0.0),
+    (8.0, [200, 300], [0.0, 0.0], 0.0),
+    (12.0, [24, 95], [0.3, 0.3], 0.0),
+    (20.0, [18, 36], [0.39, 0.5], 0.0),
+    (35.0, [19, 17], [0.6, 0.8], 0.0),
+    (50.0, [15, 30], [0.3, 0.0], 0.0),
+];
+const HELICAL: [Pair; 10] = [
+    (0.1, [15, 45], [0.3, 0.0], 20.0),
+    (0.3, [20, 40], [0.0, 0.0], 30.0),
+    (0.5, [17, 43], [0.0, 0.0], 20.0),
+    (1.0, [60, 90], [0.0, 0.0], 10.0),
+    (1.5, [300, 900], [0.0, 0.0], 12.0),
+    (2.0, [20, 35], [0.0, 0.0], 20.0),
+    (4.0, [7, 30], [0.6, 0.0], 25.0),
+    (8.0, [17, 103], [0.145, 0.0], 15.8),
+    (14.0, [24, 95], [0.48, 0.6691], 10.0),
+    (50.0, [20, 60], [0.0, 0.0], 8.0),
+];
 
 fn main() {
     // `cargo test --benches` and `cargo bench -- --test` only check that the benchmark starts.
     if std::env::args().any(|argument| argument == "--test") {
         return;
     }
-    let trades = table::trades(STEADY);
-    let made = Table::of(&trades);
-    println!("{}", made.markdown());
-    println!("{}", models(&trades));
+    let traded = |pairs: &[Pair]| pairs.iter().map(measured).collect::<Vec<_>>();
+    let (spur, helical) = (traded(&SPUR), traded(&HELICAL));
+    let usual = inputs(&SPUR[10]);
+    let methods = METHODS.map(|method| {
+        let models = StiffnessModels::covering(&usual).filter(|models| {
+            models.contact.is_none_or(|contact| contact == usual.contact_compliance)
+        });
+        models.map(|models| Setting::of_method(method, Some(models))).collect::<Vec<_>>()
+    });
+    let auto = Setting::all(&usual).into_iter().find(|one| one.models.is_none());
+    let over_face = Setting::all(&inputs(&HELICAL[5]));
+    let table_of = |settings: &[Setting], trades, subjects: [(&str, Subject); 3]| {
+        let names = subjects.map(|(name, _)| name).join(" | ");
+        let rows = settings.iter().filter_map(|setting| row(setting, trades, subjects));
+        let rows: Vec<String> = rows.collect();
+        format!(
+            "| setting | pairs | time | {names} |\n|---|---|---|---|---|---|\n{}\n",
+            rows.join("\n")
+        )
+    };
+    let first = ("first contact", Subject::FirstContact);
+    let of_spur = [first, ("peak force", Subject::PeakForce), ("curve", Subject::Curve)];
+    let of_face = [
+        first,
+        ("peak line load", Subject::LineLoad),
+        ("transmission error", Subject::TransmissionError),
+    ];
+    let settings: Vec<Setting> = methods.iter().flatten().copied().chain(auto).collect();
+    let tables = [
+        ("spur pairs", table_of(&settings, &spur, of_spur)),
+        ("helical pairs", table_of(&over_face, &helical, of_face)),
+    ];
+    let of_methods = METHODS.into_iter().zip(&methods);
+    let mut series: Vec<Series> =
+        of_methods.map(|(method, settings)| marks(method.name(), settings, &spur)).collect();
+    let is_slices = |setting: &&Setting| setting.coupled && setting.models == over_face[0].models;
+    let slices: Vec<Setting> = over_face.iter().filter(is_slices).copied().collect();
+    series.push(marks("static, helical: slices", &slices, &helical));
+    for (name, table) in &tables {
+        println!("{name}\n\n{table}");
+    }
     if std::env::var_os("TIPSTRIKE_REGENERATE").is_some() {
-        made.keep();
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/trade.svg");
-        std::fs::write(path, picture(&made)).expect("the picture is written");
-        table::write_docs();
+        std::fs::write(path, picture(series)).expect("the picture is written");
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/speed.md");
+        let mut text = std::fs::read_to_string(path).expect("docs/speed.md");
+        for (name, table) in &tables {
+            let marks = [format!("<!-- {name} -->\n"), format!("<!-- /{name} -->")];
+            let (before, rest) = text.split_once(&marks[0]).expect("the first mark");
+            let (_, after) = rest.split_once(&marks[1]).expect("the second mark");
+            text = format!("{before}{}{table}{}{after}", marks[0], marks[1]);
+        }
+        std::fs::write(path, text).expect("docs/speed.md is written");
     }
 }
 
-/// The model error of each method, one line per case.
-fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
-    let mut lines =
-        vec!["| case | paper | exact | static |".to_owned(), "|---|---|---|---|".to_owned()];
-    for (name, trade) in trades {
-        let percent = |method: Method| {
-            let mut models = trade.finest.iter();
-            let off = models
-                .find(|model| model.setting.method == method)
-                .map_or([None; Subject::ALL.len()], |model| model.off);
-            let needed = Subject::NEEDED.map(|subject| {
-                off[subject as usize].map_or("-".to_owned(), |off| format!("{:.1}", 100.0 * off))
-            });
-            needed.join(" / ")
-        };
-        lines.push(format!(
-            "| `{name}` | {} | {} | {} |",
-            percent(Method::Paper),
-            percent(Method::Exact),
-            percent(Method::Static)
-        ));
+/// A steel pair with a tooth load of 3 N/mm2 (K factor), 10 m/s and a base pitch deviation of about grade 7.
+fn inputs(&(module, teeth, shifts, helix): &Pair) -> tipstrike::model::Inputs {
+    let mut case = Case::empty();
+    let mut set = |key: &str, value: String| {
+        case.set(key, &value).unwrap_or_else(|problem| panic!("{key}: {problem}"));
+    };
+    let width = 10.0 * module;
+    let diameter = module * f64::from(teeth[0]) / helix.to_radians().cos();
+    let ratio = f64::from(teeth[1]) / f64::from(teeth[0]);
+    // N mm = mJ
+    let torque = 1e-3 * 3.0 * width * diameter.powi(2) / 2.0 * ratio / (1.0 + ratio);
+    set("pair.module", format!("{module} mm"));
+    set("pair.pressure_angle", "20 deg".to_owned());
+    if helix > 0.0 {
+        set("pair.helix_angle", format!("{helix} deg"));
     }
-    lines.join("\n")
+    for (gear, (teeth, shift)) in
+        ["driver", "driven"].into_iter().zip(teeth.into_iter().zip(shifts))
+    {
+        set(&format!("{gear}.teeth"), teeth.to_string());
+        set(&format!("{gear}.profile_shift"), shift.to_string());
+        set(&format!("{gear}.face_width"), format!("{width} mm"));
+    }
+    set("operation.torque", format!("{torque} N m"));
+    set("operation.speed", format!("{} rad/s", 10.0 / (0.5e-3 * diameter)));
+    let base_pitch = 8.0 + 0.6 * (module + 0.4 * diameter.sqrt());
+    set("deviations.base_pitch", format!("{base_pitch} um"));
+    case.inputs().unwrap_or_else(|problems| panic!("{module} mm, {teeth:?}: {}", problems[0]))
 }
 
-/// Numerical error against time: one curve per method over its stations, and one over the
-/// tolerances.
-fn picture(table: &Table) -> String {
-    let table_1 = tipstrike::case::Case::table_1();
-    let pair = table_1.inputs().expect("the built-in case is valid");
-    let stations = METHODS
-        .map(|method| (format!("{}: stations", method.name()), Setting::usual(method, &pair), 1));
-    let tolerances = ("dynamic: tolerance".to_owned(), Setting::usual(Method::Dynamic, &pair), 0);
-    let series: Vec<Series> = stations
-        .into_iter()
-        .chain([tolerances])
-        .map(|(name, usual, error)| {
-            let alike = |setting: &Setting| {
-                let same = if error == 1 {
-                    setting.tolerance == usual.tolerance
-                } else {
-                    setting.stations == usual.stations
-                };
-                setting.is_finer_or_coarser(&usual)
-                    && setting.accurate == usual.accurate
-                    && setting.stations.is_some()
-                    && same
-            };
-            let mut settings: Vec<Setting> = table::settings().into_iter().filter(alike).collect();
-            settings.sort_by(|one, other| {
-                other.tolerance.unwrap_or(0.0).total_cmp(&one.tolerance.unwrap_or(0.0))
-            });
-            let points = settings.iter().filter_map(|setting| {
-                let row: &Row = table.0.iter().find(|row| row.setting == setting.to_string())?;
-                let error = plotted_error(row.errors[error]?.0);
-                Some(((row.seconds?.log10(), error.log10()), *setting == usual))
-            });
-            let (points, are_usual): (Vec<_>, Vec<bool>) = points.unzip();
-            let usual = are_usual.iter().position(|is_usual| *is_usual);
-            Series { name, pieces: vec![points], kind: Kind::Marks(usual) }
+fn measured(pair: &Pair) -> Trade {
+    let found = trade(&inputs(pair), STEADY, &|| true, &mut |_| ());
+    found.unwrap_or_else(|refusal| panic!("{pair:?}: {refusal}"))
+}
+
+/// Median and greatest; the number of values.
+fn median(mut values: Vec<f64>) -> Option<(f64, f64, usize)> {
+    values.sort_by(f64::total_cmp);
+    Some((*values.get(values.len() / 2)?, *values.last()?, values.len()))
+}
+
+/// Median time and median / greatest errors in %, over the pairs that the setting solves.
+fn row(setting: &Setting, trades: &[Trade], subjects: [(&str, Subject); 3]) -> Option<String> {
+    let figures = || {
+        let all = trades.iter().flat_map(|trade| &trade.settings);
+        all.filter(|one| one.setting == *setting).filter_map(|one| one.found.as_ref().ok())
+    };
+    let (seconds, _, count) = median(figures().map(|found| found.time.seconds).collect())?;
+    let errors = subjects.map(|(_, subject)| {
+        let off = median(figures().filter_map(|found| found.total[subject as usize]).collect());
+        off.map_or("-".to_owned(), |(median, most, _)| {
+            format!("{} / {} %", percent(median), percent(most))
         })
-        .collect();
+    });
+    Some(format!("| {setting} | {count} | {} | {} |", duration(seconds), errors.join(" | ")))
+}
+
+/// The settings at their median time and error, with a ring around the default.
+fn marks(name: &str, settings: &[Setting], trades: &[Trade]) -> Series {
+    let point = |setting: &Setting| {
+        let all = || {
+            trades.iter().flat_map(|trade| &trade.settings).filter(|one| one.setting == *setting)
+        };
+        let (error, ..) = median(all().filter_map(MeasuredSetting::total).collect())?;
+        let solved = all().filter(|one| one.found.is_ok());
+        let (seconds, ..) = median(solved.map(|one| one.seconds()).collect())?;
+        Some((seconds.log10(), plotted_error(error).log10()))
+    };
+    let is_usual = |setting: &Setting| {
+        setting.slices.is_none()
+            && setting.models == Setting::usual(setting.method, &inputs(&SPUR[10])).models
+    };
+    Series {
+        name: name.to_owned(),
+        kind: Kind::Marks(settings.iter().position(is_usual)),
+        pieces: vec![settings.iter().filter_map(point).collect()],
+    }
+}
+
+/// Total error against time: a mark per setting.
+fn picture(series: Vec<Series>) -> String {
     let axis = |name: &str, of: fn(&Point) -> f64, label: fn(f64) -> String| {
         let points = series.iter().flat_map(|series| series.pieces.iter().flatten());
         Axis::logarithmic(name, points.map(of), label)
     };
-    let up = "relative error of the curve (stations), the numbers (tolerance)";
     svg::draw(&Chart {
-        title: "Numerical error against time: median over the cases of cases/".to_owned(),
+        title: "Error against time: medians over 18 spur and 10 helical pairs".to_owned(),
         across: axis("time of a whole solve", |point| point.0, power_of_time),
-        up: axis(up, |point| point.1, |error| format!("{error:.0e}")),
+        up: axis("greatest error", |point| point.1, |error| format!("{} %", percent(error))),
         series,
         ..Chart::default()
     })

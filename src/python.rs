@@ -333,7 +333,12 @@ impl Case {
         Ok(self.document.case.effective(field))
     }
 
-    fn solve(case: Py<Case>, py: Python<'_>, only: Vec<String>, stations: bool) -> PyResult<Solved> {
+    fn solve(
+        case: Py<Case>,
+        py: Python<'_>,
+        only: Vec<String>,
+        stations: bool,
+    ) -> PyResult<Solved> {
         let only = quantities(&only)?;
         let selection = Selection { stations: stations || only.is_empty(), only };
         let this = case.get();

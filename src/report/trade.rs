@@ -192,7 +192,7 @@ pub fn compliances(trade: &Trade) -> Vec<(StiffnessModels, [Option<Cell>; METHOD
 /// Time and difference of each method with each compliance, one line per compliance.
 fn by_compliance(trade: &Trade) -> Vec<String> {
     let title = "Time of a solve and greatest difference from the reference in %, by compliance and method, \
-        with 64 stations and tolerance 1e-6. >: the compliance of the case.";
+        with 64 stations. >: the compliance of the case.";
     let current = trade.settings.iter().find(|measured| measured.is_current);
     let own = current.and_then(|current| taken(current).models);
     [item("", title), compliance_table(trade, own, '>', Cell::to_string).lines()].concat()

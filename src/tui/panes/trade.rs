@@ -118,7 +118,7 @@ pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
 pub(crate) fn signs(pane: &TradePane<'_>) -> &'static str {
     match pane.view {
         TradeView::Table => {
-            "Time of a solve with 64 stations and tolerance 1e-6, and its greatest difference from \
+            "Time of a solve with 64 stations, and its greatest difference from \
                 the reference in %; * compliance of the case, ▸ selected."
         }
         TradeView::Chart => {
