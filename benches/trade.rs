@@ -71,7 +71,7 @@ fn main() {
         let rows = settings.iter().filter_map(|setting| row(setting, trades, subjects));
         let rows: Vec<String> = rows.collect();
         format!(
-            "| setting | pairs | time | {names} |\n|---|---|---|---|---|---|\n{}\n",
+            "| setting | pairs | time | {names} | greatest |\n|---|---|---|---|---|---|---|\n{}\n",
             rows.join("\n")
         )
     };
@@ -154,18 +154,21 @@ fn median(mut values: Vec<f64>) -> Option<(f64, f64, usize)> {
 
 /// Median time and median / greatest errors in %, over the pairs that the setting solves.
 fn row(setting: &Setting, trades: &[Trade], subjects: [(&str, Subject); 3]) -> Option<String> {
-    let figures = || {
+    let measured = || {
         let all = trades.iter().flat_map(|trade| &trade.settings);
-        all.filter(|one| one.setting == *setting).filter_map(|one| one.found.as_ref().ok())
+        all.filter(|one| one.setting == *setting)
     };
+    let figures = || measured().filter_map(|one| one.found.as_ref().ok());
     let (seconds, _, count) = median(figures().map(|found| found.time.seconds).collect())?;
-    let errors = subjects.map(|(_, subject)| {
-        let off = median(figures().filter_map(|found| found.total[subject as usize]).collect());
-        off.map_or("-".to_owned(), |(median, most, _)| {
-            format!("{} / {} %", percent(median), percent(most))
-        })
-    });
-    Some(format!("| {setting} | {count} | {} | {} |", duration(seconds), errors.join(" | ")))
+    let error = |errors: Vec<f64>| {
+        let of = |(median, most, _)| format!("{} / {} %", percent(median), percent(most));
+        median(errors).map_or_else(|| "-".to_owned(), of)
+    };
+    let of_subject =
+        |subject| error(figures().filter_map(|found| found.total[subject as usize]).collect());
+    let errors = subjects.map(|(_, subject)| of_subject(subject)).join(" | ");
+    let greatest = error(measured().filter_map(MeasuredSetting::total).collect());
+    Some(format!("| {setting} | {count} | {} | {errors} | {greatest} |", duration(seconds)))
 }
 
 /// The settings at their median time and error, with a ring around the default.

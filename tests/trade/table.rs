@@ -7,7 +7,6 @@ use std::time::Duration;
 
 use tipstrike::case::file::Document;
 use tipstrike::model::Inputs;
-use tipstrike::model::inputs::Method;
 use tipstrike::study::trade::{Differences, Setting, Subject, Trade, greatest, trade};
 
 /// Errors below this are rounding and may differ between machines.
