@@ -238,6 +238,22 @@ fn variants_are_shown_beside_the_case_with_their_differences() {
     desk.keys(&["Esc", "2", "v"]).assert_shows("the case has no variants");
 }
 
+/// `auto` would choose `static` for the variant alone, without a value of the motion.
+#[test]
+fn variants_are_compared_by_the_method_that_auto_chose_for_the_case() {
+    let text = TABLE_1.replace("method = \"exact\"", "method = \"auto\"");
+    let text = format!("{text}\n[variants.relieved]\n\"driven.tip_relief\" = \"80 um\"\n");
+    let mut desk = Desk::on(SMALL, "case.toml", &text);
+    desk.keys(&["Esc", "2", "v"]);
+    desk.assert_shows("Results 1-12/");
+    desk.assert_shows("by dynamic");
+    desk.assert(desk.line_with("relieved").contains("case"));
+    desk.assert(!desk.line_with("F_d,max").contains('–'));
+    desk.assert_shows("Case ");
+    desk.keys(&["n"]);
+    desk.assert_shows("Variant relieved: driven tip relief: 0 um -> 80 um.");
+}
+
 #[test]
 fn a_tolerance_that_fails_shows_the_reason() {
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));

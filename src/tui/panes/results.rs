@@ -14,7 +14,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::Title;
 use crate::case::units::System;
-use crate::case::{Case, Problem};
+use crate::case::{Case, Problem, changes};
 use crate::model::inputs::Method;
 use crate::model::quantities::Need;
 use crate::model::{QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
@@ -23,6 +23,7 @@ use crate::report::verdict::{Standing, Verdict, verdict, verdicts};
 use crate::report::{self, digest, value_as_in};
 use crate::tui::layout::NEXT_FAULT;
 use crate::tui::rows;
+use crate::tui::session;
 use crate::tui::solver::{Answer, Baseline, Values, Variants};
 use crate::tui::text::{self, symbol};
 use crate::tui::theme::Look;
@@ -150,10 +151,9 @@ pub(crate) fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
     let [_, above] = Layout::horizontal([Constraint::Length(1), Constraint::Fill(1)]).areas(above);
     Text::from(head).render(above, buffer);
     let Some(answer) = pane.answer else { return };
-    let (row, top) = (pane.row(), pane.state.top);
-    let is_marked = pane.title.has_focus && (top..top + rows).contains(&row);
-    let mut state = TableState::new().with_offset(top).with_selected(is_marked.then_some(row));
-    StatefulWidget::render(table(pane, answer), body, buffer, &mut state);
+    let row = pane.row().checked_sub(pane.state.top).filter(|row| *row < rows);
+    let mut state = TableState::new().with_selected(row.filter(|_| pane.title.has_focus));
+    StatefulWidget::render(table(pane, answer, rows), body, buffer, &mut state);
 }
 
 /// A sentence above the table.
@@ -202,7 +202,9 @@ fn parts(pane: &Results<'_>) -> (Vec<Line<'static>>, usize) {
         _ => Some(format!("{hidden} notes ({}n)", pane.title.leave())),
     };
     let folded = pane.answer.and_then(|answer| folded(pane, answer));
-    let last: Vec<String> = notes.into_iter().chain(folded).collect();
+    // Between variants the results need the line; the key of the notes is in the line of keys.
+    let has_room = pane.variants.is_none() || head.len() < kept(USUAL_ROWS);
+    let last: Vec<String> = notes.into_iter().chain(folded).filter(|_| has_room).collect();
     if !last.is_empty() {
         let last = text::cut(&last.join(", "), width);
         head.push(Line::styled(last, pane.look.theme.note));
@@ -266,16 +268,18 @@ fn sentences(pane: &Results<'_>) -> Vec<Sentence> {
             add("No limits.".to_owned(), Style::new(), Place::Page);
         }
     }
+    for (name, found) in pane.variants.into_iter().flat_map(|(variants, _)| &variants.columns) {
+        let Ok(variant) = pane.case.variant(name) else { continue };
+        let mut changes = changes::between(pane.case, &pane.case.with(variant));
+        changes.retain(|change| !change.key.starts_with("variants."));
+        let refused = found.as_ref().err().map(|reason| format!("; refused: {reason}"));
+        let (inputs, refused) = (session::summary(&changes), refused.unwrap_or_default());
+        add(format!("Variant {name}: {inputs}{refused}."), fresh(theme.note), Place::Room);
+    }
     for note in &answer.notes {
         let is_usual = report::is_general(note) || USUAL_NOTES.contains(&note.code);
         let place = if is_usual { Place::Page } else { Place::Room };
         add(format!("Note: {}.", note.message), fresh(theme.note), place);
-    }
-    for (name, found) in pane.variants.into_iter().flat_map(|(variants, _)| &variants.columns) {
-        if let Err(reason) = found {
-            let text = format!("Note: variant {name} is refused: {reason}.");
-            add(text, fresh(theme.note), Place::Room);
-        }
     }
     all
 }
@@ -331,7 +335,7 @@ fn title(pane: &Results<'_>, rows: usize) -> String {
     let pending = pending.map(|method| format!(", {} pending", method.name()));
     let cost = pane.answer.filter(|_| pane.shows_cost).map(|answer| answer.cost);
     let cost = cost.map(|cost| format!(", {} stages in {} us", cost.stages, cost.micros));
-    let method = pane.answer.filter(|_| !pane.has_header());
+    let method = pane.answer.filter(|_| !pane.has_header() || pane.variants.is_some());
     let method = method.map(|answer| format!(" by {}", answer.active.name()));
     let parts = [position, method, base, pending, cost].into_iter().flatten();
     name.to_owned() + &parts.collect::<String>()
@@ -376,6 +380,8 @@ struct Column {
     styles: [Style; 2],
 }
 
+/// The rank of the case beside its variants.
+const OF_CASE: usize = 1;
 /// The rank of the units, which are cut but not removed.
 const UNITS: usize = 2;
 
@@ -434,11 +440,11 @@ pub(crate) fn label(quantity: &Quantity, active: Method) -> Cow<'static, str> {
     }
 }
 
-/// The table in the width of the pane.
-fn table(pane: &Results<'_>, answer: &Answer) -> Table<'static> {
+/// The visible rows of the table in the width of the pane.
+fn table(pane: &Results<'_>, answer: &Answer, rows: usize) -> Table<'static> {
     let theme = pane.look.theme;
     let is_outdated = pane.variants.is_some_and(|(variants, _)| variants.serial != answer.serial);
-    let columns = fitting(pane, answer);
+    let columns = fitting(pane, answer, rows);
     let row = |text: fn(&Column, usize) -> &str, part: usize, at: usize| {
         Row::new(columns.iter().map(|column| {
             let text = text(column, at).to_owned();
@@ -456,18 +462,29 @@ fn table(pane: &Results<'_>, answer: &Answer) -> Table<'static> {
         .highlight_spacing(HighlightSpacing::Always)
 }
 
-/// The number of variants that fit side by side: the columns after the one of the units, which has
-/// no heading.
+/// The number of variants that fit side by side.
 pub(crate) fn variants_page(pane: &Results<'_>) -> usize {
-    let shown = pane.answer.map(|answer| fitting(pane, answer));
-    let is_variant = |column: &&Column| !column.heading.is_empty();
-    shown.map_or(1, |shown| shown.iter().rev().take_while(is_variant).count().max(1))
+    let shown = pane.answer.map(|answer| fitting(pane, answer, pane.page()));
+    let is_variant = |column: &&Column| !column.heading.is_empty() && column.rank != OF_CASE;
+    shown.map_or(1, |shown| shown.iter().filter(is_variant).count().max(1))
 }
 
-/// The value of the quantity and the value of the baseline, with the method of the baseline if it
-/// differs.
-pub(crate) fn compared(pane: &Results<'_>, quantity: &Quantity) -> Option<String> {
+/// The value of the quantity, and of every variant or of the baseline, with the method of the
+/// baseline if it differs.
+pub(crate) fn compared(pane: &Results<'_>, quantity: &'static Quantity) -> Option<String> {
     let answer = pane.answer?;
+    if let Some((variants, _)) = pane.variants {
+        let own = value(answer, answer.active, quantity);
+        let unit = report::common_unit(quantity, own.into_iter(), pane.units);
+        let case = own.map(|own| report::shown_with(quantity, own, unit).to_string());
+        let of_variant = |(name, found): &(String, Result<Solution, String>)| {
+            let [value, by] = variant_cell(found, quantity, (own, answer.active, unit));
+            if by.is_empty() { format!("{name} {value}") } else { format!("{name} {value} ({by})") }
+        };
+        let variants: Vec<String> = variants.columns.iter().map(of_variant).collect();
+        let case = case.unwrap_or_else(|| NONE.to_owned());
+        return Some(format!("Case {case}; {}.", variants.join("; ")));
+    }
     let (method, base) = base(pane, answer, quantity)?;
     let printed = |value: Option<f64>| match value {
         Some(value) => report::shown_in(quantity, value, pane.units).to_string(),
@@ -479,9 +496,10 @@ pub(crate) fn compared(pane: &Results<'_>, quantity: &Quantity) -> Option<String
     Some(format!("{own}; baseline{whose}: {}.", printed(base)))
 }
 
-/// The columns that fit, each after a blank.
-fn fitting(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
-    let mut columns = columns(pane, answer);
+/// The columns of the visible rows that fit, each after a blank.
+fn fitting(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
+    let visible = order(pane, answer).into_iter().skip(pane.state.top).take(rows);
+    let mut columns = columns(pane, answer, &visible.collect::<Vec<_>>());
     loop {
         let taken: usize = columns.iter().map(|column| column.width() + 1).sum();
         let over = taken.saturating_sub(pane.area.width.into());
@@ -507,8 +525,8 @@ fn fitting(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
     }
 }
 
-fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
-    let (theme, active, known) = (pane.look.theme, answer.active, order(pane, answer));
+fn columns(pane: &Results<'_>, answer: &Answer, known: &[&'static Quantity]) -> Vec<Column> {
+    let (theme, active) = (pane.look.theme, answer.active);
     // Results of `static` are among the rows of `dynamic`.
     let shows_others = pane.shows_every_method && pane.variants.is_none();
     let is_shown = |method: Method| {
@@ -541,7 +559,7 @@ fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
     for (at, &method) in methods.iter().enumerate() {
         let numbers = cells(&|at| number(at, value(answer, method, known[at])));
         let (rank, heading, styles) = match pane.variants {
-            Some(_) => (3, "case".to_owned(), [theme.active, theme.focus]),
+            Some(_) => (OF_CASE, "case".to_owned(), [theme.active, theme.focus]),
             None if method == active => {
                 (0, format!("▸{}", method.name()), [theme.active, theme.focus])
             }
@@ -561,11 +579,13 @@ fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
         let plain = [theme.other, Style::new()];
         for (at, (name, found)) in variants.columns.iter().skip(first).enumerate() {
             let pair = |at: usize| variant_cell(found, known[at], (own(at), active, units[at]));
-            let pairs: Vec<_> = (0..known.len()).map(pair).collect();
-            let right = pairs.iter().map(|pair| pair[1].width()).max().unwrap_or(0);
-            let pairs = pairs.iter().map(|[now, by]| format!("{now} {by:>right$}")).collect();
-            let rank = if at == 0 { 0 } else { 3 + at };
-            columns.push(Column::numbers(rank, text::cut(name, LONGEST_NAME), pairs, plain));
+            let (values, differences) =
+                (0..known.len()).map(pair).map(|[now, by]| (now, by)).unzip();
+            // The difference of the first variant gives way to its value and to the case.
+            let ranks = if at == 0 { [0, UNITS + 1] } else { [UNITS + 2 * at, UNITS + 2 * at + 1] };
+            let name = text::cut(name, LONGEST_NAME);
+            columns.push(Column::numbers(ranks[0], name, values, plain));
+            columns.push(Column::numbers(ranks[1], String::new(), differences, plain));
         }
     } else if pane.baseline.is_some() {
         let difference = |at: usize| match (own(at), base(pane, answer, known[at])) {

@@ -649,7 +649,8 @@ pub(super) fn next_variants(app: &mut App) {
     };
 }
 
-/// Solves the visible variants, unless they are solved already.
+/// Solves the visible variants, unless they are solved already; where the method is `auto`, by the
+/// method that `auto` chose for the case, so that the columns are comparable.
 pub(super) fn request_variants(app: &mut App) {
     let is_shown = app.layout.plan().shows(Pane::Results);
     app.first_variant = app.first_variant.filter(|first| *first < app.tab.case.variants.len());
@@ -659,10 +660,10 @@ pub(super) fn request_variants(app: &mut App) {
     // A request of another tab replaces this request.
     let runs = app.comparing == Some(serial) && app.is_busy(Slot::Variants);
     let is_wanted = is_shown && app.first_variant.is_some() && tab.problems.is_empty();
-    if !is_wanted || is_known || runs {
+    if !is_wanted || is_known || runs || !tab.is_settled {
         return;
     }
-    let case = tab.case.clone();
+    let (case, chosen) = (tab.case.clone(), tab.chosen);
     app.comparing = Some(serial);
     let solve = move |running: &Running<'_>| {
         let solved = |variant: &Variant| {
@@ -670,8 +671,10 @@ pub(super) fn request_variants(app: &mut App) {
                 Err(problems) => Err(problems.first().map(Problem::to_string).unwrap_or_default()),
                 Ok(inputs) => {
                     let stages = Pane::Results.needs();
+                    let chosen = chosen.filter(|_| inputs.method == Method::Auto);
+                    let method = chosen.unwrap_or(inputs.method);
                     let go_on = |_| running.is_wanted();
-                    match Evaluator::default().solve(&inputs, inputs.method, stages, &go_on) {
+                    match Evaluator::default().solve(&inputs, method, stages, &go_on) {
                         Err(Refusal::Stopped) => return None,
                         found => found.map_err(|refusal| format!("{refusal}: {}", refusal.fix())),
                     }
