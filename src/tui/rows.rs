@@ -66,11 +66,11 @@ pub fn text(case: &Case, at: usize) -> Option<&str> {
 
 /// Whether a row differs from the same row of another case.
 pub(crate) fn differs(case: &Case, other: &Case, at: usize) -> bool {
-    match row(case, at) {
-        Row::Field(field) => case.text(field) != other.text(field),
-        Row::Limit(limit) => !other.limits.contains(limit),
-        Row::Spread(spread) => !other.spread.contains(spread),
-    }
+    let same = match row(case, at).entry() {
+        None => Some(at),
+        Some(key) => of_entry(other, key),
+    };
+    text(case, at) != same.and_then(|at| text(other, at))
 }
 
 /// Writes a text into a row, valid or not.

@@ -148,9 +148,14 @@ impl Tab {
         document
     }
 
-    /// Whether the form differs from the file.
+    /// Whether the form differs from the file by more than empty limits and distributions.
     pub fn is_unsaved(&self) -> bool {
-        self.case != self.saved
+        let without_empty = |case: &Case| {
+            let mut case = case.clone();
+            case.drop_empty(None);
+            case
+        };
+        self.case != self.saved && without_empty(&self.case) != without_empty(&self.saved)
     }
 
     /// Whether the user neither named nor edited it, so that another case may replace it.

@@ -89,6 +89,7 @@ fn a_new_limit_starts_at_the_result_and_an_empty_one_is_removed() {
 fn a_distribution_of_a_field_is_a_row_that_the_tolerance_samples() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.go_to("deviations.base_pitch").keys(&["Alt-D"]).assert_shows("(no distribution)");
+    desk.assert(!desk.app.tab.is_unsaved() && !desk.shows("unsaved"));
     desk.keys(&["n", " ", "4"]).assert_shows("normal 4 um");
     desk.keys(&["Shift-Up"]);
     let texts = |desk: &Desk| {
