@@ -146,7 +146,9 @@ impl Chart {
 
     /// The quantities of the axes as a title.
     pub fn quantities(&self) -> String {
-        let [across, up] = [&self.across, &self.up].map(Axis::in_unit);
+        // The axis has the remark behind its unit.
+        let name = |axis: &Axis| axis.in_unit().split(';').next().unwrap_or_default().to_owned();
+        let [across, up] = [&self.across, &self.up].map(name);
         match &self.map {
             Some(map) => format!("{} over {across} and {up}", map.value.in_unit()),
             None => format!("{up} over {across}"),

@@ -413,7 +413,7 @@ pub fn speed_chart(curves: &[(&str, &SpeedCurve)]) -> Result<Chart, String> {
     Ok(Chart {
         title: "Dynamic factor of a tooth over speed".to_owned(),
         across: Axis::new("speed of the driver", "rpm; N = mesh/natural frequency"),
-        up: Axis::new("Dynamic factor: force / that at rest", ""),
+        up: Axis::new("Dynamic factor", ""),
         series,
         // Each of several cases has its own resonance and speed.
         marks: match curves {

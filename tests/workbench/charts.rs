@@ -97,7 +97,7 @@ fn charts_are_selected_by_key_and_by_name() {
         "Tooth compliance q of the driver in um",
         "Tooth compliance q of the driven gear in um",
         "Transmission error, amplitude in um",
-        "Dynamic factor: force / that at rest",
+        "Dynamic factor over speed of the driver in rpm",
     ] {
         desk.assert_shows(title);
         desk.keys(&["j"]);
@@ -142,6 +142,10 @@ fn the_charts_with_their_own_axes() {
     let mut desk = at_method(LARGE, "dynamic");
     desk.keys(&[":", "chart: spectrum", "Enter", "3", "j"]);
     assert_snapshot!("speed_140x45", chart(&desk).join("\n"));
+    // The curve begins above this speed.
+    desk.fill("operation.speed", "300 rpm").keys(&["Esc", "3", "l"]);
+    desk.assert_shows("300 rpm (present): K_tooth ");
+    desk.assert_shows("present");
     let mut small = at_method(SMALL, "dynamic");
     small.keys(&["k", "k"]);
     assert_snapshot!("spectrum_80x24", chart(&small).join("\n"));

@@ -103,8 +103,8 @@ impl OwnChart {
             OwnChart::Speed => [
                 "Dynamic factor over speed",
                 "Show the dynamic factor over speed, up and down, with the resonances.",
-                "N is the mesh frequency over the natural frequency. N = 1, 1/2 and 1/3 mark the \
-                    resonances.",
+                "The peak force of a tooth over that at rest. N is the mesh frequency over the \
+                    natural frequency; N = 1, 1/2 and 1/3 mark the resonances.",
             ],
             OwnChart::Pattern => [
                 "Contact pattern",
@@ -403,9 +403,29 @@ impl Charts<'_> {
         let values: Vec<String> = values.collect();
         let mark = chart.marks.iter().find(|mark| mark.0.total_cmp(&place).is_eq());
         let mark = mark.map_or_else(String::new, |(_, name)| format!(" ({name})"));
-        let values = if values.is_empty() { vec!["no value".to_owned()] } else { values };
+        let values = if values.is_empty() { vec![self.beside_curves(&chart)] } else { values };
         let across = value(place, &chart.across.unit);
         format!("{} {across}{mark}: {}.", chart.across.name, values.join(", "))
+    }
+
+    /// The values at a place without a curve: at the present speed, the dynamic factor of the results.
+    fn beside_curves(&self, chart: &Chart) -> String {
+        let factor = Quantity::find("tooth_force_factor");
+        let present = self.pane.own_axes() == Some(OwnChart::Speed)
+            && chart
+                .marks
+                .iter()
+                .any(|(x, name)| *name == "present" && Some(*x) == self.pane.place);
+        let found = factor.filter(|_| present).zip(self.solution());
+        let found =
+            found.and_then(|(factor, solution)| Some((factor, factor.finite_value(solution)?)));
+        match found {
+            Some((factor, value)) => {
+                let name = symbol(factor.symbol, self.look.ascii);
+                format!("{name} {}, outside the curves", shown_in(factor, value, self.units))
+            }
+            None => "no value, outside the curves".to_owned(),
+        }
     }
 
     /// The line load at the cursor, and the values of the tooth at its roll angle.

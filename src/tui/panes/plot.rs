@@ -17,6 +17,8 @@ use crate::tui::theme::Theme;
 pub(crate) const LABEL_COLUMNS: u16 = 9;
 /// Least distance of labels beside it, in rows.
 const LABEL_ROWS: u16 = 2;
+/// The signs of the horizontal axis.
+const AXIS: &str = "─┴";
 /// The smallest plot.
 const LEAST: (u16, u16) = (12, 2);
 /// Shades of a map from the least to the greatest value.
@@ -206,7 +208,7 @@ impl Plot {
         let Some(column) = self.column(x) else { return };
         let (width, y) = (name.width() as u16, self.cells.bottom());
         let start = column.saturating_sub(width / 2).clamp(self.cells.x, column);
-        let is_free = |x| buffer.cell((x, y)).is_some_and(|cell| "─┴".contains(cell.symbol()));
+        let is_free = |x| buffer.cell((x, y)).is_some_and(|cell| AXIS.contains(cell.symbol()));
         if (start..start + width).all(is_free) {
             buffer.set_string(start, y, name, style);
         }
@@ -219,7 +221,7 @@ impl Plot {
             let row = self.cells.bottom();
             let is_letter = |column: u16| {
                 let cell = buffer.cell((column, row));
-                cell.is_some_and(|cell| cell.symbol().chars().all(char::is_alphabetic))
+                cell.is_some_and(|cell| !AXIS.contains(cell.symbol()))
             };
             // A word on the axis stays legible.
             let is_in_word =
