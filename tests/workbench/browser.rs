@@ -147,8 +147,13 @@ fn paths_are_typed_or_pasted_and_the_home_folder_is_a_tilde() {
 fn an_entry_with_the_typed_name_is_selected_before_those_that_contain_it() {
     let mut desk = desk_before_a_shelf(SMALL);
     desk.write("a-case.toml", TABLE_1);
-    desk.keys(&["Ctrl-O", "case.toml"]);
-    assert_eq!(marked(&desk), "case.toml");
+    desk.write("case-relief.toml", TABLE_1);
+    for typed in ["case.toml", "case"] {
+        desk.keys(&["Ctrl-O", "Ctrl-U", typed]);
+        assert_eq!(marked(&desk), "case.toml");
+        desk.keys(&["Esc"]);
+    }
+    desk.keys(&["Ctrl-O"]);
     desk.keys(&["Ctrl-U", "DEEP"]);
     assert_eq!(marked(&desk), "sub/deep.toml", "cases below the folder are found");
     desk.write(".hidden.toml", TABLE_1);

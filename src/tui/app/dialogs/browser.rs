@@ -268,14 +268,15 @@ impl Browser {
         self.select_first();
     }
 
-    // Selects the entry with the typed name, otherwise one that begins with it, otherwise the first
-    // one that is not the parent folder.
+    // Selects the entry with the typed name, with or without its ending, otherwise one that begins
+    // with the name, otherwise the first one that is not the parent folder.
     fn select_first(&mut self) {
         let wanted = self.split().1.to_lowercase();
         let at = |is_it: &dyn Fn(&str) -> bool| {
             self.in_folder().position(|entry| !entry.folded.is_empty() && is_it(&entry.folded))
         };
-        let best = at(&|name| name == wanted).or_else(|| at(&|name| name.starts_with(&wanted)));
+        let is_it = |name: &str| name == wanted || name.strip_suffix(".toml") == Some(&wanted);
+        let best = at(&is_it).or_else(|| at(&|name| name.starts_with(&wanted)));
         let recents = self.before_recents();
         let is_recent = (self.prefers_recents || recents == 0) && recents < self.matches.len();
         self.selected = if is_recent { recents } else { best.unwrap_or(0) };
