@@ -16,6 +16,9 @@ pub(crate) const MOST_ZOOM: i32 = 12;
 const REACH: f64 = 0.5;
 /// Distance of both ends from a length of 0 in um, relative to the module.
 const REACH_OF_MODULE: f64 = 0.01;
+/// Distance of both ends from a centre distance or a diameter, relative to the module: beyond it
+/// most pairs have no contact or no room.
+const REACH_OF_CIRCLE: f64 = 0.25;
 /// Distance of both ends from a number of 0.
 const REACH_OF_NUMBER: f64 = 0.5;
 /// Distance of both ends from another value of 0, relative to the limits of the field.
@@ -85,7 +88,13 @@ impl RangeOf<'_> {
         let unit = self.unit(field);
         let factor = units::factor(&unit).unwrap_or(1.0);
         let value = value(self.case, field);
-        let usual = if value == 0.0 { around_zero(self.case, field) } else { REACH * value.abs() };
+        let is_circle =
+            ["centre_distance", "tip_diameter", "root_diameter"].contains(&FIELDS[field].name());
+        let usual = match module(self.case) {
+            Some(module) if is_circle => REACH_OF_CIRCLE * module,
+            _ if value == 0.0 => around_zero(self.case, field),
+            _ => REACH * value.abs(),
+        };
         let reach = usual * 2f64.powi(-self.zoom.clamp(-MOST_ZOOM, MOST_ZOOM));
         let (least, most) = field_range(field);
         let rounded = |si: f64| significant(si / factor, DIGITS).parse().unwrap_or(si / factor);
@@ -193,16 +202,16 @@ fn value(case: &Case, field: usize) -> f64 {
     number(case, field).or_else(derived).or_else(example).unwrap_or(0.0)
 }
 
+fn module(case: &Case) -> Option<f64> {
+    number(case, index_of("pair.module")?)
+}
+
 fn around_zero(case: &Case, field: usize) -> f64 {
     let (least, most) = field_range(field);
     let limits = REACH_OF_LIMITS * (most - least);
-    let module = FIELDS
-        .iter()
-        .position(|field| field.key == "pair.module")
-        .and_then(|module| number(case, module));
     match FIELDS[field].kind {
         Kind::Number(_, range, _) if range.unit == "um" => {
-            module.map_or(limits, |module| REACH_OF_MODULE * module)
+            module(case).map_or(limits, |module| REACH_OF_MODULE * module)
         }
         Kind::Number(_, range, _) if range.unit.is_empty() => REACH_OF_NUMBER,
         _ => limits,
@@ -347,6 +356,7 @@ mod tests {
             ("deviations.base_pitch", 0, "8 um", "24 um"),
             ("driven.tip_relief", 0, "0 um", "50 um"),
             ("driver.profile_shift", 0, "-0.5", "0.5"),
+            ("pair.centre_distance", 0, "98.75 mm", "101.25 mm"),
             ("driver.poisson", -3, "0", "0.499"),
             ("driver.teeth", 0, "10", "30"),
             ("driver.teeth", -9, "5", "70"),
