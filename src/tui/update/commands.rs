@@ -129,6 +129,12 @@ fn called(key: &str, place: Place) -> Option<(&'static Binding, isize)> {
     bound.find_map(|binding| Some((binding, binding.way(key)?)))
 }
 
+/// The name of the command of a letter in the form outside its fields.
+pub(super) fn at_letter(letter: char) -> Option<&'static str> {
+    let command = called(&letter.to_string(), Place::FIELD).filter(|_| letter.is_alphabetic());
+    Some(command?.0.name)
+}
+
 /// The rows of the command with a name.
 pub fn named(name: &str) -> impl Iterator<Item = &'static Binding> {
     BINDINGS.iter().filter(move |binding| is_listed(binding) && binding.name == name)

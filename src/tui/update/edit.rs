@@ -3,6 +3,7 @@
 
 use tui_input::InputRequest;
 
+use super::commands;
 use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::{Case, FIELDS, Field, Limit, changes};
 use crate::model::Quantity;
@@ -28,12 +29,16 @@ pub(super) fn insert(app: &mut App, letter: char) {
         return choose_by_letter(app, letter);
     }
     let before = rows::text(&app.tab.case, app.tab.form.focus).map(str::to_owned);
-    let is_announced = letter.is_ascii_digit() && app.starts_new_edit();
+    let row = rows::field(&app.tab.case, app.tab.form.focus);
+    let is_value =
+        row.is_some_and(|field| !matches!(field.kind, Kind::Text) && !field.takes_auto());
+    let outside = commands::at_letter(letter).filter(|_| is_value);
+    let is_announced = app.starts_new_edit() && (letter.is_ascii_digit() || outside.is_some());
     // Space completes the name of a distribution.
     let rest = Some(rest_of_shape(app)).filter(|_| letter == ' ').flatten();
     paste(app, &format!("{}{letter}", rest.unwrap_or_default()));
     if is_announced {
-        announce(app, letter, before.as_deref());
+        announce(app, letter, before.as_deref(), outside);
     }
 }
 
@@ -340,8 +345,9 @@ pub(super) fn set_values(app: &mut App, values: &[(&'static str, String)], words
     replace_saying(app, case, words);
 }
 
-// Reports the effect of a digit, because outside a field the same digit shows a pane.
-fn announce(app: &mut App, digit: char, before: Option<&str>) {
+// Reports the effect of a digit or letter, because outside a field the same key shows a pane or is
+// the command `outside`.
+fn announce(app: &mut App, digit: char, before: Option<&str>, outside: Option<&str>) {
     let earlier = app.message.take();
     let earlier = earlier.map_or_else(String::new, |message| message.text + ". ");
     let label = rows::full_label(&app.tab.case, app.tab.form.focus);
@@ -349,8 +355,10 @@ fn announce(app: &mut App, digit: char, before: Option<&str>) {
         text if before.is_some() => format!("{digit} replaces {text}. Ctrl-Z restores {text}"),
         _ => format!("{digit} starts a value. Ctrl-Z removes {digit}"),
     };
-    let pane = Pane::of_digit(digit).map(|pane| format!("; Esc {digit} shows {}", pane.name()));
-    app.say(format!("{earlier}{label}: {edit}{}", pane.unwrap_or_default()));
+    let pane = Pane::of_digit(digit).map(|pane| format!("shows {}", pane.name()));
+    let other = pane.or_else(|| outside.map(|name| format!("is {name}")));
+    let other = other.map(|other| format!("; Esc {digit} {other}"));
+    app.say(format!("{earlier}{label}: {edit}{}", other.unwrap_or_default()));
 }
 
 /// The choices of the focused row.
