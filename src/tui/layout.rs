@@ -172,7 +172,9 @@ impl Layout {
         if is_too_small(size) {
             return Plan::default();
         }
-        let rows = Layouts::vertical([Length(1), Fill(1), Length(2), Length(1)]);
+        // A field of the form alone shows its whole description.
+        let hint = if self.is_zoomed && self.focus == Pane::Form { 5 } else { 2 };
+        let rows = Layouts::vertical([Length(1), Fill(1), Length(hint), Length(1)]);
         let [header, body, hint, keys] = Rect::from(size).layout(&rows);
         let mut plan = Plan { header, hint, keys, ..Plan::default() };
         // The pane of the lower area beside the teeth, if these have an area of their own.
