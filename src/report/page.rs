@@ -166,7 +166,10 @@ impl<'a> Page<'a> {
             let place = if is_first { &mut charts } else { &mut further };
             place.extend(drawn(picture));
         }
-        Html { page: self, charts, further }.render()
+        let page = Html { page: self, charts, further }.render()?;
+        // The case files stay as written.
+        let files = page.find("<h2>Case ").unwrap_or(page.len());
+        Ok(with_micro(&page[..files]) + &page[files..])
     }
 
     /// Renders Markdown, without charts.
@@ -268,6 +271,22 @@ impl PageCase<'_> {
         }
         address
     }
+}
+
+/// The text with µ in the unit um, as in the charts.
+fn with_micro(text: &str) -> String {
+    let mut parts = text.split("um");
+    let mut found = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        // Behind a number or in a compound unit: um is a word in some languages.
+        let number = found.strip_suffix(' ').unwrap_or_default();
+        let is_behind = number.ends_with(|c: char| c.is_ascii_digit()) || number.ends_with("mm");
+        let is_unit = (is_behind || found.ends_with(['/', '(', '>']))
+            && !part.starts_with(char::is_alphanumeric);
+        found += if is_unit { "µm" } else { "um" };
+        found += part;
+    }
+    found
 }
 
 /// Columns of labels and symbols, then one of numbers for each header.

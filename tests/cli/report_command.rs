@@ -166,7 +166,7 @@ fn a_page_needs_no_other_file_and_has_every_part() {
             "<td class=\"label\">tip diameter</td><td class=\"symbol\">da1 / da2</td><td class=\"number soft\">110 mm</td>",
             "<td class=\"number\">2123</td><td class=\"unit\">N</td>",
             "impact_force 2191.0 N &#60;= 2500 N",
-            "the deflection of 24.70 um is given",
+            "the deflection of 24.70 µm is given",
             "Chin. J. Mech. Eng.",
             "base_pitch = &#34;16 um&#34;",
             "data:text/plain;charset=utf-8,",
@@ -201,7 +201,7 @@ fn a_case_with_variants_and_spread_has_a_table_of_each_on_its_pages() {
     let text = fs::read_to_string(TABLE_1).unwrap();
     fs::write(&case, text + studied).unwrap();
     let case = case.to_str().unwrap();
-    for ending in ["html", "md"] {
+    for (ending, micron) in [("html", "µm"), ("md", "um")] {
         let page = report(&[case], ending);
         has(
             &page,
@@ -210,7 +210,7 @@ fn a_case_with_variants_and_spread_has_a_table_of_each_on_its_pages() {
                 "Variants, with the differences from the case",
                 "relieved",
                 "Tolerance, 10000 samples, seed 1",
-                "deviations.base_pitch 16 um, normal 2 um",
+                &format!("deviations.base_pitch 16 {micron}, normal 2 {micron}"),
                 "Probability of corner contact",
                 "impact_force",
                 "P95",
@@ -229,10 +229,10 @@ fn a_case_with_variants_and_spread_has_a_table_of_each_on_its_pages() {
 fn a_page_has_the_texts_about_the_case_and_leaves_out_its_appendix_on_request() {
     let folder = tempfile::tempdir().unwrap();
     let case = folder.path().join("about.toml");
-    let about = "\n[about]\nproject = \"Mill <7>\"\ndate = 2026-11-26\n\"drawing no.\" = 4711\n";
+    let about = "\n[about]\nproject = \"Mill um <7>\"\ndate = 2026-11-26\n\"drawing no.\" = 4711\n";
     fs::write(&case, fs::read_to_string(TABLE_1).unwrap() + about).unwrap();
     let case = case.to_str().unwrap();
-    let line = "Project: Mill &#60;7&#62; · Date: 2026-11-26 · Drawing no.: 4711</p>";
+    let line = "Project: Mill um &#60;7&#62; · Date: 2026-11-26 · Drawing no.: 4711</p>";
     let page = report(&[case], "html");
     assert!(page.contains(line) && page.contains("<h2 class=\"appendix\">All results"), "{page}");
     let short = report(&[case, "--title", "Gear 7", "--no-appendix"], "html");
