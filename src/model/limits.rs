@@ -614,12 +614,13 @@ impl Refusal {
                 "below-form-circle",
                 of(gear.other(), "addendum"),
                 format!(
-                    "the flank ends above the contact: the contact is at the radius {} and the \
-                        form circle at {}",
+                    "the involute of the {} ends above the contact: the contact is at the \
+                        radius {} and the form circle at {}",
+                    if gear == GearSide::Driver { "driver" } else { "driven gear" },
                     mm(radius),
                     mm(form)
                 ),
-                "shorten this addendum, or give the other gear more profile shift",
+                "shorten this addendum, or change the profile shifts",
             ),
             Refusal::NoField { teeth, reason } => (
                 "no-field",

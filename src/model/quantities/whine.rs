@@ -161,10 +161,10 @@ pub(super) const TABLE: &[Quantity] = &[
             ("1", "1", 5),
             |s| Some(steady(s)?.mesh_force / s.mesh_force),
             "The greatest sum of the forces of all tooth pairs in the steady motion \
-            over the mesh force.",
+            over the mesh force, without deviations.",
             Found("max ΣF/F_0, ΣF over the base pitches after which the motion repeats", STEADY),
         )
-        .equation("max ΣF/F0"),
+        .equation("max ΣF/F0, ideal"),
     STEADY_MOTION
         .row(
             ["tooth_force_factor", "K_tooth", "tooth dynamic factor"],

@@ -99,7 +99,8 @@ fn covers(inputs: &Inputs) -> bool {
 
 fn check(context: &Context) -> Option<Finding> {
     let refusal = refusal(context.inputs);
-    let here = refusal.map_or("both gears have a field".to_owned(), |found| found.to_string());
+    let here =
+        refusal.map_or("both gears have finite elements".to_owned(), |found| found.to_string());
     Finding::new(format!("finite elements: {}", MODEL.range), here, refusal.is_none())
 }
 
