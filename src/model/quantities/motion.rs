@@ -99,7 +99,7 @@ pub(super) const TABLE: &[Quantity] = &[
             ("N", "N", 5),
             |s| Some(s.dynamic.as_ref()?.peak_force),
             "The peak force on the incoming tooth from its first contact to its last: \
-            the load on its root and its flank. Well below the resonances the greater of two \
+            the load on its root and its flank. Well below the resonances it is the greater of two \
             peaks: the one at the entry rises with the base pitch deviation; the one after the \
             pair ahead has left falls, because a tooth that comes earlier has already taken over \
             more of the load. A better class can therefore have a greater peak.",
