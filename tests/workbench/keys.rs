@@ -261,7 +261,8 @@ fn the_first_digit_is_announced_with_the_keys_that_restore_the_value() {
         desk.assert_shows(announced);
         desk.keys(&["Ctrl-Z"]);
         assert_eq!(desk.app.tab.case, before);
-        desk.keys(&["n"]).assert_shows("module: n replaces 5 mm. Ctrl-Z restores 5 mm; Esc n is notes");
+        desk.keys(&["n"])
+            .assert_shows("module: n replaces 5 mm. Ctrl-Z restores 5 mm; Esc n is notes");
         desk.keys(&["Ctrl-Z"]);
         assert_eq!(desk.app.tab.case, before);
         desk.keys(&["Esc", "2"]).assert_shows("▸ 2 Results");
