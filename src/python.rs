@@ -24,10 +24,10 @@ use crate::cli::{self, Arguments, Streams};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Refusal, Solution, Stages};
 use crate::report::charts::{NoPicture, Pattern, find, pictures};
-use crate::report::compare::{ComparedCase, Comparison};
+use crate::report::compare::ComparedCase;
 use crate::report::data::{self, stations, write_json};
 use crate::report::page::{format_of, render};
-use crate::report::solve::{Unsolved, compared};
+use crate::report::solve::{Unsolved, compared, comparison};
 use crate::report::studies::{SeekReport, StiffnessReport, table};
 use crate::report::table::{Cell as TableCell, Column as TableColumn, Named, Results, Table};
 use crate::report::tolerance::ToleranceReport;
@@ -634,7 +634,7 @@ fn compare(
         });
         solved.collect::<Vec<_>>()
     })?;
-    let comparison = Comparison { cases, selection };
+    let comparison = comparison(cases, selection);
     Ok((written(|out| comparison.write_json(out))?, written(|out| comparison.write(out))?))
 }
 

@@ -211,20 +211,6 @@ impl Comparison {
                 writeln!(out, "{line}")?;
             }
         }
-        let solutions: Vec<&Solution> =
-            self.cases.iter().filter_map(ComparedCase::solution).collect();
-        let most = solutions.iter().map(|one| one.method).max_by_key(|method| *method as u8);
-        let is_auto = solutions.iter().any(|one| one.choice.is_some());
-        if let Some(most) =
-            most.filter(|most| solutions.iter().any(|one| one.method != *most) && is_auto)
-        {
-            let most = most.name();
-            let hint =
-                format!("auto chose different methods; --method {most} compares like with like.");
-            for line in item("   ", &hint) {
-                writeln!(out, "{line}")?;
-            }
-        }
         let tables = self.tables();
         if tables.is_empty() {
             return Ok(());

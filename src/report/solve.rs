@@ -73,6 +73,23 @@ pub fn compared(name: String, case: Case, selection: &Selection) -> ComparedCase
     ComparedCase { name, file: String::new(), variant: None, case, found }
 }
 
+/// The comparison of solved cases. If `auto` chose several methods, its cases are solved by the most
+/// detailed one of all cases, so that their columns have the same quantities.
+pub fn comparison(mut cases: Vec<ComparedCase>, selection: Selection) -> Comparison {
+    let methods = cases.iter().filter_map(|case| Some(case.solution()?.method));
+    let most = methods.max_by_key(|method| *method as u8).unwrap_or(Method::Auto);
+    for case in &mut cases {
+        let Ok(report) = &case.found else { continue };
+        if report.solution.choice.is_none() || report.solution.method == most {
+            continue;
+        }
+        let inputs = Inputs { method: most, ..report.inputs.clone() };
+        let found = Report::solve(case.name.clone(), case.case.clone(), inputs, selection.clone());
+        case.found = found.map_err(|refusal| vec![Problem::from(&refusal).at_given(&case.case)]);
+    }
+    Comparison { cases, selection }
+}
+
 /// Solves a case as far as its digest needs it: verdict, notes and limits; without the relief of a
 /// motion, which takes long. Returns `None` if `go_on` returns false.
 pub fn digest(
@@ -285,7 +302,7 @@ impl Unsolved<'_> {
             }
             Ok(compared(name.to_owned(), case, &selection))
         });
-        Ok(Some(Comparison { cases: solved.collect::<Result<_, _>>()?, selection }))
+        Ok(Some(comparison(solved.collect::<Result<_, _>>()?, selection.clone())))
     }
 
     fn tolerance(&self, go_on: GoOn) -> Result<Option<(Tolerance, Samples)>, Refusal> {

@@ -18,11 +18,11 @@ use crate::cli::{
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stage, Stages};
 use crate::report::charts::{NoPicture, Picture, find, pictures};
-use crate::report::compare::{ComparedCase, Comparison};
+use crate::report::compare::ComparedCase;
 use crate::report::digest::{Digest, STAGES, sentence};
 use crate::report::explain::{explain, render, write_json};
 use crate::report::page::{ENDINGS, format_of, is_picture, render as render_report};
-use crate::report::solve::{self, compared};
+use crate::report::solve::{self, compared, comparison};
 use crate::report::verdict::{self, Standing, refused, stages, verdicts};
 use crate::report::{self, Selection, data, fields, page, studies, svg};
 use crate::study::shard::Format;
@@ -257,7 +257,7 @@ impl Compare {
         if cases.is_empty() {
             return Ok(worst);
         }
-        let comparison = Comparison { cases, selection };
+        let comparison = comparison(cases, selection);
         let out = streams.output.as_mut();
         match self.format {
             Format::Text => comparison.write(out)?,
