@@ -68,17 +68,17 @@ fn each_variant_equals_a_solve_with_its_overrides() {
     assert!(columns[2]["quantities"]["impact_force"]["percent"].as_f64().unwrap() < 0.0);
 }
 
-/// `auto` chooses `static` for the relieved variant alone.
+/// `auto` chooses `static` for the slow variant alone.
 #[test]
 fn the_columns_of_auto_have_one_method() {
-    let (_folder, case) = with("[variants.relieved]\n\"driven.tip_relief\" = \"80 um\"\n");
+    let (_folder, case) = with("[variants.slow]\noperation.speed = \"100 rpm\"\n");
     let only = ["--only", "dynamic_peak_force", "--method", "auto"];
     let compared = json(&[&["compare", &case, "--format", "json"], &only[..]].concat());
     for column in compared["columns"].as_array().unwrap() {
         assert_eq!(column["method"], "dynamic");
         assert!(column["quantities"]["dynamic_peak_force"]["value"].is_f64(), "{column}");
     }
-    let alone = ["solve", &case, "--variant", "relieved", "--method", "auto", "--format", "json"];
+    let alone = ["solve", &case, "--variant", "slow", "--method", "auto", "--format", "json"];
     assert_eq!(json(&alone)["method"], "static");
 }
 

@@ -242,16 +242,16 @@ fn variants_are_shown_beside_the_case_with_their_differences() {
 #[test]
 fn variants_are_compared_by_the_method_that_auto_chose_for_the_case() {
     let text = TABLE_1.replace("method = \"exact\"", "method = \"auto\"");
-    let text = format!("{text}\n[variants.relieved]\n\"driven.tip_relief\" = \"80 um\"\n");
+    let text = format!("{text}\n[variants.slow]\n\"operation.speed\" = \"100 rpm\"\n");
     let mut desk = Desk::on(SMALL, "case.toml", &text);
     desk.keys(&["Esc", "2", "v"]);
     desk.assert_shows("Results 1-12/");
     desk.assert_shows("by dynamic");
-    desk.assert(desk.line_with("relieved").contains("case"));
+    desk.assert(desk.line_with(" slow").contains("case"));
     desk.assert(!desk.line_with("F_d,max").contains('–'));
     desk.assert_shows("Case ");
     desk.keys(&["n"]);
-    desk.assert_shows("Variant relieved: driven tip relief: 0 um -> 80 um.");
+    desk.assert_shows("Variant slow: speed: 2000 rpm -> 100 rpm.");
 }
 
 #[test]
