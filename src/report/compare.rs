@@ -48,7 +48,7 @@ pub struct Comparison {
 }
 
 impl ComparedCase {
-    fn solution(&self) -> Option<&Solution> {
+    pub(super) fn solution(&self) -> Option<&Solution> {
         Some(&self.found.as_ref().ok()?.solution)
     }
 
