@@ -1,6 +1,6 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
-from typing import Any, Optional, TypedDict, Union, final
+from typing import Any, Optional, TypedDict, Union, final, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -105,10 +105,18 @@ def read(path: Union[str, PathLike[str]]) -> Case: ...
 def case(data: Union[Mapping[str, Any], str], name: str = "case") -> Case: ...
 def examples() -> list[str]: ...
 def example(name: str) -> Case: ...
+# A type checker holds the values of `**{"pair.module": 5e-3}` against every named parameter: the first
+# form has none.
+@overload
+def solve(case: _Source, method: Optional[str] = None, /, **changes: _Value) -> Result: ...
+@overload
 def solve(
     case: _Source, method: Optional[str] = None, *, only: _Only = None, stations: Union[int, str, None] = None,
     variant: Optional[str] = None, **changes: _Value,
 ) -> Result: ...
+@overload
+def sweep(case: _Source, vary: Mapping[str, _Axis], /, **changes: _Value) -> Columns: ...
+@overload
 def sweep(
     case: _Source, vary: Mapping[str, _Axis], *, only: _Only = None, points: Union[int, Sequence[int], None] = None,
     log: bool = False, method: Optional[str] = None, variant: Optional[str] = None, jobs: Optional[int] = None,
