@@ -257,6 +257,11 @@ def test_the_command_of_the_wheel_is_the_program():
     assert done.returncode == 5 and "none.toml" in done.stderr
 
 
+def test_the_command_starts_without_numpy():
+    words = [sys.executable, "-X", "importtime", "-m", "tipstrike", "--version"]
+    assert "numpy" not in subprocess.run(words, capture_output=True, text=True, check=True).stderr
+
+
 @pytest.mark.parametrize("before, sentence", [
     ("import sys; sys.modules['numpy'] = None", "tipstrike needs NumPy: pip install 'numpy"),
     ("import numpy; numpy.__version__ = '1.17.0'", "NumPy 1.21 or newer, this is 1.17.0: pip install -U numpy"),
@@ -265,5 +270,6 @@ def test_the_command_of_the_wheel_is_the_program():
      " m.EXTENSION_SUFFIXES.clear()", "loads no shared library, and so no wheel: use one with dynamic loading"),
 ])
 def test_a_failed_import_names_the_cause_and_the_fix(before, sentence):
-    done = subprocess.run([sys.executable, "-c", f"{before}\nimport tipstrike"], capture_output=True, text=True)
+    first = "import tipstrike\ntipstrike.sweep(tipstrike.example('zhou-chen-2014'), {'pair.module': [5e-3]})"
+    done = subprocess.run([sys.executable, "-c", f"{before}\n{first}"], capture_output=True, text=True)
     assert done.returncode == 1 and "ImportError" in done.stderr and sentence in done.stderr

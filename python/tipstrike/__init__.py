@@ -34,13 +34,25 @@ import sys as _sys
 from collections.abc import Mapping as _Mapping
 from importlib import machinery as _machinery
 
-try:
-    import numpy as _np
-except ImportError as error:
-    raise ImportError("tipstrike needs NumPy: pip install 'numpy>=1.21'") from error
 
-if tuple(int(part) for part in _np.__version__.split(".")[:2]) < (1, 21):
-    raise ImportError(f"tipstrike needs NumPy 1.21 or newer, this is {_np.__version__}: pip install -U numpy")
+class _NumPy:
+    """NumPy, imported at its first use: the command `tipstrike` does without."""
+
+    def __getattr__(self, name):
+        global _np
+        try:
+            import numpy
+        except ImportError as error:
+            raise ImportError("tipstrike needs NumPy: pip install 'numpy>=1.21'") from error
+        if tuple(int(part) for part in numpy.__version__.split(".")[:2]) < (1, 21):
+            raise ImportError(
+                f"tipstrike needs NumPy 1.21 or newer, this is {numpy.__version__}: pip install -U numpy"
+            )
+        _np = numpy
+        return getattr(numpy, name)
+
+
+_np = _NumPy()
 
 
 class CaseError(ValueError):
