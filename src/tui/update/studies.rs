@@ -660,7 +660,8 @@ pub(super) fn request_variants(app: &mut App) {
     // A request of another tab replaces this request.
     let runs = app.comparing == Some(serial) && app.is_busy(Slot::Variants);
     let is_wanted = is_shown && app.first_variant.is_some() && tab.problems.is_empty();
-    if !is_wanted || is_known || runs || !tab.is_settled {
+    let waits = tab.inputs_so_far.method == Method::Auto && !tab.is_settled;
+    if !is_wanted || is_known || runs || waits {
         return;
     }
     let (case, chosen) = (tab.case.clone(), tab.chosen);
