@@ -95,7 +95,8 @@ pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> St
         Method::Dynamic => printed("dynamic_peak_force", solution, system),
         Method::Paper | Method::Exact | Method::Auto => None,
     };
-    let ratio = times(solution, "dynamic_peak_force", "static_peak_force");
+    let ratio = times(solution, "dynamic_peak_force", "static_peak_force")
+        .filter(|_| solution.method == Method::Dynamic);
     let ratio = ratio.map(|ratio| ratio + "the force at rest)").unwrap_or_default();
     let most = most.map(|most| format!("{most} on a tooth{ratio}"));
     if solution.outcome == Outcome::NoCornerContact {
@@ -303,6 +304,13 @@ mod tests {
             "Corner contact 1.279 deg before E: up to 1410.8 N on the tip (0.93 times the mesh \
                 force), 2003.0 N on a tooth"
         ));
+        // A limit on the motion computes it beside the load at rest, which governs.
+        let mut limited = Case::table_1();
+        limited.set("model.method", "static").unwrap();
+        limited.set_limit("dynamic_peak_force", "3000 N").unwrap();
+        let inputs = limited.inputs().unwrap();
+        let found = solve::digest(&limited, &inputs, System::Metric, &|_| true).unwrap();
+        assert!(found.outcome.contains(", 1524.3 N on a tooth; "), "{}", found.outcome);
         let relieved = [("driven.tip_relief", "80 um"), ("model.method", "exact")];
         assert!(
             verdict(&relieved).starts_with("No corner contact: the tip clears the flank before E")

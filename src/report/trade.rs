@@ -217,9 +217,11 @@ pub fn compliance_table(
 
 /// Time and differences of each number of slices, coupled and independent.
 fn by_slices(trade: &Trade) -> Vec<String> {
-    const SUBJECTS: [(Subject, &str); 3] = [
+    const SUBJECTS: [(Subject, &str); 5] = [
         (Subject::FirstContact, "first contact"),
-        (Subject::LineLoad, "peak line load"),
+        (Subject::PeakForce, "peak force"),
+        (Subject::Curve, "curve"),
+        (Subject::LineLoad, "line load"),
         (Subject::TransmissionError, "TE"),
     ];
     let title = "Time of a solve and difference from the reference in %, by number of slices and \
