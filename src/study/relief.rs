@@ -284,7 +284,7 @@ pub fn specify(
         grid: &grid,
         bench: bench.as_ref(),
         go_on,
-        part: Cell::new(SEARCH),
+        part: Cell::new(if is_over_face { 0.0 } else { SEARCH }),
     };
     let (found, tries) = match &bench {
         None => face::search(&pair)?,
@@ -295,6 +295,7 @@ pub fn specify(
             (search.best_of_each_kind(peak)?, search.tries())
         }
     };
+    pair.part.set(SEARCH);
     let usual = solution.geometry.shared_length();
     let gears = [&at_rest.driver, &at_rest.driven];
     let present = TipReliefs {

@@ -1,5 +1,7 @@
 //! The dialog that searches for the tip relief to specify.
 
+use std::cell::Cell;
+
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Position};
 use ratatui::text::{Line as Words, Span};
@@ -28,6 +30,8 @@ pub struct ReliefDialog {
     inputs: Inputs,
     /// The demand of the last search.
     searched: Option<Demand>,
+    /// The progress of the search.
+    percent: u8,
     answer: Option<Result<Box<Specification>, String>>,
     /// The selected relief.
     selected: usize,
@@ -49,6 +53,7 @@ impl ReliefDialog {
             input: Line::whole(Demand::default().text()),
             inputs,
             searched: None,
+            percent: 0,
             answer: None,
             selected: 0,
             problem: None,
@@ -67,9 +72,22 @@ impl ReliefDialog {
             }
         };
         (self.searched, self.answer, self.problem) = (Some(demand.clone()), None, None);
+        self.percent = 0;
         let inputs = self.inputs.clone();
         let search = move |running: &Running<'_>| {
-            let found = match specify(&inputs, &demand, &|_| running.is_wanted()) {
+            let shown = Cell::new(0);
+            let go_on = |part: f64| {
+                let percent = ((100.0 * part) as u8).max(shown.get());
+                if shown.replace(percent) != percent {
+                    running.send(move |app| {
+                        if let Some(Prompt::Relief(dialog)) = app.prompts.last_mut() {
+                            dialog.percent = percent;
+                        }
+                    });
+                }
+                running.is_wanted()
+            };
+            let found = match specify(&inputs, &demand, &go_on) {
                 Ok(found) => Ok(Box::new(found)),
                 Err(NoRelief::Refused(Refusal::Stopped)) => return None,
                 Err(none) => Err(none.to_string()),
@@ -96,15 +114,16 @@ impl ReliefDialog {
         self.searched.is_some() && Demand::parse(self.input.value()).ok() == self.searched
     }
 
-    fn state(&self) -> &str {
-        match &self.answer {
-            None => "Searching. Esc ends the search.",
+    fn state(&self) -> String {
+        let state = match &self.answer {
+            None => return format!("Searching: {} %. Esc ends the search.", self.percent),
             Some(_) if !self.is_searched() => "Results of the earlier input. Enter searches again.",
             Some(Ok(_)) => {
                 "Up, Down select; Enter writes the relief into the case; PageDown scrolls."
             }
             Some(Err(_)) => "No relief is found.",
-        }
+        };
+        state.to_owned()
     }
 
     fn found(&self) -> Option<&Specification> {
@@ -189,7 +208,8 @@ impl Dialog for ReliefDialog {
         }
         let style = if is_stale { theme.problem } else { theme.note };
         let problem = self.problem.as_ref().map(|problem| format!("! {problem}"));
-        let words = text::cut(problem.as_deref().unwrap_or(self.state()), inner.width.into());
+        let words = problem.unwrap_or_else(|| self.state());
+        let words = text::cut(&words, inner.width.into());
         Span::styled(words, style).render(state, buffer);
         let [label, line] =
             Layout::horizontal([Constraint::Length(LABEL.width() as u16), Constraint::Fill(1)])
