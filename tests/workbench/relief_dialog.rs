@@ -1,5 +1,7 @@
 //! The search for the tip relief to specify, in the workbench.
-use crate::harness::{Desk, LARGE, SMALL, TABLE_1};
+use crate::harness::{Desk, LARGE, SMALL, TABLE_1, requested, results};
+
+use tipstrike::tui::testing::Slot;
 
 #[test]
 fn the_relief_to_specify_is_written_into_the_case_as_one_edit() {
@@ -28,6 +30,20 @@ fn a_typed_demand_starts_a_search_and_an_invalid_one_gets_a_reason() {
     desk.keys(&["Enter"]).has(&["for 50 to 100 %", "tolerances 2 um"]);
     desk.keys(&["PageDown", "Down", "Esc"]);
     assert!(!desk.app.tab.is_unsaved() && desk.app.prompts.is_empty());
+}
+
+#[test]
+fn a_search_shows_its_progress() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.keys(&["Esc", ":", "relief"]);
+    let (number, work) = requested(desk.effects("Enter"), Slot::Relief).expect("a search");
+    desk.assert_shows("Searching: 0 %. Esc ends the search.");
+    let mut sent = results(number, work);
+    // Without the relief and the end of the work.
+    sent.truncate(sent.len() - 2);
+    desk.take(sent);
+    desk.assert_shows("Searching: ");
+    desk.lacks(&["Searching: 0 %"]);
 }
 
 #[test]
