@@ -1,11 +1,8 @@
 //! The study commands: their tables, errors and files.
 
 use std::fs;
-use std::os::unix::process::ExitStatusExt;
-use std::process::Command;
-use std::time::Duration;
 
-use crate::program::{has, json, page, program, ran};
+use crate::program::{has, json, page, ran};
 use serde_json::Value;
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
@@ -204,28 +201,6 @@ fn a_file_has_the_same_bytes_as_standard_output_for_any_number_of_jobs() {
     let missing = folder.path().join("missing/rows.csv");
     let (code, _, errors) = ran(&format!("{command} --out {}", missing.display()));
     assert!(code == 5 && errors.contains("create the folder"), "{errors}");
-}
-
-#[test]
-fn ctrl_c_ends_a_study_and_leaves_no_file() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("rows.csv");
-    let mut child = program(&["sweep", TABLE_1, "--method", "dynamic", "--points", "1000000"])
-        .args(["--vary", "operation.speed=500..9000 rpm", "--out"])
-        .arg(&path)
-        .spawn()
-        .unwrap();
-    // The temporary file shows that the study is running.
-    while fs::read_dir(folder.path()).unwrap().next().is_none() {
-        std::thread::sleep(Duration::from_millis(5));
-        assert!(child.try_wait().unwrap().is_none());
-    }
-    std::thread::sleep(Duration::from_millis(100));
-    let id = child.id().to_string();
-    let sent = Command::new("kill").args(["-INT", &id]).status().unwrap();
-    assert!(sent.success());
-    assert_eq!(child.wait().unwrap().signal(), Some(2));
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
 #[test]

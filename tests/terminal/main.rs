@@ -15,7 +15,6 @@ mod harness;
 mod tty;
 
 mod busy;
-mod editors;
 mod faults;
 mod files;
 mod first_frame;
