@@ -1,7 +1,7 @@
 //! Tests of a case without a file.
 #![expect(clippy::float_cmp, reason = "a value is read to the last bit")]
 
-use super::fields::{FIELDS, index_of};
+use super::fields::index_of;
 use super::{Case, Document, Problem};
 use crate::model::Quantity;
 use crate::model::inputs::Drive;

@@ -1,6 +1,6 @@
 //! The built program as scripts use it: input, output and exit codes.
 
-use crate::program::{has, in_a_line, json, page, prints, program, ran, run, texts};
+use crate::program::{has, json, page, prints, program, ran, run, texts};
 use serde_json::Value;
 use std::fs;
 use std::io::Write;

@@ -3,7 +3,7 @@
 use tipstrike::case::spread::Shape;
 use tipstrike::case::{Case, Spread};
 use tipstrike::model::inputs::Method;
-use tipstrike::model::{Inputs, Outcome, QUANTITIES, Quantity, Stage, Stages, solve};
+use tipstrike::model::{Inputs, QUANTITIES, Quantity, Stage, Stages, solve};
 use tipstrike::study::axis::{AxisRange, Grid, Sampling};
 use tipstrike::study::batch::{Batch, Control, PointOutcome, Points, Row, Stopped, solve_all};
 use tipstrike::study::seek::{Condition, Found, State, seek};

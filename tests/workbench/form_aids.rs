@@ -1,8 +1,6 @@
 //! Aids of the form: steps, conversions, materials, limits, inch units, fields without effect.
 use crate::harness::{Desk, LARGE, SMALL, TABLE_1};
 
-use tipstrike::case::fields::index_of;
-
 fn line(desk: &Desk, text: &str) -> String {
     let screen = desk.screen();
     screen
