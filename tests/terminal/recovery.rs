@@ -210,8 +210,7 @@ fn journals_of_other_cases_are_reported_once_and_deleted_in_one_place() {
     let mut tty = opened();
     tty.type_in("\x151.25 in");
     wait_for_journal(&mut tty, "1.25 in");
-    tty.send_signal("KILL");
-    tty.wait_for_end();
+    tty.end_by("KILL");
     let other = tty.folder.path().join("other.toml");
     fs::write(&other, TABLE_1).expect("room on the disk");
     let mut next = Launch::of(Arc::clone(&tty.folder)).argument(&other).start();
@@ -243,8 +242,7 @@ fn journals_keep_away_from_a_folder_that_others_may_write() {
     let mut tty = launch.variable("XDG_RUNTIME_DIR", run).shown("others may write in");
     tty.wait_for("Until then the journals are in");
     tty.type_for("\x156 mm", "6 mm");
-    tty.send_signal("TERM");
-    tty.wait_for_end();
+    tty.end_by("TERM");
     let is_empty = |place: &Path| fs::read_dir(place).is_ok_and(|mut files| files.next().is_none());
     assert!(is_empty(&elsewhere));
     assert!(!state.join("last-case").exists());
@@ -286,8 +284,7 @@ fn kill_9_after_two_seconds_loses_nothing() {
     while Instant::now() < end {
         tty.take_output(rest / 20);
     }
-    tty.send_signal("KILL");
-    tty.wait_for_end();
+    tty.end_by("KILL");
     let mut next = again(&tty);
     next.wait_for(OFFER);
     next.assert(next.shows("module: 5 mm -> 1.25 in"));
@@ -310,8 +307,7 @@ fn kill_9_after_two_seconds_loses_nothing() {
 fn text_typed_just_before_a_signal_is_offered_and_discarded_on_request() {
     let mut tty = opened();
     tty.type_for("\x15 1.25 in", "1.25 in");
-    tty.send_signal("HUP");
-    tty.wait_for_end();
+    tty.end_by("HUP");
     tty.assert(tty.shows("unsaved edits are kept"));
     let mut next = again(&tty);
     next.wait_for(OFFER);
@@ -419,8 +415,7 @@ fn edits_of_the_built_in_case_are_journaled() {
     let mut tty = Launch::of(Arc::clone(&folder)).shown("built-in");
     tty.wait_for("quit");
     tty.type_for("\x151.25 in", "1.25 in");
-    tty.send_signal("TERM");
-    tty.wait_for_end();
+    tty.end_by("TERM");
     // On another case, they are only reported.
     let other = folder.path().join("other.toml");
     fs::write(&other, TABLE_1).expect("room on the disk");
@@ -446,8 +441,7 @@ fn edits_of_the_built_in_case_are_journaled() {
 fn an_offer_for_a_changed_file_shows_the_present_differences() {
     let mut tty = opened();
     tty.type_for("\x156 mm", "6 mm");
-    tty.send_signal("TERM");
-    tty.wait_for_end();
+    tty.end_by("TERM");
     fs::write(tty.case(), TABLE_1.replace("\"5 mm\"", "\"7 mm\"")).expect("room on the disk");
     let case = tty.case();
     let next = Launch::of(Arc::clone(&tty.folder)).argument(case);
@@ -470,8 +464,7 @@ fn an_offer_for_a_changed_file_shows_the_present_differences() {
 fn a_damaged_journal_is_set_aside_reported_and_never_trusted_nor_deleted() {
     let mut tty = opened();
     tty.type_for("\x156 mm", "6 mm");
-    tty.send_signal("TERM");
-    tty.wait_for_end();
+    tty.end_by("TERM");
     let path = journals(tty.folder.path()).pop().expect("a journal");
     let whole = fs::read_to_string(&path).expect("it is there");
     let half = whole.as_bytes()[..whole.len() / 2].to_vec();
@@ -538,8 +531,7 @@ fn when_the_first_session_has_ended_the_second_may_save() {
     symlink("case.toml", &link).expect("a link");
     // Under any name.
     let mut second = Launch::of(Arc::clone(&first.folder)).argument(&link).shown("*read-only*");
-    first.send_signal("KILL");
-    first.wait_for_end();
+    first.end_by("KILL");
     second.type_for("\x156 mm\x13", "saved ");
     second.wait_until("the mark to go", |tty| !tty.shows("*read-only*"));
     second.quit();

@@ -313,6 +313,12 @@ impl Tty {
         assert!(status.success());
     }
 
+    /// Sends a signal and waits for the end.
+    pub(crate) fn end_by(&mut self, signal: &str) -> ExitStatus {
+        self.send_signal(signal);
+        self.wait_for_end()
+    }
+
     /// Continues the program if it has suspended itself.
     pub(crate) fn wake(&self) {
         if self.state() == Some('T') {

@@ -12,7 +12,7 @@ use std::process::Command;
 use insta::assert_snapshot;
 use tipstrike::tui::testing::ascii::is_safe;
 use tipstrike::tui::testing::store::case_search;
-use tipstrike::tui::testing::{Action, Effect, Slot, of_key, update};
+use tipstrike::tui::testing::{Action, Effect, Slot, update};
 
 /// Five cases and a folder; the second case is open.
 fn shelf(desk: &mut Desk) {
@@ -249,9 +249,7 @@ fn a_folder_of_ten_thousand_is_read_once_and_a_key_requests_at_most_one_preview(
     let mut asked = Vec::new();
     let keys = ["PageDown", "Down", "Down", "9", "9", "9", "Backspace", "Up"];
     for key in keys {
-        let event = harness::event(key);
-        let action = of_key(event, desk.app.place()).expect("a key of the browser");
-        asked.extend(update(&mut desk.app, action));
+        asked.extend(desk.effects(key));
         desk.screen();
     }
     let count = |slot| {
@@ -269,19 +267,15 @@ fn a_folder_of_ten_thousand_is_read_once_and_a_key_requests_at_most_one_preview(
 #[test]
 fn keys_work_during_the_reading_of_a_folder_and_a_late_result_is_dropped() {
     let mut desk = desk_before_a_shelf(SMALL);
-    let press = |desk: &mut Desk, key: &str| {
-        let action = of_key(harness::event(key), desk.app.place()).expect("a key");
-        update(&mut desk.app, action)
-    };
-    let (number, work) = requested(press(&mut desk, "Ctrl-O"), Slot::Folder).expect("a listing");
+    let (number, work) = requested(desk.effects("Ctrl-O"), Slot::Folder).expect("a listing");
     let late = results(number, work);
     desk.assert_shows("reading ...");
     for letter in ["s", "u", "b", "/"] {
-        press(&mut desk, letter);
+        desk.effects(letter);
     }
     desk.take(late);
     assert!(desk.shows("reading ...") && !desk.shows("a-strikes.toml"), "that was another folder");
-    press(&mut desk, "Esc");
+    desk.effects("Esc");
     assert!(desk.app.prompts.is_empty());
 }
 

@@ -1,5 +1,5 @@
 //! The charts: snapshots, keys, properties over random cases, and bytes written per key.
-use crate::harness::{self, Desk, LARGE, SMALL, TABLE_1, requested, results};
+use crate::harness::{Desk, LARGE, SMALL, TABLE_1, requested, results};
 
 use insta::assert_snapshot;
 use proptest::prelude::*;
@@ -15,7 +15,7 @@ use tipstrike::report::stations::{GRAPHS, Graph};
 use tipstrike::tui::testing::chart::curves;
 use tipstrike::tui::testing::teeth::readings;
 use tipstrike::tui::testing::{
-    Action, Answer, ChartRequest, CurveSource, Look, MONO, Pane, Slot, chart, of_key, update,
+    Action, Answer, ChartRequest, CurveSource, Look, MONO, Pane, Slot, chart,
 };
 
 const HUGE: Size = Size { width: 240, height: 70 };
@@ -698,9 +698,7 @@ fn the_tooth_compliance_has_a_curve_for_every_model_over_the_flank() {
 fn the_mesh_stiffness_appears_as_soon_as_it_is_computed() {
     let mut desk = at_method(SMALL, "exact");
     desk.keys(&["1", ":", "chart: mesh stiffness"]);
-    let accept = of_key(harness::event("Enter"), desk.app.place()).expect("an action");
-    let effects = update(&mut desk.app, accept);
-    assert!(harness::requested(effects, Slot::Solve).is_some(), "a request");
+    assert!(requested(desk.effects("Enter"), Slot::Solve).is_some(), "a request");
     let answer = desk.whole_answer();
     let without = Answer { stiffness: None, ..answer.clone() };
     desk.show(without);

@@ -1,10 +1,10 @@
 //! Reports and pictures written from the workbench.
 
-use crate::harness::{self, Desk, LARGE, SMALL, TABLE_1};
+use crate::harness::{Desk, LARGE, SMALL, TABLE_1};
 
 use std::fs;
 
-use tipstrike::tui::testing::{Effect, Slot, of_key, update};
+use tipstrike::tui::testing::{Effect, Slot};
 
 /// A workbench on `pair.toml` with an unsaved edit.
 fn edited() -> Desk {
@@ -96,8 +96,7 @@ fn one_export_runs_at_a_time_and_quitting_asks_about_it() {
     let mut desk = edited();
     desk.keys(&["Alt-X"]);
     // The export is requested and not carried out.
-    let accept = of_key(harness::event("Enter"), desk.app.place()).expect("an action");
-    let effects = update(&mut desk.app, accept);
+    let effects = desk.effects("Enter");
     assert!(matches!(effects.first(), Some(Effect::Work(_, work)) if work.slot == Slot::Export));
     desk.keys(&["Enter"]).assert_shows("still runs: wait for its end");
     desk.keys(&["Esc", "Esc", "Ctrl-S", "Ctrl-Q"]);
