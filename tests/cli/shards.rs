@@ -1,83 +1,64 @@
 //! Shards of a study: together they give the whole study, and other files are refused.
 
-use crate::program::{has, run};
+use crate::program::{has, ran, words};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-const TABLE_1: &str = "cases/zhou-chen-2014.toml";
-
 /// A sweep with corner contact, without it, and with refused points.
-const SWEEP: [&str; 8] = [
-    "sweep",
-    TABLE_1,
-    "--vary",
-    "driven.tip_relief=0..80 um",
-    "--vary",
-    "driver.bore_radius=30,40,50 mm",
-    "--points",
-    "7",
-];
+const SWEEP: &str = "sweep TABLE_1 --vary 'driven.tip_relief=0..80 um' \
+    --vary 'driver.bore_radius=30,40,50 mm' --points 7";
 
 /// Writes the shards of a study into a folder, the last one first.
-fn shards(folder: &Path, study: &[&str], of: usize) -> Vec<PathBuf> {
+fn shards(folder: &Path, study: &str, of: usize) -> Vec<PathBuf> {
     let write = |number: usize| {
         let path = folder.join(format!("{of}-{number}.shard"));
-        let shard = format!("{number}/{of}");
-        let options = ["--shard", &shard, "--out", path.to_str().unwrap()];
-        assert_eq!(run(&[study, &options].concat()).0, 0);
+        assert_eq!(ran(&format!("{study} --shard {number}/{of} --out {}", path.display())).0, 0);
         path
     };
     (1..=of).rev().map(write).collect()
 }
 
 fn gather(files: &[PathBuf]) -> (i32, String, String) {
-    let names = files.iter().map(|file| file.to_str().unwrap());
-    run(&std::iter::once("gather").chain(names).collect::<Vec<_>>())
+    let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+    ran(&format!("gather {}", names.join(" ")))
+}
+
+/// Table 1 with a distribution of two fields.
+fn spread(folder: &Path) -> String {
+    let case = folder.join("spread.toml");
+    let spread = "[spread]\n\"driven.tip_relief\" = { uniform = \"12 um\" }\n\
+                  \"deviations.base_pitch\" = { normal = \"2 um\" }\n";
+    let text = fs::read_to_string("cases/zhou-chen-2014.toml").unwrap();
+    fs::write(&case, format!("{text}\n{spread}")).unwrap();
+    format!("tolerance {} --set 'driven.tip_relief=40 um'", case.display())
 }
 
 #[test]
 fn gathered_shards_are_the_bytes_of_the_whole() {
     let folder = tempfile::tempdir().unwrap();
-    let case = folder.path().join("spread.toml");
-    let spread = "[spread]\n\"driven.tip_relief\" = { uniform = \"12 um\" }\n\
-                  \"deviations.base_pitch\" = { normal = \"2 um\" }\n";
-    fs::write(&case, format!("{}\n{spread}", fs::read_to_string(TABLE_1).unwrap())).unwrap();
-    let tolerance = [
-        "tolerance",
-        case.to_str().unwrap(),
-        "--samples",
-        "200",
-        "--set",
-        "driven.tip_relief=40 um",
-        "--seed",
-        "3",
-    ];
-    let as_json = [&SWEEP[..], &["--format", "json"]].concat();
-    let as_csv = [&tolerance[..], &["--format", "csv", "--ranking", "20"]].concat();
-    for study in [&SWEEP[..], &as_json, &tolerance[..], &as_csv] {
-        let whole = run(study);
+    let tolerance = format!("{} --samples 200 --seed 3", spread(folder.path()));
+    let as_csv = format!("{tolerance} --format csv --ranking 20");
+    for study in [SWEEP, &format!("{SWEEP} --format json"), &tolerance, &as_csv] {
+        let whole = ran(study);
         for of in [1, 3, 40] {
-            let files = shards(folder.path(), study, of);
-            assert_eq!(gather(&files), whole, "{study:?} in {of}");
+            assert_eq!(gather(&shards(folder.path(), study, of)), whole, "{study} in {of}");
         }
     }
-    let files = shards(folder.path(), &SWEEP, 2);
+    let files = shards(folder.path(), SWEEP, 2);
     let out = folder.path().join("whole.csv");
-    let names: Vec<&str> = files.iter().map(|file| file.to_str().unwrap()).collect();
-    let arguments = [&["gather", "--out", out.to_str().unwrap()], &names[..]].concat();
-    assert_eq!(run(&arguments).0, 0);
-    assert_eq!(fs::read_to_string(out).unwrap(), run(&SWEEP).1);
+    let names = format!("{} {}", files[0].display(), files[1].display());
+    assert_eq!(ran(&format!("gather --out {} {names}", out.display())).0, 0);
+    assert_eq!(fs::read_to_string(out).unwrap(), ran(SWEEP).1);
 }
 
 #[test]
 fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let files = shards(folder.path(), &SWEEP, 3);
+    let files = shards(folder.path(), SWEEP, 3);
     let other_folder = tempfile::tempdir().unwrap();
-    let other_study = [&SWEEP[..], &["--method", "paper"]].concat();
-    let others = shards(other_folder.path(), &other_study, 3);
+    let others = shards(other_folder.path(), &format!("{SWEEP} --method paper"), 3);
     let refusal = |files: &[PathBuf]| {
         let (code, text, errors) = gather(files);
         assert_eq!((code, text.as_str()), (3, ""), "{errors}");
@@ -131,28 +112,25 @@ fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
     }
     let message = refusal(&[PathBuf::from("/dev/zero")]);
     assert!(message.contains("this is not a shard"), "{message}");
-    let message = refusal(&[PathBuf::from(TABLE_1)]);
+    let message = refusal(&[PathBuf::from("cases/zhou-chen-2014.toml")]);
     assert!(message.contains("this is not a shard"), "{message}");
     let (code, _, errors) = gather(&[folder.path().join("missing.shard")]);
     assert!(code == 5 && errors.contains("cannot be read"), "{errors}");
-    let (code, _, errors) = run(&[&SWEEP[..], &["--shard", "4/3"]].concat());
+    let (code, _, errors) = ran(&format!("{SWEEP} --shard 4/3"));
     assert!(code == 2 && errors.contains("write 1/3 to 3/3"), "{errors}");
 }
-
-/// A study with so many samples that it runs until a signal stops it.
-const ENDLESS: [&str; 4] = ["--samples", "20000000", "--ranking", "0"];
 
 /// Starts the program in a shell with `trap`, sends it the signals one after the other once it has
 /// written a file into the folder, and returns the number of the signal that ended it.
 #[cfg(unix)]
-fn stopped_by(signals: &[&str], trap: &str, arguments: &[&str], folder: &Path) -> Option<i32> {
+fn stopped_by(signals: &[&str], trap: &str, study: &str, folder: &Path) -> Option<i32> {
     use std::os::unix::process::ExitStatusExt;
     // The tests may run under `nohup`.
     let script = format!("ulimit -c 0; {trap} exec \"$@\"");
     let mut program = Command::new("env")
         .args(["--default-signal", "sh", "-c", &script, "sh"])
         .arg(env!("CARGO_BIN_EXE_tipstrike"))
-        .args(arguments)
+        .args(words(study))
         .stdout(Stdio::null())
         .spawn()
         .unwrap();
@@ -163,7 +141,7 @@ fn stopped_by(signals: &[&str], trap: &str, arguments: &[&str], folder: &Path) -
     };
     while !has_rows() {
         assert!(begun.elapsed() < Duration::from_secs(300), "no row is written");
-        assert_eq!(program.try_wait().unwrap(), None, "{arguments:?}");
+        assert_eq!(program.try_wait().unwrap(), None, "{study}");
         std::thread::sleep(Duration::from_millis(20));
     }
     for signal in signals {
@@ -177,21 +155,15 @@ fn stopped_by(signals: &[&str], trap: &str, arguments: &[&str], folder: &Path) -
 #[cfg(unix)]
 #[test]
 fn a_signal_ends_a_study_while_it_solves_or_writes_and_leaves_no_file() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = folder.path().join("spread.toml");
-    let spread = "[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\" }\n";
-    let text = fs::read_to_string(TABLE_1).unwrap();
-    fs::write(&case, format!("{text}\n{spread}")).unwrap();
-    let out = tempfile::tempdir().unwrap();
-    let file = out.path().join("out");
-    let study = ["tolerance", case.to_str().unwrap()];
-    let file = ["--out", file.to_str().unwrap()];
-    let shard = [&study[..], &ENDLESS, &file, &["--shard", "1/2"]].concat();
-    let rows = ["--samples", "1000000", "--ranking", "0", "--format", "csv"];
-    let rows = [&study[..], &rows, &file].concat();
-    let ends = |signals: &[&str], trap: &str, number: i32, arguments: &[&str]| {
-        let ended = stopped_by(signals, trap, arguments, out.path());
-        assert_eq!(ended, Some(number), "{signals:?} {arguments:?}");
+    let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let study =
+        format!("{} --ranking 0 --out {}", spread(folder.path()), out.path().join("out").display());
+    // With so many samples it runs until a signal stops it.
+    let shard = format!("{study} --samples 20000000 --shard 1/2");
+    let rows = format!("{study} --samples 1000000 --format csv");
+    let ends = |signals: &[&str], trap: &str, number: i32, study: &str| {
+        let ended = stopped_by(signals, trap, study, out.path());
+        assert_eq!(ended, Some(number), "{signals:?} {study}");
         let left: Vec<_> = fs::read_dir(out.path()).unwrap().collect();
         assert!(left.is_empty(), "{signals:?}: {left:?}");
     };
