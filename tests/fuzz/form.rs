@@ -380,7 +380,8 @@ impl Bench {
             "the mark shows whether the file differs"
         );
         let inputs = app.tab.case.inputs().ok();
-        if let (Some(inputs), Some(answer), false) = (inputs, &app.tab.answer, app.tab.is_stale()) {
+        let is_pending = app.tab.is_stale() || self.waiting.is_some();
+        if let (Some(inputs), Some(answer), false) = (inputs, &app.tab.answer, is_pending) {
             assert_eq!(answer.serial, app.tab.serial, "the results are those of the form");
             let chosen = inputs.method == Method::Auto || answer.pending.is_some();
             assert!(chosen || answer.active == inputs.method, "the method of the form is first");

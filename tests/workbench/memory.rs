@@ -37,7 +37,7 @@ fn an_edit_stores_its_difference_and_undo_has_no_limit() {
 
 #[test]
 fn an_open_case_needs_little_memory_and_a_closed_one_none() {
-    const CASES: usize = 32;
+    const CASES: usize = 12;
     let mut desk = Desk::new(LARGE);
     let mut tell = |method: Method, most: f64| {
         let whole = allocation_counter::measure(|| {
