@@ -4,7 +4,7 @@ use crate::program::{has, in_a_line, json, page, prints, ran};
 use serde_json::Value;
 use tipstrike::case::fields::{Kind, index_of};
 use tipstrike::case::{Acting, Case, EXAMPLES, FIELDS, partial_relevance, relevance};
-use tipstrike::model::{self, Quantity, Solution};
+use tipstrike::model::{self, Quantity, Solution, Stage, Stages};
 use tipstrike::report::{shown, value};
 
 const METHODS: [&str; 5] = ["paper", "exact", "static", "dynamic", "auto"];
@@ -258,7 +258,10 @@ fn a_field_without_effect_has_a_reason() {
         case.set("model.method", method).unwrap();
         let inputs = case.inputs().unwrap();
         let solve = |case: &Case| {
-            model::solve(&case.inputs().ok()?, case.inputs().ok()?.method.stages()).ok()
+            let inputs = case.inputs().ok()?;
+            let slow = [Stage::Clearing, Stage::SpeedRun, Stage::SteadyMotion, Stage::Band];
+            let stages = slow.into_iter().fold(inputs.method.stages(), Stages::without);
+            model::solve(&inputs, stages).ok()
         };
         let Some(before) = solve(&case) else { continue };
         for (index, field) in FIELDS.iter().enumerate() {

@@ -15,7 +15,9 @@ fn objects(line: &str) -> Vec<Value> {
 
 #[test]
 fn a_relief_states_what_a_drawing_needs_and_marks_the_relief_to_specify() {
-    let text = page("relief cases/mill-coarse-slow.toml --load 50..100%");
+    let text = page(
+        "relief cases/mill-coarse-slow.toml --load 50..100% --set model.tooth_compliance=beam",
+    );
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     let map = &text[text.rfind("  amount").expect("a map")..];
     assert_eq!(map.matches('*').count(), 1, "{map}");
