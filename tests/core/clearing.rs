@@ -132,7 +132,7 @@ fn the_required_relief_prevents_contact_when_it_is_typed_in() {
     for (number, method) in
         (0..pairs_or(20)).flat_map(|number| METHODS.map(|method| (number, method)))
     {
-        for given in [0.0, 1e-6, 3.217e-6] {
+        for given in [0.0, 3.217e-6] {
             let mut inputs = Inputs { method, ..pairs::numbered(number) };
             inputs.driven.tip_relief = given;
             let Some(solution) = solved(&inputs).filter(|solution| !rattles(solution)) else {
@@ -158,7 +158,7 @@ fn the_required_relief_prevents_contact_when_it_is_typed_in() {
             }
         }
     }
-    assert!(looked_at > 150, "{looked_at}");
+    assert!(looked_at > 100, "{looked_at}");
 }
 
 #[test]

@@ -96,7 +96,7 @@ fn of_commands(number: u64, table: &[&'static Quantity]) -> Option<(Values, usiz
 
 #[test]
 fn a_quantity_has_one_value_in_every_command() {
-    const CASES: u64 = 50;
+    const CASES: u64 = 32;
     let is_quick = |quantity: &&Quantity| quantity.stage != Stage::SpeedRun;
     let table: Vec<&Quantity> = QUANTITIES.iter().filter(is_quick).collect();
     let stages = table.iter().map(|quantity| Stages::of(quantity.stage));
@@ -115,5 +115,5 @@ fn a_quantity_has_one_value_in_every_command() {
             compared += agree(&own, &whole, &format!("case {number} after others"));
         }
     }
-    assert!(compared > 5_000, "{compared}");
+    assert!(compared > 3_000, "{compared}");
 }
