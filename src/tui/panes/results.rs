@@ -554,7 +554,7 @@ fn columns(pane: &Results<'_>, answer: &Answer, known: &[&'static Quantity]) -> 
     let labels = cells(&|at| label(known[at], active).into_owned());
     let mut columns = vec![
         Column::words(0, 0, symbols, Style::new()),
-        Column::words(90, 10, labels, Style::new()),
+        Column::words(90, 9, labels, Style::new()),
     ];
     for (at, &method) in methods.iter().enumerate() {
         let numbers = cells(&|at| number(at, value(answer, method, known[at])));
