@@ -144,7 +144,7 @@ fn the_charts_with_their_own_axes() {
     assert_snapshot!("speed_140x45", chart(&desk).join("\n"));
     // The curve begins above this speed.
     desk.fill("operation.speed", "300 rpm").keys(&["Esc", "3", "l"]);
-    desk.assert_shows("300 rpm (present): K_tooth ");
+    desk.assert_shows("300.0 rpm (present): K_tooth ");
     desk.assert_shows("present");
     let mut small = at_method(SMALL, "dynamic");
     small.keys(&["k", "k"]);
