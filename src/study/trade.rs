@@ -313,7 +313,7 @@ impl MeasuredSetting {
 /// The compared methods, fastest first.
 pub const METHODS: [Method; 4] = [Method::Paper, Method::Exact, Method::Static, Method::Dynamic];
 /// The compared numbers of intervals between stations.
-pub const STATIONS: [usize; 3] = [8, 64, 512];
+pub const STATIONS: [usize; 3] = [8, 64, 1024];
 /// The compared numbers of slices.
 pub const SLICES: [usize; 5] = [9, 17, 33, 65, 129];
 /// Number of slices of the finest setting.

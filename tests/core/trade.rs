@@ -169,7 +169,7 @@ fn errors_fall_with_stations_and_are_below_the_tolerance() {
         // At a corner of the curve the error is proportional to the distance to the nearest
         // station, which falls with their number; the position of the corner between two stations
         // adds scatter.
-        assert!(off(512) < 5.0 * 8.0 / 512.0 * off(8), "{method:?}");
+        assert!(off(1024) < 5.0 * 8.0 / 1024.0 * off(8), "{method:?}");
     }
     for tolerance in [1e-3, 1e-6, 1e-10] {
         let usual = Setting::usual(Method::Dynamic, &table_1());
