@@ -184,12 +184,13 @@ impl FaceInputs {
         places
     }
 
-    /// Number of slices: that of the case, or so many that the shares of the load are within 0.1 %,
-    /// with two slices in a coupling length.
+    /// Number of slices: that of the case, or so many that the shares of the load are within 0.1 % and
+    /// the slices excite by less than 1e-3 of the first harmonic of the transmission error, with two
+    /// slices in a coupling length.
     pub fn count(&self, base_pitch: f64) -> usize {
         /// Overlap ratio, slices and coupling lengths of the usual number.
         const LEAST: usize = 33;
-        const PER_PITCH: f64 = 24.0;
+        const PER_PITCH: f64 = 54.0;
         const PER_LENGTH: f64 = 2.0;
         let overlap = self.width * self.lead.abs() / base_pitch;
         let lengths = self.width / self.coupling_length;

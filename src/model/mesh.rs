@@ -55,7 +55,7 @@ pub struct Mesh {
     /// Cached load sharing of coupled pairs.
     sharing: Arc<Cache<Sharing>>,
     mean_stiffness: Arc<Cache<OnceLock<f64>>>,
-    sections: Arc<Cache<OnceLock<Arc<Series<5>>>>>,
+    sections: Arc<Cache<OnceLock<Arc<Series<6>>>>>,
     back_place: f64,
     /// The mesh of the back flanks, for all meshes that differ only in speed and deviation.
     back: Arc<Cache<OnceLock<Mesh>>>,

@@ -26,10 +26,14 @@ struct Slice {
     exchange: [f64; 2],
     /// u of the slice before and after over that of this one, where no load acts on all slices beyond.
     tail: [f64; 2],
-    /// Path ahead of the middle of the face, in m.
+    /// Path ahead of the middle of the face, and at both borders to the next slices, in m.
     ahead: f64,
-    /// Gap by misalignment and flank lines, in m.
+    borders: [f64; 2],
+    /// Gap by misalignment and flank lines, its mean over the slice, and its rise from one border to the
+    /// other, in m.
     gap: f64,
+    mean_gap: f64,
+    rise: f64,
     /// Factors of the compliance of driver's and driven tooth.
     ends: [f64; 2],
 }
@@ -40,7 +44,35 @@ impl Slice {
         let ends = [0, 1].map(|gear| inputs.end_factor(gear, z));
         let none = [0.0; 2];
         let (ahead, gap) = (inputs.lead * z, inputs.gap(z));
-        Slice { z, width: 0.0, step: 0.0, exchange: none, tail: none, ahead, gap, ends }
+        let borders = [ahead; 2];
+        let (width, step, rise, mean_gap) = (0.0, 0.0, 0.0, gap);
+        Slice {
+            z,
+            width,
+            step,
+            exchange: none,
+            tail: none,
+            ahead,
+            borders,
+            gap,
+            mean_gap,
+            rise,
+            ends,
+        }
+    }
+
+    /// The slice from one place to another.
+    fn between(inputs: &FaceInputs, z: f64, [from, to]: [f64; 2]) -> Slice {
+        let slice = Slice::at(inputs, z);
+        let (width, [before, after]) = (to - from, [from, to].map(|end| inputs.gap(end)));
+        let half = |end: f64, other: f64| (z - end).abs() * f64::midpoint(slice.gap, other);
+        Slice {
+            width,
+            borders: [from, to].map(|end| inputs.lead * end),
+            mean_gap: (half(from, before) + half(to, after)) / width,
+            rise: after - before,
+            ..slice
+        }
     }
 }
 
@@ -50,7 +82,7 @@ pub struct Face {
     inputs: FaceInputs,
     mesh: Arc<Mesh>,
     /// The section over the path of a pair, see [`Mesh::sections`].
-    sections: Arc<Series<5>>,
+    sections: Arc<Series<6>>,
     slices: Vec<Slice>,
     /// Greatest path of a slice ahead of the middle, in m.
     reach: f64,
@@ -83,17 +115,9 @@ impl Face {
         Ok(Face::at(inputs, (mesh, &sections), &inputs.places(inputs.count(mesh.base_pitch))))
     }
 
-    /// The face width with a slice between every two.
-    fn halved(&self) -> Face {
-        let between = |pair: &[Slice]| [f64::midpoint(pair[0].z, pair[1].z), pair[1].z];
-        let first = self.slices.first().map(|slice| slice.z);
-        let places = first.into_iter().chain(self.slices.windows(2).flat_map(between));
-        Face::at(&self.inputs, (&self.mesh, &self.sections), &places.collect::<Vec<f64>>())
-    }
-
     fn at(
         inputs: &FaceInputs,
-        (mesh, sections): (&Arc<Mesh>, &Arc<Series<5>>),
+        (mesh, sections): (&Arc<Mesh>, &Arc<Series<6>>),
         places: &[f64],
     ) -> Face {
         let slice = |number: usize| {
@@ -102,11 +126,11 @@ impl Face {
             let after = places.get(number + 1).copied().unwrap_or(z);
             let square = inputs.coupling_length * inputs.coupling_length;
             let exchange = |step: f64| if step > 0.0 { square / step } else { 0.0 };
+            let borders = [before, after].map(|beside| f64::midpoint(z, beside));
             Slice {
-                width: 0.5 * (after - before),
                 step: after - z,
                 exchange: [exchange(z - before), exchange(after - z)],
-                ..Slice::at(inputs, z)
+                ..Slice::between(inputs, z, borders)
             }
         };
         let mut slices: Vec<Slice> = (0..places.len()).map(slice).collect();

@@ -172,6 +172,34 @@ impl<const N: usize> Series<N> {
         Series { pieces: pieces.map(|piece| piece.reversed(about, signs)).collect() }
     }
 
+    /// The first function, and the integral of each function from the start on. `M` is `N` + 1.
+    pub fn with_integrals<const M: usize>(&self) -> Series<M> {
+        let mut sums = [0.0; N];
+        let pieces = self.pieces.iter().map(|piece| {
+            let mut powers = [[0.0; M]; TERMS];
+            let half = 0.5 * (piece.to - piece.from);
+            for (power, terms) in piece.powers.iter().enumerate() {
+                powers[power][0] = terms[0];
+                // The last of the terms is below the rest of the series.
+                if let Some(next) = powers.get_mut(power + 1) {
+                    let parts = next[1..].iter_mut().zip(terms);
+                    parts.for_each(|(part, term)| *part = half * term / (power + 1) as f64);
+                }
+            }
+            for (function, sum) in sums.iter_mut().enumerate() {
+                let integral = |t: f64| {
+                    let terms = powers.iter().rev();
+                    terms.fold(0.0, |sum, terms| sum * t + terms[function + 1])
+                };
+                let [start, whole] = [integral(-1.0), integral(1.0) - integral(-1.0)];
+                powers[0][function + 1] = *sum - start;
+                *sum += whole;
+            }
+            Piece { from: piece.from, to: piece.to, powers }
+        });
+        Series { pieces: pieces.collect() }
+    }
+
     /// The start of the first piece.
     pub fn start(&self) -> f64 {
         self.pieces.first().map_or(f64::NAN, |piece| piece.from)

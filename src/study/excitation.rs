@@ -375,7 +375,7 @@ fn over_face(face: &Face, widths: &[f64], mesh: &Mesh, s: f64) -> Result<[f64; V
     const STEP: f64 = 1e-5;
     let loads = face.loads(s, mesh.error, Until::Force(mesh.force))?;
     let force = |loads: &Loads, ahead: i32| -> f64 {
-        widths.iter().enumerate().map(|(slice, width)| width * loads.at(ahead, slice)).sum()
+        widths.iter().enumerate().map(|(slice, width)| width * loads.mean_at(ahead, slice)).sum()
     };
     let x = loads.displacement;
     let further = face.loads(s, mesh.error, Until::Displacement(x * (1.0 + STEP)))?;

@@ -163,16 +163,17 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// What a slice of the face needs of a pair at a place of its path: gap, in m, compliances of the contact,
-    /// of the driver's tooth and of the driven tooth per unit width, in m²/N, and the arm of the
-    /// friction force over the driver's base radius with the sign of the sliding velocity.
+    /// What a slice of the face needs of a pair at a place of its path: the gap, in m, and the integrals
+    /// over the path of the gap, of the compliances of the contact, of the driver's tooth and of the
+    /// driven tooth per unit width, in m²/N, and of the arm of the friction force over the driver's
+    /// base radius with the sign of the sliding velocity.
     ///
     /// # Errors
     /// Those of the compliances.
     pub(in crate::model) fn sections(
         &self,
         geometry: &Geometry,
-    ) -> Result<Arc<Series<5>>, Refusal> {
+    ) -> Result<Arc<Series<6>>, Refusal> {
         /// Of each value in the middle of the path.
         const REST: f64 = 1e-12;
         /// Least part of the compliance of a pair that is in its contact.
@@ -205,7 +206,8 @@ impl Mesh {
             Series::of(zone.from, zone.to, &|_, _| rest, &at)
         };
         let zones: Vec<Series<5>> = self.zones.iter().map(of_zone).collect::<Result<_, _>>()?;
-        Ok(Arc::clone(self.sections.0.get_or_init(|| Arc::new(Series::joined(zones)))))
+        let sections = || Arc::new(Series::joined(zones).with_integrals());
+        Ok(Arc::clone(self.sections.0.get_or_init(sections)))
     }
 
     /// The mesh without coupling.

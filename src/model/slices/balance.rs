@@ -17,16 +17,22 @@ pub struct Loads {
     pub pairs: usize,
     /// Displacement of the driver ahead x, in m.
     pub displacement: f64,
-    /// Line load of each pair at each slice, slice by slice, in N/m.
+    /// Line load of each pair in the middle of each slice, slice by slice, in N/m.
     pub line_loads: Vec<f64>,
+    /// Its mean over each slice, in N/m.
+    pub mean_loads: Vec<f64>,
     /// Displacement under the loads minus the gap, in m, above 0 where a pair carries.
     pub leads: Vec<f64>,
+    /// The mean of the leads over each slice, in m.
+    means: Vec<f64>,
     /// Force that turns the driver, in N.
     pub force: f64,
     /// Change of the force with the displacement, in N/m.
     pub stiffness: f64,
-    /// The least and the greatest displacement at which the same slices touch, in m.
-    pub alike: (f64, f64),
+    /// Change of the stiffness with the displacement, in N/m².
+    pub bend: f64,
+    /// Change of the displacement up to which no slice gains or loses contact all at once, in m.
+    pub smooth: f64,
 }
 
 impl Loads {
@@ -35,9 +41,14 @@ impl Loads {
         self.index(ahead).map_or(0.0, |pair| self.line_loads[slice * self.pairs + pair])
     }
 
-    /// Line load of all pairs at each slice, in N/m.
+    /// Mean line load of a pair over a slice, in N/m.
+    pub fn mean_at(&self, ahead: i32, slice: usize) -> f64 {
+        self.index(ahead).map_or(0.0, |pair| self.mean_loads[slice * self.pairs + pair])
+    }
+
+    /// Mean line load of all pairs over each slice, in N/m.
     pub fn of_all(&self) -> Vec<f64> {
-        self.line_loads.chunks(self.pairs.max(1)).map(|of_slice| of_slice.iter().sum()).collect()
+        self.mean_loads.chunks(self.pairs.max(1)).map(|of_slice| of_slice.iter().sum()).collect()
     }
 
     /// The greatest lead of a pair over the face, in m, with the number of its slice.
@@ -68,6 +79,10 @@ impl Loads {
         (self.first..).take(self.pairs)
     }
 }
+
+/// Usual precision of a balance: that of its greatest line load. A slice has a small part of the load, so
+/// that force and displacement are more precise.
+pub(super) const PRECISE: f64 = 1e-8;
 
 /// What ends the search for a balance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,10 +117,49 @@ impl Incoming {
         position.error = error;
         let contacts = position.contacts[pair..].iter_mut().step_by(position.pairs);
         for (slice, contact) in position.face.slices.iter().zip(contacts) {
-            contact.gap -= error;
+            (contact.gap, contact.mean) = (contact.gap - error, contact.mean - error);
             let is_before = path + slice.ahead <= 0.0;
             contact.can_carry &= !(is_before && matches!(self, Incoming::AfterStart(_)));
         }
+    }
+}
+
+/// The part of a pair that carries in a slice, over which the lead is linear: the mean of what is above
+/// 0 of it is `part` times its mean plus `rest`, in m.
+///
+/// # Formula
+/// ```text
+/// mean max(0, δ) = (δ̄ + w)²/(4 w)   for |δ̄| < w,   δ̄ above,   0 below
+/// ```
+/// δ̄ is the mean of the lead and w half of its rise over the slice. A contact therefore begins and
+/// ends continuously within a slice.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Carried {
+    part: f64,
+    rest: f64,
+}
+
+impl Carried {
+    const NONE: Carried = Carried { part: 0.0, rest: 0.0 };
+    const ALL: Carried = Carried { part: 1.0, rest: 0.0 };
+
+    fn of(lead: f64, half: f64) -> Carried {
+        if lead >= half && lead > 0.0 {
+            Carried::ALL
+        } else if lead > -half {
+            let part = 0.5 * (lead + half) / half;
+            Carried { part, rest: 0.5 * part * (half - lead) }
+        } else {
+            Carried::NONE
+        }
+    }
+
+    fn touches(self) -> bool {
+        self.part > 0.0
+    }
+
+    fn mean(self, lead: f64) -> f64 {
+        self.part * lead + self.rest
     }
 }
 
@@ -114,6 +168,9 @@ impl Incoming {
 struct Contact {
     /// Gap, infinite beyond the computed range.
     gap: f64,
+    /// Its mean over the slice, and its rise from one border to the other.
+    mean: f64,
+    rise: f64,
     /// Whether the pair can carry here.
     can_carry: bool,
     /// Compliance of the contact, q_c.
@@ -126,8 +183,15 @@ struct Contact {
 
 impl Contact {
     /// A pair beyond the computed range.
-    const NONE: Contact =
-        Contact { gap: f64::INFINITY, can_carry: false, local: 1.0, root: 0.0, weight: 1.0 };
+    const NONE: Contact = Contact {
+        gap: f64::INFINITY,
+        mean: f64::INFINITY,
+        rise: 0.0,
+        can_carry: false,
+        local: 1.0,
+        root: 0.0,
+        weight: 1.0,
+    };
 }
 
 /// All pairs at all slices with the incoming pair at a place, to be balanced.
@@ -154,7 +218,7 @@ impl Face {
     pub fn loads(&self, s: f64, error: f64, until: Until) -> Result<Loads, Refusal> {
         let mut position = self.position(s);
         Incoming::Deviates(error).change(&mut position, 0);
-        position.loads(until, None)
+        position.loads(until, None, PRECISE)
     }
 
     /// All pairs without deviations, with the incoming pair at `s` in the middle of the face.
@@ -168,30 +232,56 @@ impl Face {
         for (pair, ahead) in (first..).take(pairs).enumerate() {
             let path = s + f64::from(ahead) * mesh.base_pitch;
             let of_pair = contacts[pair..].iter_mut().step_by(pairs);
+            let mut before = None;
             for (slice, contact) in self.slices.iter().zip(of_pair) {
-                *contact = self.contact(slice, path + slice.ahead);
+                (*contact, before) = self.contact(slice, path, before);
             }
         }
         let kappa = self.kappa(s, first, pairs);
         Position { face: self, s, first, pairs, error: 0.0, contacts, kappa }
     }
 
-    /// A pair without deviation at a place of its path in a slice.
-    fn contact(&self, slice: &Slice, place: f64) -> Contact {
-        let mesh = &self.mesh;
+    /// A pair without deviation in a slice, with the middle of the face at a place of its path, and the
+    /// sections at the border to the next slice, which are those `before` it. The means over the slice
+    /// keep the ends of the path and of reliefs from exciting as they pass a slice.
+    fn contact(
+        &self,
+        slice: &Slice,
+        path: f64,
+        before: Option<[f64; 6]>,
+    ) -> (Contact, Option<[f64; 6]>) {
+        /// Of a base pitch: below it, a difference of integrals has too few digits.
+        const NARROW: f64 = 1e-6;
+        let (mesh, place) = (&self.mesh, path + slice.ahead);
         let (from, to) = mesh.ends();
         if place < from || place > to {
-            return Contact::NONE;
+            return (Contact::NONE, None);
         }
-        let [gap, local, driver, driven, friction] = self.sections.at(place);
+        let borders = slice.borders.map(|border| (path + border).clamp(from, to));
+        let one: [f64; 6] = before.unwrap_or_else(|| self.sections.at(borders[0]));
+        let other: [f64; 6] = self.sections.at(borders[1]);
+        let way = borders[1] - borders[0];
+        let [mean, local, driver, driven, friction] = if way.abs() < NARROW * mesh.base_pitch {
+            self.section(place)
+        } else {
+            std::array::from_fn(|at| (other[at + 1] - one[at + 1]) / way)
+        };
         let teeth = driver * slice.ends[0] + driven * slice.ends[1];
-        Contact {
-            gap: gap + slice.gap,
+        let contact = Contact {
+            gap: self.sections.one(0, place) + slice.gap,
+            mean: mean + slice.mean_gap,
+            rise: other[0] - one[0] + slice.rise,
             can_carry: true,
             local,
             root: teeth.max(0.0).sqrt(),
             weight: 1.0 - mesh.friction() * self.inputs.oblique * friction,
-        }
+        };
+        (contact, Some(other))
+    }
+
+    /// Gap, compliances of contact, driver and driven gear, and arm of the friction at a place of the path.
+    fn section(&self, place: f64) -> [f64; 5] {
+        std::array::from_fn(|at| self.sections.slope(at + 1, place))
     }
 
     /// The lead of a pair at a place of its path between two slices, the compliance by which its own
@@ -209,12 +299,14 @@ impl Face {
         // Gap plus deflection by the pair itself is smooth along the face.
         let free = |number: usize| {
             let (at, slice) = (number * loads.pairs + pair, &self.slices[number]);
-            let contact = self.contact(slice, self.path(loads, ahead, number));
+            let path = self.path(loads, ahead, number) - slice.ahead;
+            let (contact, _) = self.contact(slice, path, None);
             loads.leads[at] + contact.gap + self.own(&contact) * loads.line_loads[at]
         };
         let [one, other] = [before, after].map(free);
         let part = (z - self.slices[before].z) / self.slices[before].step;
-        let contact = self.contact(&Slice::at(&self.inputs, z), path);
+        let slice = Slice::at(&self.inputs, z);
+        let (contact, _) = self.contact(&slice, path - slice.ahead, None);
         let lead = one + part * (other - one) - contact.gap;
         Some((lead, contact.local + self.own(&contact), z))
     }
@@ -236,6 +328,13 @@ impl Face {
             .filter_map(|number| Some(loads.leads[number * loads.pairs + loads.index(0)?]));
         let border = self.lead_between(loads, 0, -INSIDE * self.mesh.length);
         leads.chain(border.map(|(lead, ..)| lead)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Number of slices that a pair passes on a path; 0 if it passes all at once.
+    fn slices_in(&self, path: f64) -> f64 {
+        let most = (self.slices.len() - 1) as f64;
+        let whole = self.inputs.lead * self.inputs.width;
+        if path.abs() < whole.abs() { path / whole * most } else { 0.0 }
     }
 
     /// The part of the compliance of a pair by which its own load deflects the slice alone: without
@@ -272,7 +371,7 @@ impl Face {
             return 0.0;
         }
         let teeth = |place: f64| {
-            let [_, _, driver, driven] = self.sections.at(place);
+            let [_, _, driver, driven, _] = self.section(place);
             driver + driven
         };
         let mean = (teeth(place) * teeth(place + way)).sqrt();
@@ -286,7 +385,8 @@ impl Position<'_> {
         usize::try_from(ahead - self.first).ok().filter(|index| *index < self.pairs)
     }
 
-    /// The loads of all pairs. The search for the touching slices begins with those of `near`.
+    /// The loads of all pairs, to a part of the displacement. The search for the touching slices begins with
+    /// those of `near`.
     ///
     /// # Formula
     /// ```text
@@ -306,52 +406,75 @@ impl Position<'_> {
     /// # Errors
     /// [`Refusal::BeyondReach`] if a pair beyond the computed gaps may touch,
     /// [`Refusal::IndefiniteCompliance`] if neighbouring pairs displace each other too much.
-    pub(super) fn loads(&self, until: Until, near: Option<&Loads>) -> Result<Loads, Refusal> {
+    pub(super) fn loads(
+        &self,
+        until: Until,
+        near: Option<&Loads>,
+        precision: f64,
+    ) -> Result<Loads, Refusal> {
         const CORRECTIONS: usize = 40;
         const ONE_BY_ONE: usize = 400;
-        let (mut touching, mut displacement) = self.first_guess(until, near);
+        let (mut carried, mut displacement) = self.first_guess(until, near);
         let count = self.contacts.len();
         let (mut lines, mut sums) = (vec![[1.0, 0.0]; count], [0.0; 2]);
-        let lead = |lines: &[f64; 2], displacement: f64| lines[0] * displacement - lines[1];
+        let mut means = vec![f64::NEG_INFINITY; count];
         let rounds = if displacement.is_finite() { CORRECTIONS + ONE_BY_ONE } else { 0 };
         for round in 0..rounds {
-            lines = self.lines(&touching).ok_or(Refusal::IndefiniteCompliance)?;
-            sums = self.sums(&touching, &lines);
+            lines = self.lines(&carried).ok_or(Refusal::IndefiniteCompliance)?;
+            sums = self.sums(&carried, &lines);
             if let Until::Force(force) = until {
                 displacement = (force + sums[1]) / sums[0];
             }
-            let carries = lines.iter().zip(&self.contacts);
-            let carries =
-                carries.map(|(lines, of)| of.can_carry && lead(lines, displacement) > 0.0);
-            let wrong = touching.iter_mut().zip(carries).filter(|(old, new)| **old != *new);
-            let most = if round < CORRECTIONS { count } else { 1 };
-            if wrong.take(most).map(|(old, new)| *old = new).count() == 0 {
+            for (mean, lines) in means.iter_mut().zip(&lines) {
+                *mean = lines[0] * displacement - lines[1];
+            }
+            let (allowed, mut is_right) = (precision * displacement.abs(), true);
+            for (at, of) in self.contacts.iter().enumerate().filter(|(_, of)| of.can_carry) {
+                let (mean, old) = (means[at], carried[at]);
+                let new = Carried::of(mean, self.half(&means, at, of));
+                if (new.mean(mean) - old.mean(mean)).abs() > allowed {
+                    (carried[at], is_right) = (new, false);
+                    if round >= CORRECTIONS {
+                        break;
+                    }
+                }
+            }
+            if is_right {
                 break;
             }
-            if round < CORRECTIONS && matches!(until, Until::Force(_)) && !touching.contains(&true)
-            {
+            let is_apart = |carried: &[Carried]| !carried.iter().any(|of| of.touches());
+            if round < CORRECTIONS && matches!(until, Until::Force(_)) && is_apart(&carried) {
                 let all = (0..count).filter(|&at| self.contacts[at].can_carry);
-                let lead = |at: usize| lead(&lines[at], displacement);
-                let nearest = all.max_by(|&one, &other| lead(one).total_cmp(&lead(other)));
+                let nearest = all.max_by(|&one, &other| means[one].total_cmp(&means[other]));
                 if let Some(at) = nearest {
-                    touching[at] = true;
+                    carried[at] = Carried::ALL;
                 }
             }
         }
-        let mut alike = (f64::NEG_INFINITY, f64::INFINITY);
-        for (lines, _) in lines.iter().zip(&self.contacts).filter(|(_, of)| of.can_carry) {
-            let turn = lines[1] / lines[0];
-            if turn < displacement {
-                alike.0 = turn.max(alike.0);
-            } else {
-                alike.1 = turn.min(alike.1);
+        /// Of the displacement: in a slice with a smaller lead of its borders, contact begins suddenly.
+        const SUDDEN: f64 = 0.01;
+        let (mut bend, mut smooth) = (0.0, f64::INFINITY);
+        for (at, (width, of)) in self.of_slices().enumerate().filter(|(_, (_, of))| of.can_carry) {
+            let half = self.half(&means, at, of);
+            if carried[at].touches() && carried[at].part < 1.0 {
+                bend += of.weight * width * lines[at][0].powi(3) / (2.0 * half * of.local);
+            }
+            if half < SUDDEN * displacement.abs() {
+                smooth = f64::min(smooth, (means[at].abs() - half).abs() / lines[at][0].abs());
             }
         }
-        let leads: Vec<f64> = lines.iter().map(|lines| lead(lines, displacement)).collect();
+        let of_contacts = means.iter().zip(&self.contacts);
+        let leads = of_contacts.clone().map(|(mean, of)| {
+            if of.gap < f64::INFINITY { mean + (of.mean - of.gap) } else { f64::NEG_INFINITY }
+        });
+        let leads: Vec<f64> = leads.collect();
         let loaded = leads.iter().zip(&self.contacts);
         let loaded =
             loaded.map(|(lead, of)| if of.can_carry { lead.max(0.0) / of.local } else { 0.0 });
-        let line_loads = loaded.collect();
+        let mean_loads = of_contacts.zip(&carried).map(|((mean, of), carried)| {
+            if carried.touches() { carried.mean(*mean) / of.local } else { 0.0 }
+        });
+        let (line_loads, mean_loads) = (loaded.collect(), mean_loads.collect());
         let most = displacement - self.face.least_gap + self.error.max(0.0);
         self.face.mesh.check_reach(most)?;
         Ok(Loads {
@@ -360,11 +483,24 @@ impl Position<'_> {
             pairs: self.pairs,
             displacement,
             line_loads,
+            mean_loads,
             leads,
+            means,
             force: sums[0] * displacement - sums[1],
             stiffness: sums[0],
-            alike,
+            bend,
+            smooth,
         })
+    }
+
+    /// Half of the rise of a lead over its slice, by the means of all leads. The displacement of the
+    /// teeth is linear between the middles of two slices.
+    fn half(&self, means: &[f64], at: usize, of: &Contact) -> f64 {
+        let teeth = |at: usize| self.contacts[at].mean + means[at];
+        let before = at.checked_sub(self.pairs).unwrap_or(at);
+        let after = if at + self.pairs < means.len() { at + self.pairs } else { at };
+        let rise = teeth(after) - teeth(before);
+        0.5 * (of.rise - if rise.is_finite() { 0.5 * rise } else { 0.0 }).abs()
     }
 
     /// The displacement at which independent slices balance a force. Begins with all slices, so that
@@ -373,12 +509,12 @@ impl Position<'_> {
         let springs = self.of_slices().filter(|(_, contact)| contact.can_carry);
         let mut displacement = f64::INFINITY;
         loop {
-            let touching = springs.clone().filter(|(_, contact)| contact.gap < displacement);
+            let touching = springs.clone().filter(|(_, contact)| contact.mean < displacement);
             let (stiffness, preload) =
                 touching.fold((0.0, force), |(stiffness, preload), (width, contact)| {
                     let compliance = contact.local + contact.root * contact.root;
                     let spring = contact.weight * width / compliance;
-                    (stiffness + spring, preload + spring * contact.gap)
+                    (stiffness + spring, preload + spring * contact.mean)
                 });
             let next = preload / stiffness;
             if stiffness <= 0.0 || next >= displacement {
@@ -394,22 +530,35 @@ impl Position<'_> {
         slices.flat_map(|(slice, pairs)| pairs.iter().map(|contact| (slice.width, contact)))
     }
 
-    /// The pairs at slices to begin with, and the displacement.
-    fn first_guess(&self, until: Until, near: Option<&Loads>) -> (Vec<bool>, f64) {
+    /// What carries to begin with, and the displacement.
+    fn first_guess(&self, until: Until, near: Option<&Loads>) -> (Vec<Carried>, f64) {
         if let Some(near) = near {
-            let mut carried = vec![false; self.contacts.len()];
+            // The leads keep their places on the path.
+            let (moved, last) = (self.face.slices_in(self.s - near.s), self.face.slices.len() - 1);
+            let mut means = vec![f64::NEG_INFINITY; self.contacts.len()];
             for (pair, ahead) in (self.first..).take(self.pairs).enumerate() {
                 let Some(known) = near.index(ahead) else { continue };
-                let (old, new) = (&near.line_loads[known..], &mut carried[pair..]);
-                let old = old.iter().step_by(near.pairs);
-                let of_pair = self.contacts[pair..].iter().step_by(self.pairs).zip(old);
-                for (new, (of, old)) in new.iter_mut().step_by(self.pairs).zip(of_pair) {
-                    *new = of.can_carry && *old > 0.0;
+                let mean = |slice: usize| near.means[slice * near.pairs + known];
+                let of_pair = means[pair..].iter_mut().step_by(self.pairs);
+                for (slice, new) in of_pair.enumerate() {
+                    let old = (slice as f64 + moved).clamp(0.0, last as f64);
+                    let (before, part) = (old as usize, old.fract());
+                    *new = mean(before);
+                    if part > 0.0 {
+                        *new += part * (mean(before + 1) - *new);
+                    }
                 }
             }
+            let guess = |(at, of): (usize, &Contact)| {
+                let half = self.half(&means, at, of);
+                if of.can_carry { Carried::of(means[at], half) } else { Carried::NONE }
+            };
+            let carried: Vec<Carried> = self.contacts.iter().enumerate().map(guess).collect();
             match until {
                 Until::Displacement(displacement) => return (carried, displacement),
-                Until::Force(_) if carried.contains(&true) => return (carried, near.displacement),
+                Until::Force(_) if carried.iter().any(|carried| carried.touches()) => {
+                    return (carried, near.displacement);
+                }
                 Until::Force(_) => {}
             }
         }
@@ -417,18 +566,19 @@ impl Position<'_> {
             Until::Force(force) => self.of_springs(force),
             Until::Displacement(displacement) => displacement,
         };
-        let touches = |of: &Contact| of.can_carry && of.gap < displacement;
-        (self.contacts.iter().map(touches).collect(), displacement)
+        let touches = |of: &Contact| of.can_carry && of.mean < displacement;
+        let guess = |of: &Contact| if touches(of) { Carried::ALL } else { Carried::NONE };
+        (self.contacts.iter().map(guess).collect(), displacement)
     }
 
-    /// Displacement under the loads minus the gap, of every pair at every slice, if exactly the
-    /// `touching` ones carry: its change with the displacement, and what is taken from that. `None` if
+    /// Mean displacement under the loads minus the mean gap, of every pair over every slice, if what is
+    /// `carried` carries: its change with the displacement, and what is taken from that. `None` if
     /// the compliances are not positive definite.
-    fn lines(&self, touching: &[bool]) -> Option<Vec<[f64; 2]>> {
+    fn lines(&self, carried: &[Carried]) -> Option<Vec<[f64; 2]>> {
         let has_load =
-            |pair: &usize| touching[*pair..].iter().step_by(self.pairs).any(|touches| *touches);
+            |pair: &usize| carried[*pair..].iter().step_by(self.pairs).any(|of| of.touches());
         let active: Vec<usize> = (0..self.pairs).filter(has_load).collect();
-        let system = System::new(self, &active, touching)?;
+        let system = System::new(self, &active, carried)?;
         // The length of a matrix row is known to the compiler.
         match system.distance {
             0 | 1 => system.lines::<2>(),
@@ -465,11 +615,12 @@ impl Position<'_> {
 
     /// Change of the force that turns the driver with the displacement, and the force that the gaps
     /// take.
-    fn sums(&self, touching: &[bool], lines: &[[f64; 2]]) -> [f64; 2] {
-        let touching = self.of_slices().zip(lines).zip(touching).filter(|(_, touches)| **touches);
-        touching.fold([0.0; 2], |[slope, offset], (((width, contact), lines), _)| {
+    fn sums(&self, carried: &[Carried], lines: &[[f64; 2]]) -> [f64; 2] {
+        let touching = self.of_slices().zip(lines).zip(carried).filter(|(_, of)| of.touches());
+        touching.fold([0.0; 2], |[slope, offset], (((width, contact), lines), of)| {
             let spring = contact.weight * width / contact.local;
-            [slope + spring * lines[0], offset + spring * lines[1]]
+            let parts = [of.part * lines[0], of.part * lines[1] - of.rest];
+            [slope + spring * parts[0], offset + spring * parts[1]]
         })
     }
 }
@@ -480,7 +631,7 @@ impl Position<'_> {
 struct System<'a> {
     at: &'a Position<'a>,
     active: &'a [usize],
-    touching: &'a [bool],
+    carried: &'a [Carried],
     factors: Vec<f64>,
     /// The first and the last slice of each coordinate.
     spans: Vec<(usize, usize)>,
@@ -490,12 +641,16 @@ struct System<'a> {
 
 impl<'a> System<'a> {
     /// `None` if κ is not positive definite.
-    fn new(at: &'a Position<'a>, active: &'a [usize], touching: &'a [bool]) -> Option<System<'a>> {
+    fn new(
+        at: &'a Position<'a>,
+        active: &'a [usize],
+        carried: &'a [Carried],
+    ) -> Option<System<'a>> {
         let (count, factors) = (active.len(), at.factors(active)?);
         let mut spans = vec![(usize::MAX, 0); count];
         for &pair in active {
-            let mut of_pair = touching[pair..].iter().step_by(at.pairs).enumerate();
-            let mut next = || of_pair.find(|(_, touches)| **touches).map(|(slice, _)| slice);
+            let mut of_pair = carried[pair..].iter().step_by(at.pairs).enumerate();
+            let mut next = || of_pair.find(|(_, of)| of.touches()).map(|(slice, _)| slice);
             let first = next()?;
             let last = std::iter::from_fn(next).last().unwrap_or(first);
             let of_factor = spans.iter_mut().zip(&factors[pair * count..]);
@@ -506,7 +661,7 @@ impl<'a> System<'a> {
         let near =
             |slice| spans.iter().filter(|span| span.0 <= slice + 1 && slice <= span.1).count();
         let distance = (0..at.face.slices.len()).map(near).max().unwrap_or(0);
-        Some(System { at, active, touching, factors, spans, distance })
+        Some(System { at, active, carried, factors, spans, distance })
     }
 
     /// The coordinates at a slice.
@@ -523,8 +678,8 @@ impl<'a> System<'a> {
         let (mut rows, mut sides) =
             (Rows::<f64, ROW>::with_capacity(most), Vec::with_capacity(most));
         let mut known = vec![0; count];
-        let of_slices = self.at.contacts.chunks(pairs).zip(self.touching.chunks(pairs));
-        for (number, (slice, (contacts, touching))) in slices.iter().zip(of_slices).enumerate() {
+        let of_slices = self.at.contacts.chunks(pairs).zip(self.carried.chunks(pairs));
+        for (number, (slice, (contacts, carried))) in slices.iter().zip(of_slices).enumerate() {
             for coordinate in self.here(number) {
                 let ([before, after], (first, last)) = (slice.exchange, self.spans[coordinate]);
                 let mut entries = [0.0; ROW];
@@ -542,9 +697,10 @@ impl<'a> System<'a> {
                 sides.push([0.0; 2]);
             }
             let active = self.active.iter().enumerate();
-            for (index, &pair) in active.filter(|(_, pair)| touching[**pair]) {
-                let Contact { gap, local, root, .. } = contacts[pair];
-                let push = slice.width * root / local;
+            for (index, &pair) in active.filter(|(_, pair)| carried[**pair].touches()) {
+                let Contact { mean, local, root, .. } = contacts[pair];
+                let push = carried[pair].part * slice.width * root / local;
+                let gap = mean - carried[pair].rest / carried[pair].part;
                 let factors = &self.factors[pair * count..=pair * count + index];
                 for (at, factor) in factors.iter().enumerate() {
                     if *factor == 0.0 {
@@ -583,8 +739,8 @@ impl<'a> System<'a> {
         let mut lines = Vec::with_capacity(self.at.contacts.len());
         for (number, contacts) in self.at.contacts.chunks(pairs).enumerate() {
             let here = &all[number * count..][..count];
-            for (pair, Contact { root, gap, .. }) in contacts.iter().enumerate() {
-                if *gap == f64::INFINITY {
+            for (pair, Contact { root, mean, .. }) in contacts.iter().enumerate() {
+                if *mean == f64::INFINITY {
                     lines.push([1.0, f64::INFINITY]);
                     continue;
                 }
@@ -592,7 +748,7 @@ impl<'a> System<'a> {
                 let [moved, kept] = factors.fold([0.0; 2], |[one, other], (factor, side)| {
                     [one + factor * side[0], other + factor * side[1]]
                 });
-                lines.push([1.0 - root * moved, gap - root * kept]);
+                lines.push([1.0 - root * moved, mean - root * kept]);
             }
         }
         Some(lines)

@@ -1,7 +1,7 @@
 //! The load at rest over the face width: one base pitch without deviations, and the passage of the
 //! incoming tooth.
 
-use super::balance::{Incoming, Loads, Until};
+use super::balance::{Incoming, Loads, PRECISE, Until};
 use super::course::Course;
 use super::{Face, Slice};
 use crate::model::Refusal;
@@ -16,6 +16,9 @@ use std::sync::Arc;
 
 /// Tolerances of greatest values: finer ones are lost among the errors of the slices.
 pub(super) const PRECISION: (f64, f64) = (1e-6, 1e-9);
+
+/// Number of places in a base pitch at which the load is solved.
+const STEPS: usize = 64;
 
 /// A place of contact on the face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,23 +100,6 @@ impl Part {
 }
 
 impl Face {
-    /// Number of places in a base pitch at which the load is solved; more for narrow slices.
-    fn steps(&self) -> usize {
-        const LEAST: usize = 64;
-        const SLICES: usize = 4;
-        LEAST.max(self.slices.len() / SLICES)
-    }
-
-    /// The same for the harmonics. The slices excite at their number in a base pitch and its multiples:
-    /// places of one and a half or two and a half times the number keep these orders out.
-    fn steps_of_period(&self) -> usize {
-        const MOST: f64 = 128.0;
-        let order = self.slices.len() as f64 * self.mesh.base_pitch / (2.0 * self.reach);
-        let mut places = [2.5, 1.5].into_iter().map(|times| times * order);
-        let places = places.find(|places| *places <= MOST && *places >= 4.0 * HARMONICS as f64);
-        places.map_or(self.steps(), |places| places.round() as usize).max(self.slices.len() / 4)
-    }
-
     /// The path of a pair at a slice, in m.
     pub(super) fn path(&self, loads: &Loads, ahead: i32, slice: usize) -> f64 {
         loads.s + f64::from(ahead) * self.mesh.base_pitch + self.slices[slice].ahead
@@ -156,7 +142,7 @@ impl Face {
     fn force(&self, loads: &Loads, ahead: i32, part: Part) -> f64 {
         let Some(border) = part.border(self.mesh.length) else {
             let slices = self.slices.iter().enumerate();
-            return slices.map(|(number, slice)| loads.at(ahead, number) * slice.width).sum();
+            return slices.map(|(number, slice)| loads.mean_at(ahead, number) * slice.width).sum();
         };
         let is_here = |number: &usize| part.has(self.path(loads, ahead, *number), self.mesh.length);
         let at_slices = (0..self.slices.len()).filter(is_here).map(|number| {
@@ -195,39 +181,16 @@ impl Face {
     /// K_Hβ = b max w(z)/F0,   w(z) = mean of Σ_k p_k(z) over a base pitch
     /// ```
     ///
-    /// If the case gives no number of slices, there are twice as many, and the harmonics are
-    /// extrapolated from both numbers: the error of slices falls with the square of their width.
-    ///
     /// # Source
-    /// K_Hβ of ISO 6336-1:2019, 7.2, by the line load of all pairs. Extrapolation: Richardson 1911.
+    /// K_Hβ of ISO 6336-1:2019, 7.2, by the line load of all pairs.
     ///
     /// # Errors
     /// Those of [`Face::loads`].
     pub fn cycle(&self) -> Result<(FaceCycle, StaticSpectrum), Refusal> {
-        if self.inputs.slices.is_some() {
-            return self.period(self.steps_of_period(), None);
-        }
-        let steps = self.steps_of_period();
-        let (_, period) = self.samples_of_period(steps)?;
-        self.halved().period(steps, Some(harmonics(&period)))
-    }
-
-    /// The balances of a base pitch without deviations, both ends included.
-    fn samples_of_period(&self, steps: usize) -> Result<(Passage<'_>, Vec<Rc<Loads>>), Refusal> {
-        let pitch = self.mesh.base_pitch;
+        let (pitch, steps) = (self.mesh.base_pitch, STEPS);
         let passage = Passage::new(self, None, Incoming::Alike);
         let place = |number: usize| pitch * number as f64 / steps as f64;
         let period = passage.samples(&(0..=steps).map(place).collect::<Vec<_>>())?;
-        Ok((passage, period))
-    }
-
-    /// See [`Face::cycle`]; with the harmonics by slices of twice the width, if known.
-    fn period(
-        &self,
-        steps: usize,
-        coarse: Option<[[f64; 2]; HARMONICS]>,
-    ) -> Result<(FaceCycle, StaticSpectrum), Refusal> {
-        let (passage, period) = self.samples_of_period(steps)?;
         let all = &period[..steps];
         let mut line_loads = vec![0.0; self.slices.len()];
         for loads in all {
@@ -247,13 +210,8 @@ impl Face {
             face_load_factor: most * self.inputs.width / self.over_face(&line_loads, |_| 1.0),
             swing: extreme(&middle) + extreme(&|loads| -middle(loads)),
         };
-        let mut harmonics = harmonics(&period);
-        for (fine, coarse) in harmonics.iter_mut().flatten().zip(coarse.iter().flatten().flatten())
-        {
-            *fine += (*fine - coarse) / 3.0;
-        }
         let spectrum = Spectrum {
-            amplitudes: harmonics.map(|[cosine, sine]| cosine.hypot(sine)),
+            amplitudes: harmonics(all),
             peak_to_peak: extreme(&|loads| loads.displacement)
                 + extreme(&|loads| -loads.displacement),
         };
@@ -268,7 +226,7 @@ impl Face {
     /// # Errors
     /// Those of [`Face::loads`].
     pub(super) fn greatest_lead(&self, course: Option<&Course>) -> Result<f64, Refusal> {
-        let (mesh, step) = (&self.mesh, self.mesh.base_pitch / self.steps() as f64);
+        let (mesh, step) = (&self.mesh, self.mesh.base_pitch / STEPS as f64);
         let (from, to) = (mesh.ends().0 - self.reach, self.reach);
         let count = ((to - from) / step).ceil() as usize;
         let places = (0..=count).map(|number| from + (to - from) * number as f64 / count as f64);
@@ -324,7 +282,7 @@ impl Face {
         let mesh = &self.mesh;
         let of_slice = |number: usize| {
             let sliding = mesh.incoming(self.path(loads, 0, number)).0.sliding;
-            loads.at(0, number) * self.slices[number].width * sliding.abs()
+            loads.mean_at(0, number) * self.slices[number].width * sliding.abs()
         };
         let sum: f64 = (0..self.slices.len()).map(of_slice).sum();
         mesh.friction() * self.inputs.oblique * sum
@@ -362,18 +320,18 @@ impl Face {
     }
 }
 
-/// The harmonics of the displacement over a base pitch, as cosines and sines, in m.
-fn harmonics(period: &[Rc<Loads>]) -> [[f64; 2]; HARMONICS] {
-    let steps = (period.len() - 1) as f64;
-    let mut sums = [[0.0; 2]; HARMONICS];
-    for (number, loads) in period[1..].iter().enumerate() {
-        for (order, sum) in (1..).zip(&mut sums) {
-            let (sine, cosine) = (TAU * f64::from(order) * (number + 1) as f64 / steps).sin_cos();
-            let part = 2.0 * loads.displacement / steps;
-            *sum = [sum[0] + part * cosine, sum[1] + part * sine];
-        }
-    }
-    sums
+/// The harmonics of the displacement at even places of a base pitch, in m.
+fn harmonics(period: &[Rc<Loads>]) -> [f64; HARMONICS] {
+    let steps = period.len() as f64;
+    std::array::from_fn(|order| {
+        let turn = TAU * (order + 1) as f64 / steps;
+        let parts = period.iter().enumerate().map(|(place, loads)| {
+            let (sine, cosine) = (turn * place as f64).sin_cos();
+            [loads.displacement * cosine, loads.displacement * sine]
+        });
+        let [cosine, sine] = parts.fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
+        2.0 * cosine.hypot(sine) / steps
+    })
 }
 
 /// The passage of the incoming tooth, at rest or in motion.
@@ -419,7 +377,7 @@ impl<'a> Passage<'a> {
             Some(course) => Until::Displacement(course.at(s)[0]),
             None => Until::Force(self.face.mesh.force),
         };
-        let loads = Rc::new(position.loads(until, near.as_deref())?);
+        let loads = Rc::new(position.loads(until, near.as_deref(), PRECISE)?);
         if !loads.displacement.is_finite() {
             return Err(Refusal::BeyondReach);
         }
@@ -444,7 +402,7 @@ impl<'a> Passage<'a> {
         const MOST: usize = 400_000;
         /// Of the steps of a motion, which are many more than an oscillation needs to be seen.
         const EVERY: usize = 2;
-        let pitch = self.face.mesh.base_pitch / (self.face.steps() / 2) as f64;
+        let pitch = self.face.mesh.base_pitch / (STEPS / 2) as f64;
         let count = ((to - from) / (pitch * part as f64)).ceil().max(2.0);
         let even = (0..=count as u32).map(|step| from + (to - from) * f64::from(step) / count);
         let mut places: Vec<f64> = even.collect();

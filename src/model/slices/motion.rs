@@ -8,7 +8,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::Face;
-use super::balance::{Incoming, Loads, Position, Until};
+use super::balance::{Incoming, Loads, PRECISE, Until};
 use super::course::{Course, Moment};
 use super::load::{FaceLoad, PRECISION, Passage, Passed};
 use crate::model::Refusal;
@@ -20,36 +20,32 @@ use crate::numeric::root::greatest_within;
 /// Steps of a motion times slices: some ten seconds of computation.
 const MOST_WORK: f64 = 4e6;
 
-/// The force of the mesh at even places of a base pitch, for any displacement. A place keeps what was
-/// computed for it, since a motion returns to it in every base pitch.
+/// The force of the mesh at even places of a base pitch, for any displacement. What is known of a place
+/// serves again, since a motion returns to it in every base pitch.
 pub(in crate::model) struct Springs<'a> {
     face: &'a Face,
     /// The parts of a base pitch between borders of the mesh, with their number of steps.
     parts: Vec<(f64, f64, u32)>,
-    places: RefCell<HashMap<u64, Place<'a>>>,
+    /// The known points of the force over the displacement, by place and by the pair that deviates.
+    points: RefCell<HashMap<(u64, Option<i32>), Vec<Point>>>,
     /// The loads computed last, whose slices are likely to touch again.
     near: RefCell<Option<Loads>>,
+    /// Precision of the balances.
+    precision: f64,
+    /// How far a smooth force is known about a point, in m.
+    reach: f64,
     solves: Cell<u64>,
 }
 
-/// A place of a base pitch.
-struct Place<'a> {
-    position: Position<'a>,
-    /// The known lines of the force over the displacement, by the pair that deviates.
-    lines: Vec<(Option<i32>, Line)>,
-}
-
-/// The force over the displacement while the same slices touch.
+/// The force at a displacement, and how far it is known about it.
 #[derive(Debug, Clone, Copy)]
-struct Line {
-    alike: (f64, f64),
+struct Point {
     displacement: f64,
     force: f64,
     stiffness: f64,
+    bend: f64,
+    reach: f64,
 }
-
-/// Memory of a pair at a slice of a known place, in bytes.
-const PER_CONTACT: usize = 48;
 
 impl<'a> Springs<'a> {
     /// The places for motions at this speed along the line of action and above.
@@ -67,7 +63,8 @@ impl<'a> Springs<'a> {
         let mesh = &face.mesh;
         let frequency = (STIFFER * mesh.mean_stiffness() / settings.mass).sqrt();
         let least = if face.inputs.slices.is_none() { OF_SLICES } else { 0.0 };
-        let turn = (SHARE * settings.tolerance.max(least)).powf(0.25).min(COARSEST);
+        let tolerance = settings.tolerance.max(least);
+        let turn = (SHARE * tolerance).powf(0.25).min(COARSEST);
         let step = turn / frequency * speed;
         let step = step.min(mesh.base_pitch / LEAST);
         let borders = mesh.borders(0.0, mesh.base_pitch);
@@ -78,8 +75,11 @@ impl<'a> Springs<'a> {
         Springs {
             face,
             parts: borders.windows(2).map(part).collect(),
-            places: RefCell::default(),
+            points: RefCell::default(),
             near: RefCell::default(),
+            precision: (0.01 * tolerance).max(PRECISE),
+            // The stiffness changes by less than itself over the deflection.
+            reach: (2.0 * tolerance).sqrt() * mesh.force / mesh.mean_stiffness(),
             solves: Cell::default(),
         }
     }
@@ -91,44 +91,30 @@ impl<'a> Springs<'a> {
         (pitches, incoming): (i32, Incoming),
         displacement: f64,
     ) -> Result<[f64; 2], Refusal> {
-        /// Bounds the memory of slow motions and of many slices, in bytes.
-        const MOST: usize = 12 << 20;
-        let mut places = self.places.borrow_mut();
-        let of_place = self.near.borrow().as_ref().map_or(0, |near| near.leads.len() * PER_CONTACT);
-        if places.len() * of_place >= MOST && !places.contains_key(&place.to_bits()) {
-            places.clear();
+        let (mesh, mut points) = (&self.face.mesh, self.points.borrow_mut());
+        let path = place + f64::from(pitches) * mesh.base_pitch;
+        let (from, to) = (mesh.ends().0 - self.face.reach, mesh.ends().1 + self.face.reach);
+        let deviates = incoming != Incoming::Alike && path >= from && path <= to;
+        let deviating = deviates.then_some(pitches);
+        let known = points.entry((place.to_bits(), deviating)).or_default();
+        let is_known = |point: &&Point| (displacement - point.displacement).abs() <= point.reach;
+        if let Some(point) = known.iter().rev().find(is_known) {
+            let way = displacement - point.displacement;
+            let force = point.force + (point.stiffness + 0.5 * point.bend * way) * way;
+            return Ok([force, point.stiffness + point.bend * way]);
         }
-        let place = match places.entry(place.to_bits()) {
-            std::collections::hash_map::Entry::Occupied(known) => known.into_mut(),
-            std::collections::hash_map::Entry::Vacant(new) => {
-                new.insert(Place { position: self.face.position(place), lines: Vec::new() })
-            }
-        };
-        let is_alike = incoming == Incoming::Alike || place.position.index(pitches).is_none();
-        let deviating = (!is_alike).then_some(pitches);
-        let serves = |(of, line): &&(Option<i32>, Line)| {
-            *of == deviating && displacement >= line.alike.0 && displacement <= line.alike.1
-        };
-        let line = if let Some((_, line)) = place.lines.iter().rev().find(serves) {
-            *line
-        } else {
-            self.solves.set(self.solves.get() + 1);
-            let mut near = self.near.borrow_mut();
-            let until = Until::Displacement(displacement);
-            let loads = if let Some(pair) = deviating {
-                let mut position = place.position.clone();
-                incoming.change(&mut position, pair);
-                position.loads(until, near.as_ref())?
-            } else {
-                place.position.loads(until, near.as_ref())?
-            };
-            let Loads { alike, displacement, force, stiffness, .. } = loads;
-            *near = Some(loads);
-            let line = Line { alike, displacement, force, stiffness };
-            place.lines.push((deviating, line));
-            line
-        };
-        Ok([line.force + line.stiffness * (displacement - line.displacement), line.stiffness])
+        self.solves.set(self.solves.get() + 1);
+        let mut position = self.face.position(place);
+        if deviates {
+            incoming.change(&mut position, pitches);
+        }
+        let mut near = self.near.borrow_mut();
+        let loads =
+            position.loads(Until::Displacement(displacement), near.as_ref(), self.precision)?;
+        let Loads { force, stiffness, bend, smooth, .. } = loads;
+        *near = Some(loads);
+        known.push(Point { displacement, force, stiffness, bend, reach: smooth.min(self.reach) });
+        Ok([force, stiffness])
     }
 }
 
@@ -249,7 +235,7 @@ impl<'a, 'b> Motion<'a, 'b> {
         let face = self.springs.face;
         let mut position = face.position(0.0);
         self.incoming.change(&mut position, pitches);
-        let loads = position.loads(Until::Force(face.mesh.force), None)?;
+        let loads = position.loads(Until::Force(face.mesh.force), None, PRECISE)?;
         if loads.displacement.is_finite() {
             return Ok(State::new(loads.displacement, 0.0));
         }
@@ -309,7 +295,7 @@ impl<'a, 'b> Motion<'a, 'b> {
 /// me x'' + c x' + ∫ Σ w_k p_k(x, s) dz = F0,   s' = ω1 rb1,   1/me = rb1²/J1 + rb2²/J2
 /// c = 2 ζ √(k me) while a pair is in contact, otherwise 0;   k the mean stiffness of the mesh
 /// ```
-/// p_k(x, s) are the line loads of [`Position::loads`] at a given displacement: the slices have no mass
+/// p_k(x, s) are the line loads of [`Face::loads`] at a given displacement: the slices have no mass
 /// of their own.
 ///
 /// # Source
