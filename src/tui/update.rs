@@ -111,7 +111,7 @@ const LEAVING: &str = "no running work and no unsaved edits: press Ctrl-C again 
 /// Handles a letter that is no command of the table: it presses a button, or is text.
 fn type_letter(app: &mut App, letter: char) {
     let Some(Prompt::Ask(question)) = app.prompts.last() else {
-        return edit::insert(app, letter);
+        return edit::insert(app, letter, commands::at_letter(letter));
     };
     if let Some(change) = question.by_letter(letter) {
         change.apply(app);

@@ -3,7 +3,6 @@
 
 use tui_input::InputRequest;
 
-use super::commands;
 use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::{Case, FIELDS, Field, Limit, changes};
 use crate::model::Quantity;
@@ -23,8 +22,8 @@ use crate::tui::text::{self, Line};
 /// Greatest length of a text; a longer one is not a value, title or path.
 const LONGEST: usize = 4096;
 
-/// Inserts a typed character.
-pub(super) fn insert(app: &mut App, letter: char) {
+/// Inserts a typed character, which outside a field is the command `outside`.
+pub(super) fn insert(app: &mut App, letter: char, outside: Option<&str>) {
     if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
         return choose_by_letter(app, letter);
     }
@@ -32,7 +31,7 @@ pub(super) fn insert(app: &mut App, letter: char) {
     let row = rows::field(&app.tab.case, app.tab.form.focus);
     let is_value =
         row.is_some_and(|field| !matches!(field.kind, Kind::Text) && !field.takes_auto());
-    let outside = commands::at_letter(letter).filter(|_| is_value);
+    let outside = outside.filter(|_| is_value);
     let is_announced = app.starts_new_edit() && (letter.is_ascii_digit() || outside.is_some());
     // Space completes the name of a distribution.
     let rest = Some(rest_of_shape(app)).filter(|_| letter == ' ').flatten();
