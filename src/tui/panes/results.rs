@@ -375,6 +375,8 @@ struct Column {
     least: usize,
     heading: String,
     cells: Vec<String>,
+    /// The width of a column that is wider than its cells.
+    room: usize,
     alignment: Alignment,
     /// The styles of the heading and of the cells.
     styles: [Style; 2],
@@ -388,17 +390,17 @@ const UNITS: usize = 2;
 impl Column {
     fn words(rank: usize, least: usize, cells: Vec<String>, style: Style) -> Column {
         let (heading, alignment) = (String::new(), Alignment::Left);
-        Column { rank, least, heading, cells, alignment, styles: [style; 2] }
+        Column { rank, least, heading, cells, room: 0, alignment, styles: [style; 2] }
     }
 
     fn numbers(rank: usize, heading: String, cells: Vec<String>, styles: [Style; 2]) -> Column {
         let (least, alignment) = (usize::MAX, Alignment::Right);
-        Column { rank, least, heading, cells, alignment, styles }
+        Column { rank, least, heading, cells, room: 0, alignment, styles }
     }
 
     fn width(&self) -> usize {
         let texts = self.cells.iter().chain([&self.heading]);
-        texts.map(|text| text.width()).max().unwrap_or(0)
+        texts.map(|text| text.width()).max().unwrap_or(0).max(self.room)
     }
 }
 
@@ -496,10 +498,22 @@ pub(crate) fn compared(pane: &Results<'_>, quantity: &'static Quantity) -> Optio
     Some(format!("{own}; baseline{whose}: {}.", printed(base)))
 }
 
-/// The columns of the visible rows that fit, each after a blank.
+/// The columns of the visible rows that fit, each after a blank. Units need the room of the visible
+/// rows alone, other columns that of all rows, so that they do not move; variants need all the room.
 fn fitting(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
-    let visible = order(pane, answer).into_iter().skip(pane.state.top).take(rows);
-    let mut columns = columns(pane, answer, &visible.collect::<Vec<_>>());
+    let mut columns = columns(pane, answer);
+    for column in &mut columns {
+        let of_all = column.width();
+        column.cells = column.cells.iter().skip(pane.state.top).take(rows).cloned().collect();
+        column.room = match pane.variants {
+            Some(_) => 0,
+            None if column.rank == UNITS => {
+                let unit = |cell: &String| cell.trim_end_matches([' ', '←', '!']).width();
+                column.cells.iter().map(unit).max().unwrap_or(0) + 1 + CHANGED.width()
+            }
+            None => of_all,
+        };
+    }
     loop {
         let taken: usize = columns.iter().map(|column| column.width() + 1).sum();
         let over = taken.saturating_sub(pane.area.width.into());
@@ -519,14 +533,15 @@ fn fitting(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
                 text::cut(stripped.unwrap_or(cell), room)
             };
             columns[at].cells.iter_mut().for_each(|cell| *cell = short(cell));
+            columns[at].room = room;
         } else {
             columns.remove(at);
         }
     }
 }
 
-fn columns(pane: &Results<'_>, answer: &Answer, known: &[&'static Quantity]) -> Vec<Column> {
-    let (theme, active) = (pane.look.theme, answer.active);
+fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
+    let (theme, active, known) = (pane.look.theme, answer.active, order(pane, answer));
     // Results of `static` are among the rows of `dynamic`.
     let shows_others = pane.shows_every_method && pane.variants.is_none();
     let is_shown = |method: Method| {
