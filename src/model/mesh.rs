@@ -219,12 +219,16 @@ impl Mesh {
         self.zones.partition_point(|zone| zone.to < at).min(self.zones.len() - 1)
     }
 
+    /// The places of a pair at which it passes into another zone.
+    pub(super) fn edges(&self) -> impl Iterator<Item = f64> + Clone {
+        self.zones.iter().map(|zone| zone.from).chain(self.zones.last().map(|zone| zone.to))
+    }
+
     /// The places of the incoming pair from `from` to `to` at which a pair passes into another
     /// zone. Between two of them all functions of the mesh are smooth.
     pub fn borders(&self, from: f64, to: f64) -> Vec<f64> {
-        let edges =
-            self.zones.iter().map(|zone| zone.from).chain(self.zones.last().map(|zone| zone.to));
-        let mut found: Vec<f64> = edges
+        let mut found: Vec<f64> = self
+            .edges()
             .flat_map(|edge| {
                 let first = ((from - edge) / self.base_pitch).ceil() as i64;
                 let last = ((to - edge) / self.base_pitch).floor() as i64;

@@ -17,6 +17,8 @@ pub struct Loads {
     pub pairs: usize,
     /// Displacement of the driver ahead x, in m.
     pub displacement: f64,
+    /// Deviation of the incoming pair, in m.
+    error: f64,
     /// Line load of each pair in the middle of each slice, slice by slice, in N/m.
     pub line_loads: Vec<f64>,
     /// Its mean over each slice, in N/m.
@@ -80,9 +82,10 @@ impl Loads {
     }
 }
 
-/// Usual precision of a balance: that of its greatest line load. A slice has a small part of the load, so
-/// that force and displacement are more precise.
-pub(super) const PRECISE: f64 = 1e-8;
+/// Usual precision of a balance: that of a lead over the displacement. A slice has a small part of the
+/// load, so that force and displacement are more precise. Searches compare loads at places beside
+/// each other.
+pub(super) const PRECISE: f64 = 1e-11;
 
 /// What ends the search for a balance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -296,18 +299,20 @@ impl Face {
         let z = (path - loads.s - f64::from(ahead) * self.mesh.base_pitch) / self.inputs.lead;
         let after = self.slices.partition_point(|slice| slice.z < z);
         let before = after.checked_sub(1).filter(|_| after < self.slices.len())?;
-        // Gap plus deflection by the pair itself is smooth along the face.
-        let free = |number: usize| {
+        let ahead_of = loads.displacement + if ahead == 0 { loads.error } else { 0.0 };
+        // The displacement of the teeth by other loads, over √q_t, is smooth along the face.
+        let teeth = |number: usize| {
             let (at, slice) = (number * loads.pairs + pair, &self.slices[number]);
             let path = self.path(loads, ahead, number) - slice.ahead;
             let (contact, _) = self.contact(slice, path, None);
-            loads.leads[at] + contact.gap + self.own(&contact) * loads.line_loads[at]
+            let own = loads.leads[at] + self.own(&contact) * loads.line_loads[at];
+            if contact.root > 0.0 { (ahead_of - contact.gap - own) / contact.root } else { 0.0 }
         };
-        let [one, other] = [before, after].map(free);
+        let [one, other] = [before, after].map(teeth);
         let part = (z - self.slices[before].z) / self.slices[before].step;
         let slice = Slice::at(&self.inputs, z);
         let (contact, _) = self.contact(&slice, path - slice.ahead, None);
-        let lead = one + part * (other - one) - contact.gap;
+        let lead = ahead_of - contact.gap - contact.root * (one + part * (other - one));
         Some((lead, contact.local + self.own(&contact), z))
     }
 
@@ -463,18 +468,21 @@ impl Position<'_> {
                 smooth = f64::min(smooth, (means[at].abs() - half).abs() / lines[at][0].abs());
             }
         }
-        let of_contacts = means.iter().zip(&self.contacts);
-        let leads = of_contacts.clone().map(|(mean, of)| {
-            if of.gap < f64::INFINITY { mean + (of.mean - of.gap) } else { f64::NEG_INFINITY }
-        });
-        let leads: Vec<f64> = leads.collect();
-        let loaded = leads.iter().zip(&self.contacts);
-        let loaded =
-            loaded.map(|(lead, of)| if of.can_carry { lead.max(0.0) / of.local } else { 0.0 });
-        let mean_loads = of_contacts.zip(&carried).map(|((mean, of), carried)| {
-            if carried.touches() { carried.mean(*mean) / of.local } else { 0.0 }
-        });
-        let (line_loads, mean_loads) = (loaded.collect(), mean_loads.collect());
+        let (mut leads, mut line_loads) = (means.clone(), vec![0.0; count]);
+        let mut mean_loads = line_loads.clone();
+        let known = self.contacts.iter().enumerate().filter(|(_, of)| of.gap < f64::INFINITY);
+        for (at, of) in known {
+            if carried[at].touches() {
+                mean_loads[at] = carried[at].mean(means[at]) / of.local;
+            }
+            let own = self.face.own(of);
+            // The middle of a slice alone deflects under its own load, not under the mean.
+            let lead = means[at] + (of.mean - of.gap) + own * mean_loads[at];
+            leads[at] = if lead > 0.0 { lead * of.local / (of.local + own) } else { lead };
+            if of.can_carry {
+                line_loads[at] = leads[at].max(0.0) / of.local;
+            }
+        }
         let most = displacement - self.face.least_gap + self.error.max(0.0);
         self.face.mesh.check_reach(most)?;
         Ok(Loads {
@@ -482,6 +490,7 @@ impl Position<'_> {
             first: self.first,
             pairs: self.pairs,
             displacement,
+            error: self.error,
             line_loads,
             mean_loads,
             leads,

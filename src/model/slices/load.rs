@@ -20,6 +20,9 @@ pub(super) const PRECISION: (f64, f64) = (1e-6, 1e-9);
 /// Number of places in a base pitch at which the load is solved.
 const STEPS: usize = 64;
 
+/// Distance from an end of a part, of the path of contact.
+const INSIDE: f64 = 1e-9;
+
 /// A place of contact on the face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FacePlace {
@@ -82,7 +85,6 @@ enum Part {
 impl Part {
     /// A place just inside the end of the part at the path of contact, in m.
     fn border(self, length: f64) -> Option<f64> {
-        const INSIDE: f64 = 1e-9;
         match self {
             Part::All => None,
             Part::BeforeStart => Some(-INSIDE * length),
@@ -114,18 +116,24 @@ impl Face {
                 best = LinePeak { line_load, place };
             }
         };
+        let (length, edges) = (self.mesh.length, self.mesh.edges());
         for ahead in pairs {
             for (number, slice) in self.slices.iter().enumerate() {
                 let path = self.path(loads, ahead, number);
-                if part.has(path, self.mesh.length) {
+                let [one, other] = slice.borders.map(|border| path - slice.ahead + border);
+                let has_edge = edges.clone().any(|edge| (edge - one) * (edge - other) < 0.0);
+                if part.has(path, length) && !has_edge {
                     include(loads.at(ahead, number), FacePlace { z: slice.z, path });
                 }
             }
-            // The load rises up to the end of the part, which is between two slices.
-            if let Some(path) = part.border(self.mesh.length)
-                && let Some((line_load, z)) = self.load_at(loads, ahead, path)
-            {
-                include(line_load, FacePlace { z, path });
+            // The load has bends and jumps where functions of the mesh have them, between two slices.
+            for edge in edges.clone() {
+                for path in [edge - INSIDE * length, edge + INSIDE * length] {
+                    let known = self.load_at(loads, ahead, path);
+                    if let Some((line_load, z)) = known.filter(|_| part.has(path, length)) {
+                        include(line_load, FacePlace { z, path });
+                    }
+                }
             }
         }
         best
@@ -187,7 +195,13 @@ impl Face {
     /// # Errors
     /// Those of [`Face::loads`].
     pub fn cycle(&self) -> Result<(FaceCycle, StaticSpectrum), Refusal> {
-        let (pitch, steps) = (self.mesh.base_pitch, STEPS);
+        /// Places without an overlap, and the overlap ratio from which the usual number is enough: the
+        /// bends of the displacement are spread over the overlap.
+        const MOST: f64 = 256.0;
+        const ENOUGH: f64 = 0.25;
+        let pitch = self.mesh.base_pitch;
+        let overlap = 2.0 * self.reach / pitch;
+        let steps = (STEPS as f64 * ENOUGH / overlap).clamp(STEPS as f64, MOST) as usize;
         let passage = Passage::new(self, None, Incoming::Alike);
         let place = |number: usize| pitch * number as f64 / steps as f64;
         let period = passage.samples(&(0..=steps).map(place).collect::<Vec<_>>())?;
