@@ -298,7 +298,11 @@ impl Face {
         let pair = loads.index(ahead)?;
         let z = (path - loads.s - f64::from(ahead) * self.mesh.base_pitch) / self.inputs.lead;
         let after = self.slices.partition_point(|slice| slice.z < z);
-        let before = after.checked_sub(1).filter(|_| after < self.slices.len())?;
+        // An end of the face counts as on it, whatever the rounding.
+        if !(z.abs() <= 0.5 * self.inputs.width * (1.0 + 1e-9)) {
+            return None;
+        }
+        let before = after.clamp(1, self.slices.len() - 1) - 1;
         let ahead_of = loads.displacement + if ahead == 0 { loads.error } else { 0.0 };
         // The displacement of the teeth by other loads, over √q_t, is smooth along the face.
         let teeth = |number: usize| {
@@ -308,7 +312,7 @@ impl Face {
             let own = loads.leads[at] + self.own(&contact) * loads.line_loads[at];
             if contact.root > 0.0 { (ahead_of - contact.gap - own) / contact.root } else { 0.0 }
         };
-        let [one, other] = [before, after].map(teeth);
+        let [one, other] = [before, before + 1].map(teeth);
         let part = (z - self.slices[before].z) / self.slices[before].step;
         let slice = Slice::at(&self.inputs, z);
         let (contact, _) = self.contact(&slice, path - slice.ahead, None);

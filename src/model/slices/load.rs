@@ -122,8 +122,13 @@ impl Face {
                 let path = self.path(loads, ahead, number);
                 let [one, other] = slice.borders.map(|border| path - slice.ahead + border);
                 let has_edge = edges.clone().any(|edge| (edge - one) * (edge - other) < 0.0);
-                if part.has(path, length) && !has_edge {
-                    include(loads.at(ahead, number), FacePlace { z: slice.z, path });
+                let load = if has_edge {
+                    self.load_at(loads, ahead, path).map(|(load, _)| load)
+                } else {
+                    Some(self.top(loads, ahead, number))
+                };
+                if let Some(load) = load.filter(|_| part.has(path, length)) {
+                    include(load, FacePlace { z: slice.z, path });
                 }
             }
             // The load has bends and jumps where functions of the mesh have them, between two slices.
@@ -137,6 +142,19 @@ impl Face {
             }
         }
         best
+    }
+
+    /// The line load at a slice, and above two smaller neighbours that of the parabola through them: the
+    /// greatest one between two slices.
+    fn top(&self, loads: &Loads, ahead: i32, slice: usize) -> f64 {
+        let here = loads.at(ahead, slice);
+        if slice == 0 || slice + 1 == self.slices.len() {
+            return here;
+        }
+        let [before, after] = [slice - 1, slice + 1].map(|beside| loads.at(ahead, beside));
+        let bend = before - 2.0 * here + after;
+        let is_top = before.min(after) > 0.0 && before.max(after) <= here && bend < 0.0;
+        if is_top { here - (after - before).powi(2) / (8.0 * bend) } else { here }
     }
 
     /// How far before E the incoming tooth touches, in the plane where this is farthest, in m.
