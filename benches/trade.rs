@@ -65,7 +65,10 @@ fn main() {
         models.map(|models| Setting::of_method(method, Some(models))).collect::<Vec<_>>()
     });
     let auto = Setting::all(&usual).into_iter().find(|one| one.models.is_none());
-    let over_face = Setting::all(&inputs(&HELICAL[5]));
+    let over_face: Vec<Setting> = Setting::all(&inputs(&HELICAL[5]))
+        .into_iter()
+        .filter(|one| is_usual_contact(one))
+        .collect();
     let table_of = |settings: &[Setting], trades, subjects: [(&str, Subject); 3]| {
         let names = subjects.map(|(name, _)| name).join(" | ");
         let rows = settings.iter().filter_map(|setting| row(setting, trades, subjects));
