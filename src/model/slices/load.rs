@@ -117,12 +117,16 @@ impl Face {
             }
         };
         let (length, edges) = (self.mesh.length, self.mesh.edges());
+        // A part can have its greatest load just beside its end.
+        let step = self.slices.first().map_or(0.0, |slice| slice.step * self.inputs.lead);
         for ahead in pairs {
             for (number, slice) in self.slices.iter().enumerate() {
                 let path = self.path(loads, ahead, number);
                 let [one, other] = slice.borders.map(|border| path - slice.ahead + border);
                 let has_edge = edges.clone().any(|edge| (edge - one) * (edge - other) < 0.0);
-                let load = if has_edge {
+                let load = if has_edge && part != Part::All {
+                    None
+                } else if has_edge {
                     self.load_at(loads, ahead, path).map(|(load, _)| load)
                 } else {
                     Some(self.top(loads, ahead, number))
@@ -133,7 +137,11 @@ impl Face {
             }
             // The load has bends and jumps where functions of the mesh have them, between two slices.
             for edge in edges.clone() {
-                for path in [edge - INSIDE * length, edge + INSIDE * length] {
+                let beside = |part: f64| part * step;
+                let beside = [INSIDE * length, beside(0.125), beside(0.25), beside(0.5)];
+                let count = if part == Part::All { 1 } else { beside.len() };
+                let beside = beside.into_iter().take(count);
+                for path in beside.flat_map(|beside| [edge - beside, edge + beside]) {
                     let known = self.load_at(loads, ahead, path);
                     if let Some((line_load, z)) = known.filter(|_| part.has(path, length)) {
                         include(line_load, FacePlace { z, path });
