@@ -58,17 +58,18 @@ fn main() {
     let traded = |pairs: &[Pair]| pairs.iter().map(measured).collect::<Vec<_>>();
     let (spur, helical) = (traded(&SPUR), traded(&HELICAL));
     let usual = inputs(&SPUR[10]);
+    let is_usual_contact = |setting: &Setting| {
+        let contact = setting.models.and_then(|models| models.contact);
+        contact.is_none_or(|contact| contact == usual.contact_compliance)
+    };
     let methods = METHODS.map(|method| {
-        let models = StiffnessModels::covering(&usual).filter(|models| {
-            models.contact.is_none_or(|contact| contact == usual.contact_compliance)
-        });
-        models.map(|models| Setting::of_method(method, Some(models))).collect::<Vec<_>>()
+        let models = StiffnessModels::covering(&usual);
+        let settings = models.map(|models| Setting::of_method(method, Some(models)));
+        settings.filter(is_usual_contact).collect::<Vec<_>>()
     });
     let auto = Setting::all(&usual).into_iter().find(|one| one.models.is_none());
-    let over_face: Vec<Setting> = Setting::all(&inputs(&HELICAL[5]))
-        .into_iter()
-        .filter(|one| is_usual_contact(one))
-        .collect();
+    let over_face: Vec<Setting> =
+        Setting::all(&inputs(&HELICAL[5])).into_iter().filter(is_usual_contact).collect();
     let table_of = |settings: &[Setting], trades, subjects: [(&str, Subject); 3]| {
         let names = subjects.map(|(name, _)| name).join(" | ");
         let rows = settings.iter().filter_map(|setting| row(setting, trades, subjects));
