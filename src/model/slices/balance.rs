@@ -298,8 +298,8 @@ impl Face {
         let pair = loads.index(ahead)?;
         let z = (path - loads.s - f64::from(ahead) * self.mesh.base_pitch) / self.inputs.lead;
         let after = self.slices.partition_point(|slice| slice.z < z);
-        // An end of the face counts as on it, whatever the rounding.
-        if !(z.abs() <= 0.5 * self.inputs.width * (1.0 + 1e-9)) {
+        // An end of the face counts as on it, whatever the rounding; without a lead z is no number.
+        if z.is_nan() || z.abs() > 0.5 * self.inputs.width * (1.0 + 1e-9) {
             return None;
         }
         let before = after.clamp(1, self.slices.len() - 1) - 1;
@@ -423,6 +423,8 @@ impl Position<'_> {
     ) -> Result<Loads, Refusal> {
         const CORRECTIONS: usize = 40;
         const ONE_BY_ONE: usize = 400;
+        /// Of the displacement: in a slice with a smaller lead of its borders, contact begins suddenly.
+        const SUDDEN: f64 = 0.01;
         let (mut carried, mut displacement) = self.first_guess(until, near);
         let count = self.contacts.len();
         let (mut lines, mut sums) = (vec![[1.0, 0.0]; count], [0.0; 2]);
@@ -460,8 +462,6 @@ impl Position<'_> {
                 }
             }
         }
-        /// Of the displacement: in a slice with a smaller lead of its borders, contact begins suddenly.
-        const SUDDEN: f64 = 0.01;
         let (mut bend, mut smooth) = (0.0, f64::INFINITY);
         for (at, (width, of)) in self.of_slices().enumerate().filter(|(_, (_, of))| of.can_carry) {
             let half = self.half(&means, at, of);

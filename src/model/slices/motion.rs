@@ -26,8 +26,8 @@ pub(in crate::model) struct Springs<'a> {
     face: &'a Face,
     /// The parts of a base pitch between borders of the mesh, with their number of steps.
     parts: Vec<(f64, f64, u32)>,
-    /// The known points of the force over the displacement, by place and by the pair that deviates.
-    points: RefCell<HashMap<(u64, Option<i32>), Vec<Point>>>,
+    /// The known points of the force over the displacement.
+    points: RefCell<HashMap<Place, Vec<Point>>>,
     /// The loads computed last, whose slices are likely to touch again.
     near: RefCell<Option<Loads>>,
     /// Precision of the balances.
@@ -36,6 +36,9 @@ pub(in crate::model) struct Springs<'a> {
     reach: f64,
     solves: Cell<u64>,
 }
+
+/// The bits of a place, and the pair that deviates.
+type Place = (u64, Option<i32>);
 
 /// The force at a displacement, and how far it is known about it.
 #[derive(Debug, Clone, Copy)]
