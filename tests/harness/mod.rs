@@ -299,14 +299,18 @@ impl Desk {
     /// Checks that the screen has every text.
     #[track_caller]
     pub(crate) fn has(&self, texts: &[&str]) -> &Desk {
-        texts.iter().for_each(|text| self.assert_at(text, self.shows(text)));
+        for text in texts {
+            self.assert_at(text, self.shows(text));
+        }
         self
     }
 
     /// Checks that the screen has none of the texts.
     #[track_caller]
     pub(crate) fn lacks(&self, texts: &[&str]) -> &Desk {
-        texts.iter().for_each(|text| self.assert_at(text, !self.shows(text)));
+        for text in texts {
+            self.assert_at(text, !self.shows(text));
+        }
         self
     }
 
