@@ -188,7 +188,7 @@ fn marks(name: &str, settings: &[Setting], trades: &[Trade]) -> Series {
         };
         let (error, ..) = median(all().filter_map(MeasuredSetting::total).collect())?;
         let solved = all().filter(|one| one.found.is_ok());
-        let (seconds, ..) = median(solved.map(|one| one.seconds()).collect())?;
+        let (seconds, ..) = median(solved.map(MeasuredSetting::seconds).collect())?;
         Some((seconds.log10(), plotted_error(error).log10()))
     };
     let is_usual = |setting: &Setting| {

@@ -207,6 +207,39 @@ speed = \"100 rpm\" # crawling
 ";
 
 #[test]
+fn changed_variants_are_edited_in_place_and_keep_their_comments() {
+    let text = format!("{TABLE_1}{VARIANTS}");
+    let mut document = parsed(&text);
+    assert_eq!(document.render(), text);
+    let mut edited = document.case.clone();
+    for (key, value) in [
+        ("driven.tip_relief", "30 um"),
+        ("operation.speed", "700 rpm"),
+        ("operation.torque", "50 N m"),
+        ("limits.impact_force", "1 kN"),
+    ] {
+        edited.set(key, value).unwrap();
+    }
+    let variant = Variant::between("relieved", &document.case, &edited);
+    document.case.keep_variant(variant);
+    let expected = text
+        .replace("48 um\" # amount", "30 um\" # amount")
+        .replace("model.method = \"paper\"\n", "")
+        .replace(
+            "{ speed = \"500 rpm\" }\n",
+            "{ speed = \"700 rpm\" }\n\"operation.torque\" = \"50 N m\"\n\"limits.impact_force\" = \
+                \"1 kN\"\n",
+        );
+    assert_eq!(document.render(), expected);
+    assert_eq!(parsed(&document.render()).case, document.case);
+
+    document.case.variants.remove(0);
+    let slow = VARIANTS.split("\n\n").nth(1).unwrap();
+    assert!(document.render().contains(slow), "{}", document.render());
+    assert_eq!(parsed(&document.render()).case, document.case);
+}
+
+#[test]
 fn a_new_variant_is_appended_without_other_changes() {
     let mut document = parsed(TABLE_1);
     let mut edited = document.case.clone();
