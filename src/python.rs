@@ -1,6 +1,10 @@
 //! The native half of the Python package `python/tipstrike`: cases, solves and studies, with results as
 //! columns of bytes, JSON and text.
 #![allow(unsafe_code, reason = "the macros of PyO3 generate the interface of C")]
+#![allow(
+    clippy::needless_pass_by_value,
+    reason = "the macros of PyO3 hand arguments over by value"
+)]
 #![allow(missing_docs, reason = "python/tipstrike/__init__.pyi documents the package")]
 
 use std::cell::{Cell, RefCell};
@@ -136,13 +140,11 @@ fn columns(py: Python<'_>, table: &Table) -> PyResult<Vec<Column>> {
     let column = |(at, column): (usize, &TableColumn)| {
         let cells = || table.rows.iter().map(move |row| &row[at]);
         let name = (&*column.key, &*column.unit);
-        match cells().map(number).collect::<Option<Vec<f64>>>() {
-            Some(values) => Ok(numbers(py, name, values.into_iter())),
-            None => {
-                let texts = PyList::new(py, cells().map(TableCell::text))?;
-                Ok((name.0.to_owned(), name.1.to_owned(), texts.into_any().unbind()))
-            }
+        if let Some(values) = cells().map(number).collect::<Option<Vec<f64>>>() {
+            return Ok(numbers(py, name, values.into_iter()));
         }
+        let texts = PyList::new(py, cells().map(TableCell::text))?;
+        Ok((name.0.to_owned(), name.1.to_owned(), texts.into_any().unbind()))
     };
     table.columns.iter().enumerate().map(column).collect()
 }
@@ -210,13 +212,12 @@ impl Case {
     fn faulty(&self, problems: Vec<Problem>) -> PyErr {
         let placed = problems.into_iter().map(|problem| {
             let mut changes = self.changes.iter().rev();
-            let place = match changes.find(|(key, _)| *key == problem.field) {
-                Some((key, value)) => format!("{}, {key}={value}", self.name),
-                None => {
-                    let (line, column) = self.document.place(&problem.field);
-                    format!("{}:{line}:{column}", self.name)
-                }
-            };
+            let change = changes.find(|(key, _)| *key == problem.field);
+            let change = change.map(|(key, value)| format!("{}, {key}={value}", self.name));
+            let place = change.unwrap_or_else(|| {
+                let (line, column) = self.document.place(&problem.field);
+                format!("{}:{line}:{column}", self.name)
+            });
             (place, problem)
         });
         bad_case(placed.collect())

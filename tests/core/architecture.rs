@@ -104,7 +104,7 @@ impl Source {
 fn after<'a>(code: &'a str, word: &str) -> Vec<&'a str> {
     let is_whole = |at: usize| {
         let before = &code[..at];
-        !before.ends_with(is_word) && !(word.starts_with("super") && before.ends_with("super::"))
+        !(before.ends_with(is_word) || word.starts_with("super") && before.ends_with("super::"))
     };
     let places = code.match_indices(word).filter(|(at, _)| is_whole(*at));
     places.map(|(at, _)| &code[at + word.len()..]).collect()

@@ -182,7 +182,7 @@ fn every_command_of_the_palette_works_on_every_screen() {
         palette.keys(&["Esc", &number, ":"]);
         // A quarter of the commands in each pane beside the form, which runs all.
         let step = if pane == Pane::Form { 1 } else { 4 };
-        let first = usize::from(pane.number() % 4) % step;
+        let first = (pane.number() % 4) % step;
         for command in listed(&palette).into_iter().skip(first).step_by(step) {
             let mut desk = Desk::with(palette.app.clone());
             desk.act(Action::Paste(command.name.clone()));
