@@ -44,21 +44,9 @@ impl Slice {
         let ends = [0, 1].map(|gear| inputs.end_factor(gear, z));
         let none = [0.0; 2];
         let (ahead, gap) = (inputs.lead * z, inputs.gap(z));
-        let borders = [ahead; 2];
-        let (width, step, rise, mean_gap) = (0.0, 0.0, 0.0, gap);
-        Slice {
-            z,
-            width,
-            step,
-            exchange: none,
-            tail: none,
-            ahead,
-            borders,
-            gap,
-            mean_gap,
-            rise,
-            ends,
-        }
+        let (borders, mean_gap) = ([ahead; 2], gap);
+        let (width, step, rise, exchange, tail) = (0.0, 0.0, 0.0, none, none);
+        Slice { z, width, step, exchange, tail, ahead, borders, gap, mean_gap, rise, ends }
     }
 
     /// The slice from one place to another.

@@ -166,10 +166,7 @@ impl<'a> Page<'a> {
             let place = if is_first { &mut charts } else { &mut further };
             place.extend(drawn(picture));
         }
-        let page = Html { page: self, charts, further }.render()?;
-        // The case files stay as written.
-        let files = page.find("<h2>Case ").unwrap_or(page.len());
-        Ok(with_micro(&with_micro(&page[..files], "um"), "us") + &page[files..])
+        Html { page: self, charts, further }.render()
     }
 
     /// Renders Markdown, without charts.
@@ -271,22 +268,6 @@ impl PageCase<'_> {
         }
         address
     }
-}
-
-/// The text with µ in a unit such as um, as in the charts.
-fn with_micro(text: &str, unit: &str) -> String {
-    let mut parts = text.split(unit);
-    let mut found = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        // Behind a number or in a compound unit: um is a word in some languages.
-        let number = found.strip_suffix(' ').unwrap_or_default();
-        let is_behind = number.ends_with(|c: char| c.is_ascii_digit()) || number.ends_with("mm");
-        let is_unit = (is_behind || found.ends_with(['/', '(', '>']))
-            && !part.starts_with(char::is_alphanumeric);
-        found += &if is_unit { unit.replace('u', "µ") } else { unit.to_owned() };
-        found += part;
-    }
-    found
 }
 
 /// Columns of labels and symbols, then one of numbers for each header.

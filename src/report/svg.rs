@@ -165,7 +165,7 @@ fn frame(chart: &Chart, height: f64) -> String {
         (f64::midpoint(left, right), f64::midpoint(top, bottom), bottom + 42.0);
     let label = |axis: &Axis| match axis.unit.as_str() {
         "" => escaped(&axis.name),
-        unit => escaped(&format!("{}, {}", axis.name, unit.replace("um", "µm"))),
+        unit => escaped(&format!("{}, {unit}", axis.name)),
     };
     let (title, across, up) = (escaped(&chart.title), label(&chart.across), label(&chart.up));
     // A long label has smaller letters.

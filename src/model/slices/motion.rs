@@ -94,7 +94,12 @@ impl<'a> Springs<'a> {
         (pitches, incoming): (i32, Incoming),
         displacement: f64,
     ) -> Result<[f64; 2], Refusal> {
+        /// Bounds the memory of slow motions of few slices to some ten MB.
+        const MOST: usize = 100_000;
         let (mesh, mut points) = (&self.face.mesh, self.points.borrow_mut());
+        if points.len() >= MOST {
+            points.clear();
+        }
         let path = place + f64::from(pitches) * mesh.base_pitch;
         let (from, to) = (mesh.ends().0 - self.face.reach, mesh.ends().1 + self.face.reach);
         let deviates = incoming != Incoming::Alike && path >= from && path <= to;
