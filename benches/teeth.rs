@@ -1,8 +1,10 @@
 //! Time of one picture of the teeth: `cargo bench --bench teeth`.
+#![allow(clippy::print_stdout, reason = "a benchmark prints its results")]
+
+mod timing;
 
 use std::hint::black_box;
 
-use criterion::{Criterion, criterion_group, criterion_main};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
@@ -10,12 +12,11 @@ use tipstrike::case::Case;
 use tipstrike::model::{Stages, solve};
 use tipstrike::tui::testing::{Centre, Look, Picture, TeethView, teeth};
 
-fn pictures(criterion: &mut Criterion) {
+fn main() {
     let inputs =
         Case::table_1().inputs().unwrap_or_else(|_| unreachable!("the built-in case is valid"));
     let solution =
         solve(&inputs, Stages::ALL).unwrap_or_else(|_| unreachable!("the built-in case is solved"));
-    let mut group = criterion.benchmark_group("teeth at 200x60");
     for (name, centre, zoom) in [
         ("strike", Centre::Strike, 0),
         ("strike, close up", Centre::Strike, 10),
@@ -36,19 +37,9 @@ fn pictures(criterion: &mut Criterion) {
         };
         let area = Rect::new(0, 0, 200, 60);
         let mut buffer = Buffer::empty(area);
-        group.bench_function(name, |bencher| {
-            bencher.iter(|| {
-                buffer.reset();
-                teeth::draw(black_box(&picture), area, &mut buffer);
-            });
+        timing::time(&format!("teeth at 200x60/{name}"), || {
+            buffer.reset();
+            teeth::draw(black_box(&picture), area, &mut buffer);
         });
     }
-    group.finish();
 }
-
-criterion_group! {
-    name = benches;
-    config = Criterion::default().warm_up_time(std::time::Duration::from_millis(300)).measurement_time(std::time::Duration::from_secs(2));
-    targets = pictures
-}
-criterion_main!(benches);

@@ -28,74 +28,37 @@ fn changed(from: &str, to: &str) -> (tempfile::TempDir, String) {
     (folder, path)
 }
 
-/// Commands with a part of their pages; a part behind `!` is absent.
+/// Commands with a part of their pages; a part behind `!` is absent. The snapshots of `reports` have
+/// the whole text of a solve.
 #[test]
-#[expect(clippy::too_many_lines, reason = "a table")]
 fn pages_for_a_person() {
     let dynamic = "solve TABLE_1 --method dynamic";
     prints(&[
-        (
-            "solve TABLE_1",
-            &[
-                "Zhou & Chen 2014, Table 1 ",
-                "Corner contact 1.366 deg before E: impact force 2191.0 N (1.44 times the mesh force); 47.4 \
-             um of tip relief on the driven gear prevents it.",
-                "!paper 84.649 N",
-                "!the impact lasts",
-                "!Stations",
-                "!Free impact",
-            ],
-        ),
+        ("solve TABLE_1", &["47.4 um of tip relief on the driven gear prevents it.", "!Stations"]),
         ("solve TABLE_1 --stations 4", &["Stations from D to E"]),
         (
             "solve TABLE_1 --set 'deviations.base_pitch=0 um' --set 'model.deflection=0 um'",
             &["No corner contact: the tip clears the flank before E, Δ = 0 um"],
         ),
-        (
-            "check TABLE_1",
-            &[
-                "cases/zhou-chen-2014.toml: Corner contact 1.366 deg before E: impact force 2191.0 N (1.44 ",
-            ],
-        ),
         // A selected quantity without a value gives the reason.
         (
             "solve TABLE_1 --only F_d,max,F_S",
-            &[
-                " F_S impact force 2191.0 N",
-                " F_d,max has no value: method exact does not compute this quantity",
-            ],
+            &["impact force 2191.0 N", "no value: method exact does not compute this quantity"],
         ),
         (
             "solve TABLE_1 --only F_S --set 'driven.tip_relief=80 um'",
             &[" F_S has no value: no corner contact: "],
         ),
         // One method governs, and the others follow in a line.
-        (
-            dynamic,
-            &[
-                "up to 1410.8 N on the tip (0.93 times the mesh force), 2003.0 N on a tooth (1.31 times \
-             the force at rest); 38.9 um of tip relief on the driven gear prevents it.",
-                "Free-impact estimate with the given deflection: 2191.0 N, 1.366 deg before E.",
-                "!governs",
-            ],
-        ),
+        (dynamic, &["Free-impact estimate with the given deflection: 2191.0 N", "!governs"]),
         (
             "solve TABLE_1 --method dynamic --set 'driven.tip_relief=39 um'",
-            &[
-                "static and exact find corner contact; dynamic governs: the case selects it, and it \
-             includes inertia.",
-            ],
-        ),
-        (
-            "solve TABLE_1 --method dynamic --only F_d,max,F_st,E,Δf_0",
-            &["F_d,max dynamic: peak force", "F_st,E static: force at E", "Δf_0 error without"],
+            &["static and exact find corner contact; dynamic governs: the case selects it"],
         ),
         (
             "explain dynamic_peak_force TABLE_1 --method auto",
             &[
-                "method dynamic, chosen by auto",
                 "at most 1e-3 (chosen by auto for model.within = 0.05; model.tolerance = 1e-6 is not used)",
-                "model.within = ",
                 "!model.tolerance = 1e-6,",
             ],
         ),
@@ -103,37 +66,21 @@ fn pages_for_a_person() {
             "explain dynamic_peak_force TABLE_1 --method dynamic",
             &["at most model.tolerance = 1e-6"],
         ),
-        (
-            "explain impact_force",
-            &["impact force, F_S (Eq. 57) F_S = 2191.0 N ", "F_S = ΔV_n √(b M/q_s)"],
-        ),
+        ("explain impact_force", &["F_S = 2191.0 N ", "F_S = ΔV_n √(b M/q_s)"]),
         ("explain impact_force cases/tip-relief-enough.toml", &["No value: no corner contact"]),
-        (
-            "trade TABLE_1",
-            &[
-                "Reference: dynamic with finite-element, 4096 stations and tolerance 1e-12",
-                " Within 5.0 %: dynamic with",
-            ],
-        ),
+        ("explain impact_force TABLE_1 --method dynamic", &["This is the free impact; "]),
+        ("trade TABLE_1", &[" Within 5.0 %: dynamic with"]),
         ("fields", &["pair.module m mm 0.05..50 "]),
-        (
-            "fields --results",
-            &[
-                "impact_force ",
-                " `tipstrike explain KEY [CASE]` shows the formula of a quantity with the numbers of a case.",
-            ],
-        ),
+        ("fields --results", &["impact_force "]),
         ("man", &[".SH NAME tipstrike", ".SH \"EXIT STATUS\""]),
         ("man solve", &["stations"]),
         ("--version", &["tipstrike "]),
         ("--help", &["completions"]),
         ("solve --help", &["--only"]),
-        ("completions bash", &["tipstrike"]),
-        ("completions zsh", &["tipstrike"]),
-        ("completions fish", &["tipstrike"]),
-        ("completions elvish", &["tipstrike"]),
-        ("completions powershell", &["tipstrike"]),
     ]);
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        has(&page(&format!("completions {shell}")), &["tipstrike"]);
+    }
     assert!(page("fields").lines().all(|line| line.chars().count() <= 100));
     for (one, other) in [
         ("explain F_S", "explain impact_force"),
@@ -376,37 +323,6 @@ fn json_marks_the_quantities_of_the_free_impact() {
         for key in ["mesh_force", "total_deviation", "contact_ratio", "static_peak_force"] {
             assert_eq!(solved["quantities"][key]["of"], Value::Null, "{method} {key}");
         }
-    }
-}
-
-#[test]
-fn the_results_of_a_method_come_before_the_free_impact() {
-    for (method, label, first) in [
-        ("static", "static: driver angle", "static: force at E"),
-        ("dynamic", "dynamic: driver angle", "dynamic: peak before E"),
-        ("exact", "driver angle before E", ""),
-    ] {
-        let text = page(&format!("solve TABLE_1 --method {method}"));
-        let (_, rest) = text.split_once("Corner contact ").unwrap_or_else(|| panic!("{text}"));
-        let (angle, _) = rest.split_once(" before E").unwrap();
-        let row = text.lines().find(|line| line.contains(label)).unwrap();
-        assert!(row.contains(angle), "the angle of the verdict is a row of the table: {row}");
-        if first.is_empty() {
-            continue;
-        }
-        let (own, free) =
-            text.split_once("Free impact at D, closed form: first contact D").unwrap();
-        has(own, &[first]);
-        has(
-            free,
-            &[
-                "F_S      impact force",
-                "ok        impact_force 2011.2 N <= 2500 N (80 %) for the free impact. Method",
-            ],
-        );
-        let page = page(&format!("explain impact_force TABLE_1 --method {method}"));
-        has(&page, &["This is the free impact; ", "exact with the deflection that"]);
-        assert!(!page.contains(&format!("{method} 2011.2 N")), "{page}");
     }
 }
 

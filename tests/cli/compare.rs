@@ -116,20 +116,6 @@ fn cases_and_variants_are_compared_with_differences_and_units() {
 }
 
 #[test]
-fn an_input_without_a_symbol_has_its_label_where_labels_do_not_fit() {
-    let (_folder, case) = with(
-        "[variants.method]\nmodel.method = \"paper\"\n\
-        [variants.accurate]\nmodel.accurate = true\n\
-        [variants.tolerance]\nmodel.tolerance = 1e-5\n\
-        [variants.broad]\nspread.\"deviations.base_pitch\" = { truncated = \"1 um\" }\n",
-    );
-    let (code, text, _) = run(&["compare", &case]);
-    assert_eq!(code, 0);
-    let inputs = text.split("\n\n").find(|part| part.starts_with("Inputs")).unwrap();
-    has(inputs, &["\n  method ", "\n  accurate "]);
-}
-
-#[test]
 fn every_command_that_takes_a_case_takes_a_variant() {
     let (_folder, case) = case();
     let page = format!("{case}.md");

@@ -160,7 +160,7 @@ fn a_signal_ends_a_study_while_it_solves_or_writes_and_leaves_no_file() {
         format!("{} --ranking 0 --out {}", spread(folder.path()), out.path().join("out").display());
     // With so many samples it runs until a signal stops it.
     let shard = format!("{study} --samples 20000000 --shard 1/2");
-    let rows = format!("{study} --samples 1000000 --format csv");
+    let rows = format!("{study} --samples 300000 --format csv");
     let ends = |signals: &[&str], trap: &str, number: i32, study: &str| {
         let ended = stopped_by(signals, trap, study, out.path());
         assert_eq!(ended, Some(number), "{signals:?} {study}");

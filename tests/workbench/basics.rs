@@ -12,8 +12,8 @@ use tipstrike::model::compliance::ElasticGear;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Stage, Stages};
 use tipstrike::tui::testing::{
-    Action, Answer, App, CONTRAST, Effect, Item, Look, Origin, Pane, Prompt, Settings, Slot,
-    of_key, update, view,
+    Action, Answer, App, CONTRAST, Effect, Item, Look, Pane, Prompt, Settings, Slot, of_key,
+    update, view,
 };
 
 const TINY: Size = Size { width: 60, height: 16 };
@@ -99,23 +99,6 @@ fn the_palette_lists_commands_of_the_focused_pane_and_field_first() {
     assert_eq!(first(&desk), "driven.tip_relief");
     desk.assert_shows("Ca2 driven tip relief.");
     desk.keys(&["Ctrl-U", "unlikely words"]).assert_shows("No match.");
-}
-
-#[test]
-fn the_first_line_names_the_last_case_and_the_key_of_table_1() {
-    for (size, name) in
-        [(SMALL, "a case with a name that leaves no room for its title"), (LARGE, "pair")]
-    {
-        let mut desk = Desk::on(size, &format!("{name}.toml"), TABLE_1);
-        desk.app.tab.origin = Origin::LastCase;
-        let first = |desk: &Desk| desk.screen().lines().next().unwrap_or_default().to_owned();
-        desk.assert(first(&desk).contains("(last case; Alt-T: Table 1)"));
-        desk.keys(&["Alt-T"]);
-        desk.assert(first(&desk).starts_with("tipstrike  built-in Table 1"));
-    }
-    let mut desk = Desk::on(SMALL, "pair.toml", TABLE_1);
-    desk.lacks(&["last case"]);
-    desk.keys(&["Alt-T", "Ctrl-PageUp", "Alt-T"]).assert_shows("1 pair.toml [2 built-in Table 1]");
 }
 
 #[test]
@@ -438,12 +421,6 @@ fn the_mouse_is_off_by_default_and_then_selects() {
     assert!(!Settings::default().mouse);
     desk.keys(&["Ctrl-P", "mouse", "Enter"]);
     assert!(desk.has_mouse && desk.kept.is_some_and(|kept| kept.mouse));
-    desk.act(Action::Click(Position::new(10, 8)));
-    assert!(!desk.app.has_line() && desk.shows("α pressure angle, "));
-    desk.act(Action::Click(Position::new(10, 8)));
-    assert!(desk.app.has_line() && desk.shows("α pressure angle, "));
-    desk.act(Action::Click(Position::new(50, 10)));
-    assert_eq!(desk.app.layout.focus(), Pane::Results);
     desk.act(Action::Click(Position::new(8, 15)));
     assert!(desk.app.cursor.is_some_and(|cursor| (cursor.to_degrees() - 1.5).abs() < 1e-9));
     desk.act(Action::Wheel(Position::new(10, 7), 3));

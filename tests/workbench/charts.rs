@@ -202,35 +202,6 @@ fn a_growing_curve_is_marked_as_unfinished() {
 }
 
 #[test]
-fn the_title_of_a_chart_names_the_free_impact() {
-    for (method, is_free) in [("exact", false), ("static", true), ("dynamic", true)] {
-        let mut desk = at_method(SMALL, method);
-        for graph in GRAPHS {
-            let label = graph.label.to_lowercase();
-            let closed_form = ["impact energy", "driver contact radius"];
-            assert_eq!(
-                desk.shows(&format!("3 Free impact: {label} ")),
-                is_free && closed_form.contains(&label.as_str()),
-                "{}",
-                desk.screen()
-            );
-            desk.keys(&["j"]);
-        }
-    }
-}
-
-#[test]
-fn a_chart_names_the_methods_that_have_the_curve() {
-    let mut desk = at_method(SMALL, "exact");
-    desk.keys(&[":", "chart: load", "Enter"]);
-    desk.assert_shows("Method exact does not compute the load share; static and dynamic do.");
-    let mut desk = at_method(LARGE, "static");
-    desk.keys(&[":", "chart: impact", "Enter"]);
-    desk.assert_shows("Method static does not compute the impact energy; paper and exact do.");
-    assert!(desk.shows("∘"), "those of the others are drawn");
-}
-
-#[test]
 fn the_axis_ends_at_the_last_contact_for_static_and_dynamic() {
     for (method, ends) in [("exact", false), ("static", true), ("dynamic", true)] {
         let mut desk = at_method(SMALL, method);
@@ -260,21 +231,6 @@ fn the_cursor_moves_beyond_e_and_the_readout_shows_every_value() {
     let mut desk = at_method(SMALL, "static");
     desk.keys(&["Home", "LL"]);
     assert!(desk.shows(" N, exact "), "the readout has every visible curve\n{}", desk.screen());
-}
-
-#[test]
-fn a_click_moves_the_cursor_to_its_column() {
-    let mut desk = at_method(SMALL, "static");
-    let area = chart_area(&desk);
-    for x in [8, 9, 40, 78] {
-        desk.act(Action::Click(Position::new(x, area.y + 2)));
-        let axis = area.bottom() - 2;
-        assert_eq!(
-            desk.buffer(SMALL).cell((x, axis)).map(|cell| cell.symbol().to_owned()).as_deref(),
-            Some("▴"),
-            "{x}"
-        );
-    }
 }
 
 #[test]
@@ -711,17 +667,6 @@ fn the_mesh_stiffness_appears_as_soon_as_it_is_computed() {
     assert_eq!(drawn[1..], chart(&desk)[1..]);
 }
 
-#[test]
-fn a_chart_with_its_own_axes_has_a_cursor_of_its_own() {
-    let mut desk = at_method(SMALL, "exact");
-    desk.keys(&["k"]).assert_shows("N is the mesh frequency over");
-    desk.assert_shows("j next chart").lacks(&["Space play"]);
-    desk.keys(&["l", "L"]).has(&["speed of the driver", ": speed rising 1."]);
-    desk.keys(&["k", "l", "l"]).assert_shows("harmonic of the mesh frequency 2.000: at rest ");
-    desk.keys(&["c"]).assert_shows("The amplitude of each harmonic");
-    assert_eq!(desk.app.cursor, None);
-}
-
 /// The helical example with the contact pattern in the focused chart pane.
 fn pattern(size: Size, set: &[(&str, &str)]) -> Desk {
     let mut desk = Desk::on(size, "case.toml", include_str!("../../cases/helical-20-35.toml"));
@@ -788,4 +733,22 @@ fn the_curve_of_paper_is_drawn_on_request() {
     desk.lacks(&["· paper"]);
     desk.keys(&["f"]).assert_shows("· paper");
     assert!(at_method(SMALL, "paper").shows("⠒ paper"));
+}
+
+#[test]
+fn the_values_of_a_chart_at_the_cursor_have_one_unit() {
+    let hydro = include_str!("../../cases/hydro-speed-up.toml");
+    let dynamic = hydro.replace("method = \"exact\"", "method = \"dynamic\"");
+    let mut desk = Desk::on(LARGE, "case.toml", &dynamic);
+    desk.keys(&["Esc", "3", "Home"]);
+    for _ in 0..20 {
+        desk.keys(&["l"]);
+        let screen = desk.screen();
+        let line = screen.lines().rfind(|line| line.contains(" before E: "));
+        let (_, values) = line.and_then(|line| line.split_once(": ")).expect("a readout");
+        let forces = values.split(';').next().unwrap_or_default();
+        let units: Vec<bool> = forces.split(", ").map(|value| value.ends_with(" kN")).collect();
+        assert!(units.len() > 1, "{screen}");
+        assert!(units.iter().all(|unit| *unit == units[0]), "{line:?}");
+    }
 }

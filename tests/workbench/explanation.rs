@@ -123,14 +123,6 @@ fn a_refusal_and_an_invalid_value_are_explained_in_words() {
 }
 
 #[test]
-fn the_page_names_its_units() {
-    let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "2", "Enter"]).lacks(&["inch"]);
-    desk.keys(&["Esc", ":", "units", "Enter", "2", "Enter"]);
-    desk.assert_shows("492.56 lbf in inch units; this page is in metric ones.");
-}
-
-#[test]
 fn every_letter_of_every_page_has_its_like_in_ascii() {
     // Each page of a pair in slices takes a hundred times as long.
     let is_spur = |example: &&Example| example.document().case.inputs().unwrap().helix_angle == 0.0;

@@ -251,26 +251,6 @@ fn typing_replaces_the_value_and_a_move_keeps_it() {
 }
 
 #[test]
-fn the_first_digit_is_announced_with_the_keys_that_restore_the_value() {
-    for size in [SMALL, LARGE] {
-        let mut desk = Desk::new(size);
-        let before = desk.app.tab.case.clone();
-        desk.assert_shows("Esc 2 Results");
-        desk.keys(&["2"]);
-        let announced = "module: 2 replaces 5 mm. Ctrl-Z restores 5 mm; Esc 2 shows Results";
-        desk.assert_shows(announced);
-        desk.keys(&["Ctrl-Z"]);
-        assert_eq!(desk.app.tab.case, before);
-        desk.keys(&["n"])
-            .assert_shows("module: n replaces 5 mm. Ctrl-Z restores 5 mm; Esc n is notes");
-        desk.keys(&["Ctrl-Z"]);
-        assert_eq!(desk.app.tab.case, before);
-        desk.keys(&["Esc", "2"]).assert_shows("▸ 2 Results");
-        assert_eq!(desk.app.tab.case, before);
-    }
-}
-
-#[test]
 fn leaving_a_field_keeps_its_value() {
     for leave in ["Esc", "Enter", "Tab", "BackTab", "Down", "Up", "PageDown", "F9", "Ctrl-O"] {
         for (field, typed, text) in [
@@ -290,55 +270,6 @@ fn leaving_a_field_keeps_its_value() {
             assert_eq!(is_marked, text == "n", "{typed:?} {leave}");
         }
     }
-}
-
-#[test]
-fn keys_of_hints_work_from_a_field_also_while_work_runs() {
-    for runs in [false, true] {
-        let mut desk = Desk::new(SMALL);
-        let before = desk.app.tab.case.clone();
-        if runs {
-            desk.keys(&["Esc", "5"]).effects("m");
-            desk.keys(&["1", "Enter"]);
-        }
-        desk.assert_shows("notes (Esc n)");
-        desk.keys(&["Esc"]).assert_shows("notes (n)");
-        desk.keys(&["n"]).assert_shows("Outcome, limits, notes");
-        assert_eq!(desk.app.tab.case, before);
-    }
-    let mut desk = Desk::new(SMALL);
-    desk.keys(&["F5", "F5"]).assert_shows("No benchmark yet: Esc 5 m");
-    desk.keys(&["Esc"]).assert_shows("No benchmark yet: 5 m");
-    desk.keys(&["5"]).assert_shows("No benchmark yet: m runs");
-}
-
-#[test]
-fn a_choice_field_names_the_way_to_a_pane() {
-    let mut desk = Desk::new(SMALL);
-    desk.go_to("model.method").keys(&["3"]);
-    desk.assert_shows("no choice begins with 3. Esc leaves the field; then 3 shows Chart");
-}
-
-#[test]
-fn an_unbound_key_is_reported() {
-    for (pane, letter, expected) in [
-        ("1", "7", "7 is not a command in Form: Enter edits the field, ? lists the keys"),
-        ("2", "x", "x is not a command in Results: ? lists the keys"),
-        ("5", "Space", "Space is not a command in Trade: ? lists the keys"),
-    ] {
-        let mut desk = Desk::new(SMALL);
-        desk.keys(&["Esc", pane, letter]).assert_shows(expected);
-    }
-}
-
-#[test]
-fn undo_reports_the_reverted_edit() {
-    let mut desk = Desk::new(SMALL);
-    desk.go_to("driven.tip_relief").keys(&["48", "Esc", "u", "Ctrl-R"]);
-    desk.assert_shows("redo: driven tip relief: 0 um -> 48 um");
-    desk.keys(&["Alt-G", "18crnimo", "Enter", "u"]);
-    desk.has(&["undo: driven Young's modulus: ", "density: "]);
-    desk.keys(&["u", "Esc", "2", "Down", "Alt-L", "Esc", "u"]).assert_shows("undo: limit of ");
 }
 
 #[test]

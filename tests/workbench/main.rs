@@ -33,7 +33,6 @@ mod pointer;
 mod prompts;
 mod readme_session;
 mod relief_dialog;
-mod room;
 mod screens;
 mod study_pane;
 mod teeth;

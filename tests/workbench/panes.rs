@@ -2,7 +2,7 @@
 use crate::harness::{Desk, LARGE, SMALL, TABLE_1};
 
 use ratatui::layout::Size;
-use tipstrike::tui::testing::{Action, Answer};
+use tipstrike::tui::testing::Answer;
 
 const TINY: Size = Size { width: 60, height: 16 };
 
@@ -53,21 +53,6 @@ fn the_mark_in_the_results_stays_with_its_quantity() {
 }
 
 #[test]
-fn the_top_of_the_results_is_shown_without_a_selection() {
-    let mut desk = Desk::new(SMALL);
-    for (relief, first) in [("80 um", "Δ  "), ("0 um", "F_S  ")] {
-        desk.fill("driven.tip_relief", relief);
-        let screen = desk.screen();
-        let below_heading = screen
-            .lines()
-            .skip_while(|line| !line.contains("(Esc f)"))
-            .nth(1)
-            .expect("a first row");
-        assert!(below_heading.contains(first), "{screen}");
-    }
-}
-
-#[test]
 fn the_baseline_is_drawn_by_the_method_in_force() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Alt-B"])
@@ -100,35 +85,6 @@ fn the_free_impact_and_the_other_methods_are_folded_until_f_shows_them() {
     assert!(desk.app.results().listed().len() > folded);
     // A search for a folded result shows it.
     desk.keys(&["f", "/", "impact_duration", "Enter"]).assert_shows(" free: ");
-}
-
-#[test]
-fn the_verdict_in_motion_has_the_overall_peak_at_every_size() {
-    for (size, words) in [(TINY, "2003.0 N"), (SMALL, "2003.0 N"), (LARGE, "2003.0 N")] {
-        let mut desk = Desk::on(size, "case.toml", TABLE_1);
-        desk.keys(&["Ctrl-T", "Ctrl-T"]).assert_shows(words);
-        let is_unit_alone = |line: &str| {
-            ["N", "um", "deg"].contains(&line.split('│').nth(1).unwrap_or_default().trim())
-        };
-        desk.assert(!desk.screen().lines().any(is_unit_alone));
-    }
-}
-
-#[test]
-fn values_have_their_units_on_the_smallest_screen() {
-    let mut desk = Desk::new(TINY);
-    assert!(desk.shows("(no backlash)"), "the value has the room: {}", desk.screen());
-    desk.keys(&["Alt-B"]).fill("operation.speed", "1900 rpm").has(&["2081.0 N ←", "▸exact"]);
-}
-
-#[test]
-fn a_limit_with_a_long_name_keeps_symbol_value_and_verdict() {
-    let text = TABLE_1.replace("impact_force = \"2500 N\"", "dynamic_peak_force = \"2500 N\"");
-    let mut desk =
-        Desk::on(SMALL, "case.toml", &text.replace("method = \"exact\"", "method = \"dynamic\""));
-    desk.keys(&["Esc", "1", "G"]).has(&["▸ F_d,max dynamic:", " 2500 N"]);
-    desk.act(Action::Resize(Size::new(70, 24)));
-    desk.has(&["▸ F_d,max dyna", " 80 %"]);
 }
 
 #[test]

@@ -140,11 +140,3 @@ fn the_dialog_names_the_file_that_a_save_would_replace() {
     desk.keys(&["Esc", "Ctrl-U", harness::name(&desk.path("case.toml")), "Enter"]);
     assert!(desk.shows("saved "), "its own file is not asked about: {}", desk.screen());
 }
-
-#[test]
-fn typing_replaces_a_refused_angle() {
-    let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "a", "0,5", "Enter"]).assert_shows("write 0.5, not 0,5");
-    desk.keys(&["0.5", "Enter"]);
-    desk.assert(desk.app.prompts.is_empty() && desk.shows("0.5000 deg of the driver before E"));
-}

@@ -377,3 +377,14 @@ fn work_that_another_case_replaced_is_requested_again() {
         assert!(is_requested(desk.effects("Alt-1")), "{slot:?}: the other case replaced the work");
     }
 }
+
+#[test]
+fn with_inch_units_a_study_is_in_inches() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    desk.go_to("pair.module");
+    desk.keys(&["Esc", "6", ":", "units", "Enter"]).assert_shows("over module in in");
+    desk.assert_shows("m = 0.19685 in:");
+    desk.keys(&["l", "Enter"]);
+    let text = desk.app.tab.case.text(tipstrike::case::fields::index_of("pair.module").unwrap());
+    assert!(text.is_some_and(|text| text.ends_with(" in")), "{text:?}");
+}
