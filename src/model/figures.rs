@@ -457,6 +457,7 @@ mod tests {
     fn the_pressure_of_a_corner_needs_a_tip_radius_and_is_symmetric() {
         let mut inputs = standard_pair(20, 20, 5e-3);
         (inputs.driver.tip_radius, inputs.driven.tip_radius) = (Some(0.3e-3), Some(0.3e-3));
+        inputs.driven.face_width *= 2.0;
         let solution = solve(&inputs, Stages::of(Stage::Figures)).unwrap();
         let geometry = &solution.geometry;
         let angle = 0.02;
@@ -479,7 +480,12 @@ mod tests {
         let dynamic = |inputs: &Inputs| {
             solve(inputs, Stages::of(Stage::Figures)).unwrap().figures.unwrap().dynamic
         };
-        assert!(dynamic(&inputs).terms[2] < 1.0);
+        let relieved = dynamic(&inputs).terms[2];
+        assert!(relieved < 1.0);
+        // At the entry the tip of the driven gear meets the root of the driver.
+        (inputs.driver.root_relief, inputs.driven.tip_relief) = (15e-6, 5e-6);
+        inputs.driver.tip_relief = 7e-6;
+        assert_near(dynamic(&inputs).terms[2], relieved, 12);
         inputs.driver.grade = Some(7);
         let found = dynamic(&inputs);
         assert_near(found.terms[2], 1.0, 15);

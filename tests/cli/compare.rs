@@ -142,6 +142,11 @@ fn every_command_that_takes_a_case_takes_a_variant() {
         let (code, _, errors) = run(&[&[name], before, &[case.as_str()], after, &wrong].concat());
         assert!(code == 2 && errors.contains("did you mean relieved?"), "{name}: {errors}");
     }
+    // A setting replaces the override of a variant.
+    let set = ["--set", "driven.tip_relief=12 um", "--only", "F_S", "--format", "json"];
+    let [varied, plain] = [&["--variant", "relieved"][..], &[]]
+        .map(|variant| json(&[&["solve", &case][..], variant, &set].concat()));
+    assert_eq!(varied["quantities"], plain["quantities"]);
     let (_, own, _) = run(&["explain", "impact_force", &case]);
     let (code, varied, _) = run(&["explain", "impact_force", &case, "--variant", "slow"]);
     assert!(code == 0 && own != varied);

@@ -66,6 +66,37 @@ fn a_chart_has_axes_with_units_a_legend_below_the_field_and_its_marks() {
     assert!(picture[..falling].contains("<g transform"), "points without contact below the curve");
 }
 
+/// The place of a value between the labels of an axis, in the direction of an attribute.
+fn place_of(xml: &Document, anchor: &str, direction: &str, value: f64) -> f64 {
+    let is_label = |node: &roxmltree::Node| node.attribute("text-anchor") == Some(anchor);
+    let labels = xml.descendants().filter(is_label).filter_map(|node| {
+        let label = node.text()?.parse::<f64>().ok()?;
+        Some((label, node.attribute(direction)?.parse::<f64>().ok()?))
+    });
+    let labels: Vec<(f64, f64)> = labels.collect();
+    let [first, .., last] = labels[..] else { panic!("two labels: {labels:?}") };
+    first.1 + (value - first.0) / (last.0 - first.0) * (last.1 - first.1)
+}
+
+#[test]
+fn a_curve_is_drawn_to_the_scale_of_its_axes() {
+    let picture = stdout_of(&["plot", TABLE_1, "--chart", "force", "--method", "exact"]);
+    let xml = Document::parse(&picture).unwrap();
+    let is_curve = |node: &roxmltree::Node| node.attribute("class") == Some("curve s0");
+    let curves = xml.descendants().filter(is_curve);
+    let points = curves.filter_map(|node| node.attribute("points")).next().unwrap();
+    let points = points.split(' ').map(|point| point.split_once(',').unwrap());
+    let points: Vec<[f64; 2]> = points.map(|(x, y)| [x, y].map(|at| at.parse().unwrap())).collect();
+    // From 2191 N at D, 1.366 deg before E, to 0 N at E.
+    for (angle, force, end) in [(-1.366, 2191.0, points[0]), (0.0, 0.0, points[points.len() - 1])] {
+        let x = place_of(&xml, "middle", "x", angle);
+        let y = place_of(&xml, "end", "y", force) - 5.0;
+        assert!((end[0] - x).abs() < 1.0 && (end[1] - y).abs() < 1.0, "{end:?}, {x} {y}");
+    }
+    let [first, last] = [points[0], points[points.len() - 1]];
+    assert!(first[0] < last[0] && first[1] < last[1], "to the right and upwards");
+}
+
 #[test]
 fn notes_of_several_lines_are_one_sentence_and_stay_whole_in_the_case_file() {
     let folder = tempfile::tempdir().unwrap();

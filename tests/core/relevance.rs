@@ -160,28 +160,6 @@ fn an_idle_field_changes_no_result_of_a_shared_load() {
 }
 
 #[test]
-fn the_reason_is_a_short_sentence_and_not_a_makeshift() {
-    for method in ["paper", "exact", "static", "dynamic", "auto"] {
-        let mut case = Case::table_1();
-        case.set("model.method", method).unwrap();
-        for (index, field) in FIELDS.iter().enumerate() {
-            let (Acting::No(why) | Acting::Beside(why)) = relevance(index, &case.read().0) else {
-                continue;
-            };
-            assert!(
-                (10..=130).contains(&why.len()) && why.is_ascii() && !why.ends_with('.'),
-                "{why}"
-            );
-            assert!(
-                !why.starts_with("no result of this case"),
-                "{method}: {} has no reason of its own",
-                field.key
-            );
-        }
-    }
-}
-
-#[test]
 fn each_method_has_its_idle_fields() {
     let idle = |method: &str, key: &str| {
         let mut case = Case::table_1();

@@ -334,6 +334,14 @@ fn probabilities_count_contact_and_limits_and_leave_refused_samples_out() {
     assert_eq!((limit.known, summary.solved), (3000, 3000));
     assert!(limit.probability.unwrap().value < found.value);
     assert!(summary.quantities[0].figures.as_ref().unwrap().count < 3000);
+    // A bore beyond the root circle of 43.75 mm is refused; every other sample strikes.
+    let mut case = spread_case(&[("driver.bore_radius", "uniform", "1 mm")]);
+    case.set("driver.bore_radius", "43.5 mm").unwrap();
+    let (study, samples) = toleranced(&case, 200, 1, 2);
+    let summary = study.summary(&samples);
+    assert!((20..180).contains(&summary.solved), "{}", summary.solved);
+    assert_eq!(summary.limits[0].known, summary.solved);
+    assert_eq!(summary.contact.unwrap().value.to_bits(), 1f64.to_bits());
 }
 
 /// The power varies by 10 %: a limit on the force that follows the mesh force is exceeded by all

@@ -201,4 +201,8 @@ fn the_run_over_the_speed_passes_through_the_steady_motion_of_the_case() {
     });
     assert_eq!(stopped, Err(Refusal::Stopped));
     assert_eq!(shown, 3);
+    // With little damping and loss of contact, the run-down keeps a motion that the run-up has not.
+    let little = Inputs { damping_ratio: 0.02, ..case("zhou-chen-2014") };
+    let curve = speeds(&little, &mut |_| true).unwrap_or_else(|refusal| panic!("{refusal}"));
+    assert!(curve.jumps().count() > 1, "{}", curve.jumps().count());
 }

@@ -7,7 +7,6 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use proptest::sample::Index;
-use tipstrike::case::fields::index_of;
 use tipstrike::case::{Case, Document, FIELDS, Variant};
 use tipstrike::cli::{self, Exit, Streams};
 use tipstrike::model::QUANTITIES;
@@ -119,26 +118,6 @@ fn a_save_keeps_edits_and_comments() {
         assert!(!is_same || lost == 0, "a comment is lost:\n{commented}\nbecame\n{rendered}");
     });
     assert!(edited.get() > 300, "only {} edits left a valid case", edited.get());
-}
-
-#[test]
-fn an_inline_table_of_many_lines_keeps_its_comments() {
-    let text = include_str!("kept/inline-table-of-many-lines.toml");
-    for (key, value, comments) in [
-        ("pair.module", "4 mm", ["# both", "# normal, of both", "# usual"].as_slice()),
-        ("pair.pressure_angle", "22 deg", &["# both", "# normal, of both", "# usual"]),
-        ("pair.centre_distance", "101 mm", &["# both", "# normal, of both", "# usual"]),
-        ("pair.pressure_angle", "", &["# both", "# normal, of both"]),
-    ] {
-        let mut document = Document::parse("case", text).expect("a case");
-        document.case.write(index_of(key).expect("a field"), value);
-        let rendered = document.render();
-        assert!(
-            comments.iter().all(|comment| rendered.contains(comment)),
-            "{key} = {value}:\n{rendered}"
-        );
-        assert_same(&document, &Document::parse("case", &rendered).expect("a case"));
-    }
 }
 
 #[test]

@@ -4,15 +4,12 @@ use crate::harness::{self, Desk, LARGE, SMALL, TABLE_1};
 use crate::tty::{Launch, PROGRAM};
 
 use std::fs::{self, File, Permissions};
-use std::io::ErrorKind;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
-use ratatui::layout::Size;
-use tipstrike::case::file::SaveError;
 use tipstrike::case::{Document, fields};
 use tipstrike::tui::testing::{Action, Effect, Found, Next, SaveFault, update};
 
@@ -184,16 +181,6 @@ fn after_a_save_under_another_name_the_case_is_the_new_file() {
     desk.assert(desk.shows("saved ") && desk.app.tab.short_name() == "new.toml");
     desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
     assert!(desk.read("new.toml").contains("1600 rpm") && desk.read("case.toml") == TABLE_1);
-}
-
-#[test]
-fn the_fix_of_a_failed_save_is_on_the_smallest_screen() {
-    let mut desk = edited();
-    desk.act(Action::Resize(Size::new(60, 16)));
-    let path = desk.path("case.toml");
-    let full = SaveError::Unwritable("folder/case.toml".to_owned(), ErrorKind::StorageFull.into());
-    desk.act(Action::Saved(path, Next::Stay, Err(SaveFault::Failed(full.to_string()))));
-    desk.has(&["not saved: folder/case.toml", "save elsewhere"]);
 }
 
 #[test]

@@ -302,6 +302,32 @@ fn kill_9_after_two_seconds_loses_nothing() {
     assert!(journals(next.folder.path()).is_empty());
 }
 
+#[test]
+fn of_several_ended_sessions_the_latest_edits_are_offered_first() {
+    let mut tty = opened();
+    tty.type_for("\x156 mm", "6 mm");
+    tty.end_by("TERM");
+    let first = journals(tty.folder.path()).pop().expect("a journal");
+    let text = fs::read_to_string(&first).expect("it is there");
+    let journal = Journal::from_text(&text).expect("whole");
+    // The seconds of `written` differ.
+    std::thread::sleep(SECOND + SECOND / 10);
+    let mut next = again(&tty);
+    next.wait_for(OFFER);
+    next.type_in("l");
+    next.wait_until("the question to go", |tty| !tty.shows(OFFER));
+    next.type_for("\x157 mm", "7 mm");
+    next.end_by("TERM");
+    assert_eq!((journals(tty.folder.path()).len(), journal.changes.len()), (2, 1));
+    let mut last = again(&tty);
+    last.wait_for(OFFER);
+    last.assert(last.shows("5 mm -> 7 mm"));
+    last.type_for("d", "5 mm -> 6 mm");
+    last.type_in("d");
+    last.quit();
+    assert!(journals(last.folder.path()).is_empty());
+}
+
 /// `pty` sends every signal.
 #[test]
 fn text_typed_just_before_a_signal_is_offered_and_discarded_on_request() {

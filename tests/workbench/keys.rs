@@ -25,6 +25,10 @@ fn undo_and_redo_move_by_one_field() {
     assert!(!desk.app.tab.is_unsaved());
     desk.keys(&["Ctrl-Y"]).assert_shows("1500 rpm");
     desk.keys(&["Ctrl-Z", "Ctrl-Z"]).assert_shows("nothing to undo");
+    // A new edit replaces the undone ones.
+    desk.fill("operation.speed", "1600 rpm")
+        .keys(&["Ctrl-Y"])
+        .has(&["nothing to redo", "1600 rpm"]);
 }
 
 #[test]

@@ -135,6 +135,12 @@ fn the_page_of_a_refused_case_begins_with_the_reason_and_alt_e_goes_to_the_field
     let mut desk = Desk::new(SMALL);
     desk.fill("pair.centre_distance", "5 mm").keys(&["Down"]).assert_shows("!*a ");
     desk.keys(&["Alt-E"]).assert_shows("a centre distance, ");
+    // Of a size and its alternative, the one that the case gives.
+    desk.fill("pair.centre_distance", "").fill("driven.tip_diameter", "119.9 mm");
+    desk.keys(&["Down", "Alt-E"]);
+    assert_eq!(desk.text("driven.tip_diameter"), "119.9 mm");
+    assert_eq!(desk.app.tab.case.text(desk.app.tab.form.focus), Some("119.9 mm"));
+    desk.fill("driven.tip_diameter", "").fill("pair.centre_distance", "5 mm");
     desk.keys(&["Esc", "n"]);
     desk.has(&[
         "│ ! Not solved: the centre distance jams the mesh",

@@ -208,29 +208,6 @@ fn zoom_ends_at_the_whole_pair_and_at_a_micrometre() {
 }
 
 #[test]
-fn keys_change_the_view_and_0_resets_it() {
-    let mut desk = Desk::new(LARGE);
-    desk.keys(&["Esc", "4"]);
-    let at_first = desk.screen();
-    for (keys, expected) in [
-        (&["+"][..], "Teeth, true to scale, around the strike"),
-        (&["=", "="], "Teeth, true to scale"),
-        (&["-"], "Teeth, true to scale"),
-        (&["v"], "around the pitch point"),
-        (&["v"], "around the pair"),
-        (&["v", "x"], "gap x1 "),
-    ] {
-        let before = desk.screen();
-        desk.keys(keys);
-        assert!(desk.shows(expected) && desk.screen() != before, "{keys:?}\n{}", desk.screen());
-    }
-    desk.keys(&["0"]);
-    assert_eq!(desk.screen(), at_first);
-    desk.keys(&["-"; 12]).has(&["the teeth pane shows the whole pair", "O1"]);
-    desk.keys(&["+"; 40]).has(&["closest zoom", "um "]);
-}
-
-#[test]
 fn a_run_starts_before_d_and_ends_at_e() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "4", "z", "Space"]);
