@@ -48,7 +48,7 @@ fn no_stored_failure_occurs_again() {
 fn a_text_is_solved_or_refused_or_its_errors_are_reported_with_their_places() {
     let [all, toml, cases, solved] = [const { Cell::new(0u32) }; 4];
     let count = |counter: &Cell<u32>, is_one: bool| counter.set(counter.get() + u32::from(is_one));
-    hold(2500, &texts::mutated(), |text| {
+    hold(1200, &texts::mutated(), |text| {
         let fate = read_and_solve(&text);
         count(&all, true);
         count(&toml, text.parse::<toml_edit::DocumentMut>().is_ok());

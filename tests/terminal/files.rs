@@ -184,20 +184,6 @@ fn after_a_save_under_another_name_the_case_is_the_new_file() {
 }
 
 #[test]
-fn changed_comments_and_a_file_that_is_no_case_are_named() {
-    for (text, expected) in [
-        (format!("{TABLE_1}# mine\n"), "only comments or spacing differ"),
-        (TABLE_1.replace("\"5 mm\"", "5"), "not a valid case"),
-        (String::new(), "not a valid case"),
-        ("\u{1b}[2J\u{9b}".to_owned(), "not a valid case"),
-    ] {
-        let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-        meddle(&desk, "newer", &text);
-        desk.keys(&["Ctrl-S"]).assert_shows(expected);
-    }
-}
-
-#[test]
 fn after_a_save_form_and_file_are_equal() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     for (key, text) in [

@@ -59,18 +59,6 @@ fn album(desk: &mut Desk) -> String {
 }
 
 #[test]
-fn a_chart_opened_with_an_invalid_field_reports_it() {
-    let mut desk = Desk::on(TINY, "case.toml", TABLE_1);
-    desk.keys(&["x", "Esc", "3"]);
-    let text = chart(&desk).join("\n");
-    assert!(
-        text.contains("LAST VALID")
-            && text.contains("The charts are not redrawn while a field is invalid."),
-        "{text}"
-    );
-}
-
-#[test]
 fn every_chart() {
     assert_snapshot!("dynamic_80x24", album(&mut at_method(SMALL, "dynamic")));
     let mut desk = at_method(SMALL, "dynamic");
@@ -376,14 +364,6 @@ fn a_large_pane_shows_several_charts() {
     let mut desk = at_method(LARGE, "exact");
     desk.lacks(&["─ Gap S in um"]);
     desk.keys(&["z"]).assert_shows("─ Gap S in um");
-}
-
-#[test]
-fn a_hidden_chart_needs_no_slow_method() {
-    let mut desk = Desk::new(SMALL);
-    desk.keys(&["F5"]).fill("operation.speed", "9000 rpm");
-    let methods = &desk.app.tab.answer.as_ref().expect("results").methods;
-    assert!(!methods.iter().any(|(method, _)| method.shares_load()));
 }
 
 /// The numbers on the axes of a chart: below it, and beside it.

@@ -18,16 +18,6 @@ fn own(desk: &Desk) -> Setting {
 }
 
 #[test]
-fn without_corner_contact_no_setting_is_recommended() {
-    let case = include_str!("../../cases/tip-relief-enough.toml");
-    let mut desk = Desk::on(LARGE, "case.toml", case);
-    desk.keys(&["Esc", "5", "z", "m"]);
-    desk.assert_shows("No method finds corner contact: no setting is recommended");
-    let traded = desk.app.tab.traded.as_ref().expect("a measurement");
-    assert_eq!(traded.marked, None);
-}
-
-#[test]
 fn m_measures_and_the_cheapest_that_will_do_is_marked() {
     let desk = measured(LARGE);
     let traded = desk.app.tab.traded.as_ref().expect("a measurement");
@@ -153,19 +143,6 @@ fn an_invalid_form_is_not_measured() {
     desk.assert_shows("no benchmark: fix the fields");
 }
 
-#[test]
-fn it_is_drawn_at_every_size() {
-    let mut desk = measured(SMALL);
-    for width in (0..=150).step_by(7) {
-        for height in (0..=50).step_by(3) {
-            let screen = desk.screen_at(Size { width, height });
-            assert!(!screen.contains("NaN") && !screen.contains("inf"), "{screen}");
-        }
-    }
-    desk.keys(&["Tab", "BackTab", "Right", "Left"]);
-    desk.assert(desk.shows("1 ms") || desk.shows("100 us"));
-}
-
 fn timed(size: Size) -> Desk {
     let mut desk = measured(size);
     time_evenly(&mut desk);
@@ -193,13 +170,6 @@ fn v_shows_every_method_with_every_compliance_as_a_table() {
         desk.assert_shows(" finite-element");
         assert_snapshot!(format!("table_{name}"), desk.screen());
         desk.keys(&["v"]).assert_shows("└");
-    }
-    let mut desk = timed(SMALL);
-    desk.keys(&["v"]);
-    for width in (0..=150).step_by(7) {
-        for height in (0..=50).step_by(3) {
-            desk.screen_at(Size { width, height });
-        }
     }
 }
 
