@@ -166,7 +166,7 @@ fn a_setting_is_accepted_or_does_not_change_the_case() {
 
 #[test]
 fn the_headless_commands_report_errors_without_control_characters() {
-    hold(60, &texts::mutated(), |text| assert_safe_headless(&text));
+    hold(30, &texts::mutated(), |text| assert_safe_headless(&text));
 }
 
 pub(crate) fn edits() -> impl Strategy<Value = Vec<Edit>> {
