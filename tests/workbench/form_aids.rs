@@ -81,6 +81,11 @@ fn a_new_limit_starts_at_the_result_and_an_empty_one_is_removed() {
     desk.keys(&["0.8"]).has(&["Unit added: m/s.", "0.8 m/s"]);
     desk.keys(&[" m/s", "Ctrl-U", "Up"]);
     desk.assert(!desk.shows("(no limit)") && !desk.app.tab.is_unsaved());
+    // A result that the method lacks has a limit, and is found with the reason.
+    desk.keys(&["Alt-L", "F_d,max", "Enter", "7000", "Enter"]);
+    let limits = &desk.app.tab.case.limits;
+    assert!(limits.iter().any(|limit| limit.text == "7000 N"), "{limits:?}");
+    desk.keys(&["Esc", "/", "F_d,max"]).assert_shows("method exact does not compute");
 }
 
 #[test]

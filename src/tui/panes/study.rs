@@ -633,7 +633,9 @@ fn curves(
     };
     let now = present(pane, axis).zip(pane.present).map(|(x, value)| (x, value / factor));
     let now = now.filter(|now| ends(axis).covers(Span::new(now.0, now.0)));
-    mark("now", now.into_iter().collect(), ('●', theme.focus));
+    if let Some(now) = now {
+        mark("now", vec![now], ('●', theme.focus));
+    }
     let own = shown.layers.first()?;
     for (sought, sign, name) in [
         (PointOutcome::Solved(Outcome::NoCornerContact), NO_CONTACT, "no contact"),

@@ -12,6 +12,7 @@ use crate::case::{Acting, FIELDS, Field, relevance};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
 use crate::report::stations::GRAPHS;
+use crate::report::verdict::Absence;
 use crate::tui::app::App;
 use crate::tui::app::actions::{Action, Binding, Choice, Effect, Run};
 use crate::tui::app::dialogs::Prompt;
@@ -183,8 +184,8 @@ fn items(app: &App) -> Vec<Item> {
 /// What decides the order of fields and results in a list.
 #[derive(Debug, Clone, Default)]
 struct Context {
-    /// The keys of the present results.
-    results: Vec<&'static str>,
+    /// The results that the pane lists, each other one with the reason of its absence.
+    results: Vec<(&'static Quantity, Option<String>)>,
     /// Whether results precede fields with equal scores.
     are_results_first: bool,
     /// The fields without effect in the case.
@@ -195,15 +196,19 @@ impl Context {
     fn of(app: &App) -> Context {
         let inputs = &app.tab.inputs_so_far;
         let idle = |field: &usize| matches!(relevance(*field, inputs), Acting::No(_));
-        let every = Results { shows_every_method: true, ..app.results() };
+        let every = Results { shows_every_method: true, ..app.results() }.listed();
+        let result = |quantity: &'static Quantity| match app.tab.solution() {
+            _ if every.iter().any(|listed| listed.key == quantity.key) => Some((quantity, None)),
+            solution => Some((quantity, Some(Absence::of(quantity, solution?).to_string()))),
+        };
         Context {
-            results: every.listed().iter().map(|quantity| quantity.key).collect(),
+            results: QUANTITIES.iter().filter_map(result).collect(),
             are_results_first: app.layout.focus() == Pane::Results,
             idle: (0..FIELDS.len()).filter(idle).collect(),
         }
     }
 
-    /// The fields of the form and the present results, in the preferred order.
+    /// The fields of the form and the results, in the preferred order.
     fn places(&self) -> impl Iterator<Item = Item> {
         let (of_fields, of_results) = if self.are_results_first { (2, 0) } else { (0, 2) };
         let fields = FIELDS.iter().enumerate().map(|(at, field)| {
@@ -211,12 +216,18 @@ impl Context {
             let order = of_fields + usize::from(field.key != FOREMOST);
             Item::field(Choice::of(move |app| panes::go_to(app, at)), field).ranked(loss, order)
         });
-        let known = QUANTITIES.iter().filter(|quantity| self.results.contains(&quantity.key));
-        let known = known.map(|quantity| {
-            let Quantity { key, symbol, label, equation, .. } = quantity;
-            let about = format!("{symbol} {}, a result; {equation}", label.trim_start());
-            let choice = Choice::of(move |app| panes::show_result(app, key));
-            Item::result(choice, quantity, about).ranked(0, of_results)
+        let known = self.results.iter().map(|(quantity, absence)| {
+            let Quantity { key, symbol, label, equation, .. } = *quantity;
+            let name = format!("{symbol} {}", label.trim_start());
+            let Some(reason) = absence else {
+                let choice = Choice::of(move |app| panes::show_result(app, key));
+                let about = format!("{name}, a result; {equation}");
+                return Item::result(choice, quantity, about).ranked(0, of_results);
+            };
+            let about = format!("{name}, without a value: {reason}");
+            let said = about.clone();
+            let choice = Choice::of(move |app| app.say(said.clone()));
+            Item::result(choice, quantity, about).ranked(IDLE, of_results)
         });
         let mut all: Vec<Item> = fields.collect();
         let at = if self.are_results_first { 0 } else { all.len() };
@@ -249,7 +260,7 @@ impl Context {
     }
 }
 
-/// Penalty of fields without effect: they follow similar fields, but a typed symbol still finds
+/// Penalty of fields without effect and of results without a value: they follow similar fields, but a typed symbol still finds
 /// them first.
 const IDLE: u32 = 9;
 /// The most frequent choice among fields with equal scores.

@@ -245,7 +245,8 @@ pub(super) fn ask_limit(app: &mut App) {
     }
 }
 
-/// Goes to the limit of a quantity; a new limit starts with the present value of the quantity.
+/// Goes to the limit of a quantity; a new limit starts with the present value of the quantity, or
+/// empty without one.
 fn hold_limit(app: &mut App, quantity: &'static Quantity) {
     if rows::of_entry(&app.tab.case, quantity.key).is_none() {
         // The printed value of the quantity, rounded up so that the limit is met.
@@ -256,11 +257,15 @@ fn hold_limit(app: &mut App, quantity: &'static Quantity) {
             let raised = step_limit(&text, quantity.key, 1).filter(|_| is_below);
             raised.unwrap_or(text)
         };
-        let mut case = app.tab.case.clone();
-        case.write_limit(quantity, &value.map(begin).unwrap_or_default());
-        replace(app, case);
+        if let Some(value) = value {
+            let mut case = app.tab.case.clone();
+            case.write_limit(quantity, &begin(value));
+            replace(app, case);
+        } else {
+            app.tab.case.write_limit(quantity, "");
+        }
     }
-    let row = rows::of_entry(&app.tab.case, quantity.key).or_else(|| index_of("model.method"));
+    let row = rows::of_entry(&app.tab.case, quantity.key);
     edit_row(app, row.unwrap_or(app.tab.form.focus));
 }
 

@@ -129,7 +129,7 @@ fn a_few_letters_find_the_command() {
         ("dynamic", "method dynamic"),
         ("method", "method"),
     ] {
-        let results = QUANTITIES.iter().map(|quantity| quantity.key).collect();
+        let results = QUANTITIES.iter().map(|quantity| (quantity, None)).collect();
         let context = Context { results, are_results_first: true, ..Context::default() };
         let found = found(PALETTE, &context, typed);
         assert!(found.iter().take(3).any(|one| one == name), "{typed}: {found:?}");
@@ -169,7 +169,7 @@ fn fields_with_effect_come_first_unless_a_symbol_is_typed() {
 fn a_field_comes_before_a_result_with_a_longer_name() {
     for are_results_first in [false, true] {
         let context = Context {
-            results: QUANTITIES.iter().map(|quantity| quantity.key).collect(),
+            results: QUANTITIES.iter().map(|quantity| (quantity, None)).collect(),
             are_results_first,
             ..Context::default()
         };
@@ -191,14 +191,14 @@ fn a_field_comes_before_a_result_with_a_longer_name() {
 #[test]
 fn a_typed_key_is_the_first_match() {
     let fields = FIELDS.iter().map(|field| field.key);
-    let results: Vec<_> = QUANTITIES.iter().map(|quantity| quantity.key).collect();
+    let results: Vec<_> = QUANTITIES.iter().map(|quantity| (quantity, None)).collect();
     for are_results_first in [false, true] {
         let context = Context {
             results: results.clone(),
             are_results_first,
             idle: (0..FIELDS.len()).collect(),
         };
-        for key in fields.clone().chain(results.iter().copied()) {
+        for key in fields.clone().chain(QUANTITIES.iter().map(|quantity| quantity.key)) {
             assert_eq!(found(Context::search, &context, key)[0], key);
         }
     }
