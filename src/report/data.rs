@@ -21,7 +21,7 @@ pub fn render(report: &Report) -> String {
     };
     let notes = case_notes(&report.notes).map(|note| sanitize(&note.message)).collect();
     let sections = [
-        report.named().headings(&format!("method {}", report.solution.method.name())),
+        report.named().headings(&methods(report)),
         items("", verdict(report)),
         inputs(report),
         quantity_lines(report),
@@ -31,6 +31,27 @@ pub fn render(report: &Report) -> String {
     ];
     let sections = sections.iter().filter(|lines| !lines.is_empty());
     sections.map(|lines| lines.join("\n") + "\n").collect::<Vec<_>>().join("\n")
+}
+
+/// The method, followed by the quantities that a slower method computes besides `auto`'s choice.
+fn methods(report: &Report) -> String {
+    let solution = &report.solution;
+    let is_beside = |(quantity, _): &(&Quantity, f64)| beside(quantity, solution).is_some();
+    let others: Vec<&Quantity> =
+        report.values().filter(is_beside).map(|(known, _)| known).collect();
+    let own = format!("method {}", solution.method.name());
+    let Some(slower) = others.first().and_then(|first| beside(first, solution)) else { return own };
+    let named = match others[..] {
+        [one] => one.symbol.to_owned(),
+        _ => format!("{} quantities", others.len()),
+    };
+    format!("{own}; {named} by {slower}")
+}
+
+/// The method of a quantity that the method of the solution does not compute.
+fn beside(quantity: &Quantity, solution: &Solution) -> Option<&'static str> {
+    let method = solution.having(quantity.stage).method;
+    (method != solution.method).then(|| method.name())
 }
 
 /// The verdict in a sentence, followed by the results of other methods and the resonance.
@@ -186,7 +207,9 @@ pub(super) fn is_without_deviations(quantity: &Quantity) -> bool {
 pub fn write_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let solution = &report.solution;
     let quantities = report.values().map(|(quantity, value)| {
-        (quantity.key, measured(quantity, value, subject(quantity, solution.method)))
+        let mut member = measured(quantity, value, subject(quantity, solution.method));
+        member["method"] = json!(beside(quantity, solution));
+        (quantity.key, member)
     });
     let stations = report.selection.stations.then(|| stations(report).objects());
     let notes = report.notes.iter().map(|note| json!({"code": note.code, "message": note.message}));

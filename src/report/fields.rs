@@ -274,6 +274,7 @@ fn of_quantity(quantity: &Quantity) -> Value {
             "value": {"type": kind},
             "unit": {"const": quantity.unit},
             "of": {"type": "string"},
+            "method": {"type": "string"},
         },
         "required": ["value", "unit"],
         "additionalProperties": false,
