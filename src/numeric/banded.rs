@@ -47,18 +47,20 @@ impl<const ROW: usize, T: Entry> Banded<ROW, T> {
     pub fn of(mut rows: Rows<T, ROW>) -> Option<Banded<ROW, T>> {
         for at in 0..rows.len() {
             let (known, rest) = rows.split_at_mut(at);
-            let (row, reach) = (&mut rest[0], ROW.min(at + 1));
-            for distance in (1..reach).rev() {
-                let other = &known[at - distance];
-                for far in distance + 1..reach {
-                    row[distance] = row[distance] - row[far] * other[far - distance];
+            let row = &mut rest[0];
+            within_reach::<ROW>(at, |reach| {
+                for distance in (1..reach).rev() {
+                    let other = &known[at - distance];
+                    for far in distance + 1..reach {
+                        row[distance] = row[distance] - row[far] * other[far - distance];
+                    }
                 }
-            }
-            for distance in 1..reach {
-                let share = row[distance] / known[at - distance][0];
-                row[0] = row[0] - share * row[distance];
-                row[distance] = share;
-            }
+                for distance in 1..reach {
+                    let share = row[distance] / known[at - distance][0];
+                    row[0] = row[0] - share * row[distance];
+                    row[distance] = share;
+                }
+            });
             if !row[0].is_positive() {
                 return None;
             }
@@ -69,11 +71,13 @@ impl<const ROW: usize, T: Entry> Banded<ROW, T> {
     /// Solves A x = `right` for several right sides, in place.
     pub fn solve<const M: usize>(&self, right: &mut [[T; M]]) {
         let rows = &self.rows;
-        for (at, row) in rows.iter().enumerate().skip(1) {
+        for (at, row) in rows.iter().enumerate() {
             let (known, rest) = right.split_at_mut(at);
-            for (known, factor) in known.iter().rev().zip(&row[1..]) {
-                subtract(&mut rest[0], *factor, known);
-            }
+            within_reach::<ROW>(at, |reach| {
+                for distance in 1..reach {
+                    subtract(&mut rest[0], row[distance], &known[at - distance]);
+                }
+            });
         }
         for (at, row) in rows.iter().enumerate().rev() {
             let (rest, known) = right.split_at_mut(at + 1);
@@ -81,11 +85,20 @@ impl<const ROW: usize, T: Entry> Banded<ROW, T> {
             for sum in sums.iter_mut() {
                 *sum = *sum / row[0];
             }
-            for (distance, (known, row)) in (1..ROW).zip(known.iter().zip(&rows[at + 1..])) {
-                subtract(sums, row[distance], known);
-            }
+            within_reach::<ROW>(known.len(), |reach| {
+                for distance in 1..reach {
+                    subtract(sums, rows[at + distance][distance], &known[distance - 1]);
+                }
+            });
         }
     }
+}
+
+/// Calls `run` with the length of a row with so many rows on one side, which is known to the compiler for
+/// most rows.
+#[inline(always)]
+fn within_reach<const ROW: usize>(rows: usize, mut run: impl FnMut(usize)) {
+    if rows >= ROW { run(ROW) } else { run(rows + 1) }
 }
 
 fn subtract<T: Entry, const M: usize>(sums: &mut [T; M], factor: T, known: &[T; M]) {

@@ -1,5 +1,7 @@
 //! The balance of a face width: the line load of every pair at every slice.
 
+use std::rc::Rc;
+
 use super::{Face, Slice};
 use crate::model::Refusal;
 use crate::model::budget::PAIRS;
@@ -85,7 +87,7 @@ impl Loads {
 /// Usual precision of a balance: that of a lead over the displacement. A slice has a small part of the
 /// load, so that force and displacement are more precise. Searches compare loads at places beside
 /// each other.
-pub(super) const PRECISE: f64 = 1e-11;
+pub(super) const PRECISE: f64 = 1e-8;
 
 /// What ends the search for a balance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -169,6 +171,8 @@ impl Carried {
 /// A pair at a slice.
 #[derive(Debug, Clone, Copy)]
 struct Contact {
+    /// Width of the slice.
+    width: f64,
     /// Gap, infinite beyond the computed range.
     gap: f64,
     /// Its mean over the slice, and its rise from one border to the other.
@@ -187,6 +191,7 @@ struct Contact {
 impl Contact {
     /// A pair beyond the computed range.
     const NONE: Contact = Contact {
+        width: 0.0,
         gap: f64::INFINITY,
         mean: f64::INFINITY,
         rise: 0.0,
@@ -221,7 +226,7 @@ impl Face {
     pub fn loads(&self, s: f64, error: f64, until: Until) -> Result<Loads, Refusal> {
         let mut position = self.position(s);
         Incoming::Deviates(error).change(&mut position, 0);
-        position.loads(until, None, PRECISE)
+        position.loads(until, &[], PRECISE)
     }
 
     /// All pairs without deviations, with the incoming pair at `s` in the middle of the face.
@@ -271,6 +276,7 @@ impl Face {
         };
         let teeth = driver * slice.ends[0] + driven * slice.ends[1];
         let contact = Contact {
+            width: slice.width,
             gap: self.sections.one(0, place) + slice.gap,
             mean: mean + slice.mean_gap,
             rise: other[0] - one[0] + slice.rise,
@@ -389,13 +395,18 @@ impl Face {
 }
 
 impl Position<'_> {
+    /// Number of pairs at all slices.
+    pub(super) fn size(&self) -> usize {
+        self.contacts.len()
+    }
+
     /// The index of a pair within the computed range.
     pub(super) fn index(&self, ahead: i32) -> Option<usize> {
         usize::try_from(ahead - self.first).ok().filter(|index| *index < self.pairs)
     }
 
     /// The loads of all pairs, to a part of the displacement. The search for the touching slices begins with
-    /// those of `near`.
+    /// those of the loads `near`, or on the line through two of them.
     ///
     /// # Formula
     /// ```text
@@ -418,7 +429,7 @@ impl Position<'_> {
     pub(super) fn loads(
         &self,
         until: Until,
-        near: Option<&Loads>,
+        near: &[Rc<Loads>],
         precision: f64,
     ) -> Result<Loads, Refusal> {
         const CORRECTIONS: usize = 40;
@@ -463,10 +474,10 @@ impl Position<'_> {
             }
         }
         let (mut bend, mut smooth) = (0.0, f64::INFINITY);
-        for (at, (width, of)) in self.of_slices().enumerate().filter(|(_, (_, of))| of.can_carry) {
+        for (at, of) in self.contacts.iter().enumerate().filter(|(_, of)| of.can_carry) {
             let half = self.half(&means, at, of);
             if carried[at].touches() && carried[at].part < 1.0 {
-                bend += of.weight * width * lines[at][0].powi(3) / (2.0 * half * of.local);
+                bend += of.weight * of.width * lines[at][0].powi(3) / (2.0 * half * of.local);
             }
             if half < SUDDEN * displacement.abs() {
                 smooth = f64::min(smooth, (means[at].abs() - half).abs() / lines[at][0].abs());
@@ -519,14 +530,14 @@ impl Position<'_> {
     /// The displacement at which independent slices balance a force. Begins with all slices, so that
     /// the displacement falls to that of the touching ones.
     fn of_springs(&self, force: f64) -> f64 {
-        let springs = self.of_slices().filter(|(_, contact)| contact.can_carry);
+        let springs = self.contacts.iter().filter(|contact| contact.can_carry);
         let mut displacement = f64::INFINITY;
         loop {
-            let touching = springs.clone().filter(|(_, contact)| contact.mean < displacement);
+            let touching = springs.clone().filter(|contact| contact.mean < displacement);
             let (stiffness, preload) =
-                touching.fold((0.0, force), |(stiffness, preload), (width, contact)| {
+                touching.fold((0.0, force), |(stiffness, preload), contact| {
                     let compliance = contact.local + contact.root * contact.root;
-                    let spring = contact.weight * width / compliance;
+                    let spring = contact.weight * contact.width / compliance;
                     (stiffness + spring, preload + spring * contact.mean)
                 });
             let next = preload / stiffness;
@@ -537,29 +548,15 @@ impl Position<'_> {
         }
     }
 
-    /// Every pair at every slice, with the width of the slice.
-    fn of_slices(&self) -> impl Iterator<Item = (f64, &Contact)> + Clone {
-        let slices = self.face.slices.iter().zip(self.contacts.chunks(self.pairs.max(1)));
-        slices.flat_map(|(slice, pairs)| pairs.iter().map(|contact| (slice.width, contact)))
-    }
-
     /// What carries to begin with, and the displacement.
-    fn first_guess(&self, until: Until, near: Option<&Loads>) -> (Vec<Carried>, f64) {
-        if let Some(near) = near {
-            // The leads keep their places on the path.
-            let (moved, last) = (self.face.slices_in(self.s - near.s), self.face.slices.len() - 1);
-            let mut means = vec![f64::NEG_INFINITY; self.contacts.len()];
-            for (pair, ahead) in (self.first..).take(self.pairs).enumerate() {
-                let Some(known) = near.index(ahead) else { continue };
-                let mean = |slice: usize| near.means[slice * near.pairs + known];
-                let of_pair = means[pair..].iter_mut().step_by(self.pairs);
-                for (slice, new) in of_pair.enumerate() {
-                    let old = (slice as f64 + moved).clamp(0.0, last as f64);
-                    let (before, part) = (old as usize, old.fract());
-                    *new = mean(before);
-                    if part > 0.0 {
-                        *new += part * (mean(before + 1) - *new);
-                    }
+    fn first_guess(&self, until: Until, near: &[Rc<Loads>]) -> (Vec<Carried>, f64) {
+        if let [first, rest @ ..] = near {
+            let mut means = self.moved(first);
+            if let [second, ..] = rest {
+                let part = (self.s - first.s) / (second.s - first.s);
+                for (mean, other) in means.iter_mut().zip(self.moved(second)) {
+                    let change = part * (other - *mean);
+                    *mean += if change.is_finite() { change } else { 0.0 };
                 }
             }
             let guess = |(at, of): (usize, &Contact)| {
@@ -570,7 +567,7 @@ impl Position<'_> {
             match until {
                 Until::Displacement(displacement) => return (carried, displacement),
                 Until::Force(_) if carried.iter().any(|carried| carried.touches()) => {
-                    return (carried, near.displacement);
+                    return (carried, first.displacement);
                 }
                 Until::Force(_) => {}
             }
@@ -584,6 +581,25 @@ impl Position<'_> {
         (self.contacts.iter().map(guess).collect(), displacement)
     }
 
+    /// The means of the leads near by, which keep their places on the path.
+    fn moved(&self, near: &Loads) -> Vec<f64> {
+        let (moved, last) = (self.face.slices_in(self.s - near.s), self.face.slices.len() - 1);
+        let mut means = vec![f64::NEG_INFINITY; self.contacts.len()];
+        for (pair, ahead) in (self.first..).take(self.pairs).enumerate() {
+            let Some(known) = near.index(ahead) else { continue };
+            let mean = |slice: usize| near.means[slice * near.pairs + known];
+            for (slice, new) in means[pair..].iter_mut().step_by(self.pairs).enumerate() {
+                let old = (slice as f64 + moved).clamp(0.0, last as f64);
+                let (before, part) = (old as usize, old.fract());
+                *new = mean(before);
+                if part > 0.0 {
+                    *new += part * (mean(before + 1) - *new);
+                }
+            }
+        }
+        means
+    }
+
     /// Mean displacement under the loads minus the mean gap, of every pair over every slice, if what is
     /// `carried` carries: its change with the displacement, and what is taken from that. `None` if
     /// the compliances are not positive definite.
@@ -591,16 +607,19 @@ impl Position<'_> {
         let has_load =
             |pair: &usize| carried[*pair..].iter().step_by(self.pairs).any(|of| of.touches());
         let active: Vec<usize> = (0..self.pairs).filter(has_load).collect();
+        if active.is_empty() {
+            return Some(self.contacts.iter().map(|contact| [1.0, contact.mean]).collect());
+        }
         let system = System::new(self, &active, carried)?;
-        // The length of a matrix row is known to the compiler.
-        match system.distance {
-            0 | 1 => system.lines::<2>(),
-            2 => system.lines::<3>(),
-            3 => system.lines::<4>(),
-            4 => system.lines::<5>(),
-            5..8 => system.lines::<8>(),
-            8..16 => system.lines::<16>(),
-            _ => system.lines::<{ PAIRS + 1 }>(),
+        // The size of a block is known to the compiler.
+        match system.slots {
+            1 => system.lines::<1, 2>(),
+            2 => system.lines::<2, 3>(),
+            3 => system.lines::<3, 4>(),
+            4 => system.lines::<4, 5>(),
+            5..=8 => system.lines::<8, 9>(),
+            9..=16 => system.lines::<16, 17>(),
+            _ => system.lines::<PAIRS, { PAIRS + 1 }>(),
         }
     }
 
@@ -629,9 +648,9 @@ impl Position<'_> {
     /// Change of the force that turns the driver with the displacement, and the force that the gaps
     /// take.
     fn sums(&self, carried: &[Carried], lines: &[[f64; 2]]) -> [f64; 2] {
-        let touching = self.of_slices().zip(lines).zip(carried).filter(|(_, of)| of.touches());
-        touching.fold([0.0; 2], |[slope, offset], (((width, contact), lines), of)| {
-            let spring = contact.weight * width / contact.local;
+        let touching = self.contacts.iter().zip(lines).zip(carried).filter(|(_, of)| of.touches());
+        touching.fold([0.0; 2], |[slope, offset], ((contact, lines), of)| {
+            let spring = contact.weight * contact.width / contact.local;
             let parts = [of.part * lines[0], of.part * lines[1] - of.rest];
             [slope + spring * parts[0], offset + spring * parts[1]]
         })
@@ -640,7 +659,7 @@ impl Position<'_> {
 
 /// The equations of the touching slices in the coordinates y = Cᵀ u, one for each active pair. A
 /// coordinate is solved for from the first to the last slice at which a load acts on it, and decays
-/// beyond.
+/// beyond. Each slice has a block of slots, which coordinates far apart along the face share.
 struct System<'a> {
     at: &'a Position<'a>,
     active: &'a [usize],
@@ -648,8 +667,8 @@ struct System<'a> {
     factors: Vec<f64>,
     /// The first and the last slice of each coordinate.
     spans: Vec<(usize, usize)>,
-    /// Limit of the distance of coupled rows: the coordinates at a slice and the next.
-    distance: usize,
+    /// Least number of slots with which no two coordinates share one at a slice.
+    slots: usize,
 }
 
 impl<'a> System<'a> {
@@ -662,105 +681,101 @@ impl<'a> System<'a> {
         let (count, factors) = (active.len(), at.factors(active)?);
         let mut spans = vec![(usize::MAX, 0); count];
         for &pair in active {
-            let mut of_pair = carried[pair..].iter().step_by(at.pairs).enumerate();
-            let mut next = || of_pair.find(|(_, of)| of.touches()).map(|(slice, _)| slice);
-            let first = next()?;
-            let last = std::iter::from_fn(next).last().unwrap_or(first);
+            let touches = |slice: &usize| carried[slice * at.pairs + pair].touches();
+            let slices = 0..at.face.slices.len();
+            let (first, last) = (slices.clone().find(touches)?, slices.rev().find(touches)?);
             let of_factor = spans.iter_mut().zip(&factors[pair * count..]);
             for (span, _) in of_factor.filter(|(_, factor)| **factor != 0.0) {
                 *span = (span.0.min(first), span.1.max(last));
             }
         }
-        let near =
-            |slice| spans.iter().filter(|span| span.0 <= slice + 1 && slice <= span.1).count();
-        let distance = (0..at.face.slices.len()).map(near).max().unwrap_or(0);
-        Some(System { at, active, carried, factors, spans, distance })
+        let reach = |(one, span): (usize, &(usize, usize))| {
+            let meets = |other: &&(usize, usize)| other.0 <= span.1 && span.0 <= other.1;
+            spans[one..].iter().rposition(|other| meets(&other)).map_or(1, |last| last + 1)
+        };
+        let slots = spans.iter().enumerate().map(reach).max().unwrap_or(1);
+        Some(System { at, active, carried, factors, spans, slots })
     }
 
-    /// The coordinates at a slice.
-    fn here(&self, slice: usize) -> impl Iterator<Item = usize> + '_ {
-        let spans = self.spans.iter().enumerate();
-        let here = spans.filter(move |(_, span)| span.0 <= slice && slice <= span.1);
-        here.map(|(coordinate, _)| coordinate)
-    }
-
-    /// See [`Position::lines`].
-    fn lines<const ROW: usize>(&self) -> Option<Vec<[f64; 2]>> {
-        let (slices, pairs, count) = (&self.at.face.slices, self.at.pairs.max(1), self.spans.len());
-        let most = slices.len() * count;
-        let (mut rows, mut sides) =
-            (Rows::<f64, ROW>::with_capacity(most), Vec::with_capacity(most));
-        let mut known = vec![0; count];
-        let of_slices = self.at.contacts.chunks(pairs).zip(self.carried.chunks(pairs));
-        for (number, (slice, (contacts, carried))) in slices.iter().zip(of_slices).enumerate() {
-            for coordinate in self.here(number) {
-                let ([before, after], (first, last)) = (slice.exchange, self.spans[coordinate]);
-                let mut entries = [0.0; ROW];
-                entries[0] = slice.width + before + after;
+    /// See [`Position::lines`]. `ROW` is `SLOTS` + 1.
+    fn lines<const SLOTS: usize, const ROW: usize>(&self) -> Option<Vec<[f64; 2]>> {
+        let (slices, pairs, count) = (&self.at.face.slices, self.at.pairs, self.spans.len());
+        let factors = |pair: usize| &self.factors[pair * count..][..count];
+        let in_slots = |pair: &usize| {
+            let mut slots = [0.0; SLOTS];
+            let known = factors(*pair).iter().enumerate().filter(|(_, factor)| **factor != 0.0);
+            known.for_each(|(coordinate, factor)| slots[coordinate % SLOTS] = *factor);
+            slots
+        };
+        let active: Vec<_> = self.active.iter().map(|pair| (*pair, in_slots(pair))).collect();
+        let mut rows = Vec::with_capacity(slices.len() * SLOTS);
+        let mut sides = vec![[0.0; 2]; slices.len() * SLOTS];
+        for (number, (slice, sides)) in slices.iter().zip(sides.chunks_mut(SLOTS)).enumerate() {
+            let ([before, after], mut block) = (slice.exchange, [[0.0; ROW]; SLOTS]);
+            for (coordinate, &(first, last)) in self.spans.iter().enumerate() {
+                if number < first || number > last {
+                    continue;
+                }
+                let row = &mut block[coordinate % SLOTS];
+                row[0] = slice.width + before + after;
                 if number == first {
-                    entries[0] -= before * slice.tail[0];
+                    row[0] -= before * slice.tail[0];
                 } else {
-                    entries[rows.len() - known[coordinate]] = -before;
+                    row[SLOTS] = -before;
                 }
                 if number == last {
-                    entries[0] -= after * slice.tail[1];
+                    row[0] -= after * slice.tail[1];
                 }
-                known[coordinate] = rows.len();
-                rows.push(entries);
-                sides.push([0.0; 2]);
             }
-            let active = self.active.iter().enumerate();
-            for (index, &pair) in active.filter(|(_, pair)| carried[**pair].touches()) {
-                let Contact { mean, local, root, .. } = contacts[pair];
-                let push = carried[pair].part * slice.width * root / local;
-                let gap = mean - carried[pair].rest / carried[pair].part;
-                let factors = &self.factors[pair * count..=pair * count + index];
-                for (at, factor) in factors.iter().enumerate() {
-                    if *factor == 0.0 {
-                        continue;
-                    }
-                    let (row, push) = (known[at], push * factor);
-                    let (entries, side) = (&mut rows[row], &mut sides[row]);
-                    for (other, before) in factors[..=at].iter().zip(&known) {
-                        if *other != 0.0 {
-                            entries[row - before] += push * root * other;
-                        }
-                    }
+            for row in block.iter_mut().filter(|row| row[0] == 0.0) {
+                row[0] = 1.0;
+            }
+            for (pair, factors) in &active {
+                let at = number * pairs + pair;
+                let Carried { part, rest } = self.carried[at];
+                if part == 0.0 {
+                    continue;
+                }
+                let Contact { mean, local, root, .. } = self.at.contacts[at];
+                let push = part * slice.width * root / local;
+                let gap = mean - rest / part;
+                for (slot, factor) in factors.iter().enumerate().filter(|(_, it)| **it != 0.0) {
+                    let (push, side, row) = (push * factor, &mut sides[slot], &mut block[slot]);
                     *side = [side[0] + push, side[1] + push * gap];
+                    for (other, factor) in factors[..=slot].iter().enumerate() {
+                        row[slot - other] += push * root * factor;
+                    }
                 }
             }
+            rows.extend(block);
         }
-        Banded::of(rows)?.solve(&mut sides);
-        let (mut all, mut solved) = (vec![[0.0; 2]; slices.len() * count], sides.into_iter());
-        for number in 0..slices.len() {
-            for (coordinate, value) in self.here(number).zip(&mut solved) {
-                all[number * count + coordinate] = value;
-            }
-        }
+        Banded::<ROW>::of(Rows::from_vec(rows))?.solve(&mut sides);
+        let mut all = vec![[0.0; 2]; slices.len() * count];
         for (coordinate, &(first, last)) in self.spans.iter().enumerate() {
+            let place = |number: usize| number * count + coordinate;
+            for number in first..=last {
+                all[place(number)] = sides[number * SLOTS + coordinate % SLOTS];
+            }
             for number in (1..=first).rev() {
                 let decay = slices[number].tail[0];
-                all[(number - 1) * count + coordinate] =
-                    all[number * count + coordinate].map(|value| decay * value);
+                all[place(number - 1)] = all[place(number)].map(|value| decay * value);
             }
             for number in last + 1..slices.len() {
                 let decay = slices[number - 1].tail[1];
-                all[number * count + coordinate] =
-                    all[(number - 1) * count + coordinate].map(|value| decay * value);
+                all[place(number)] = all[place(number - 1)].map(|value| decay * value);
             }
         }
         let mut lines = Vec::with_capacity(self.at.contacts.len());
-        for (number, contacts) in self.at.contacts.chunks(pairs).enumerate() {
-            let here = &all[number * count..][..count];
+        for (contacts, here) in self.at.contacts.chunks(pairs).zip(all.chunks(count)) {
             for (pair, Contact { root, mean, .. }) in contacts.iter().enumerate() {
                 if *mean == f64::INFINITY {
                     lines.push([1.0, f64::INFINITY]);
                     continue;
                 }
-                let factors = self.factors[pair * count..][..count].iter().zip(here);
-                let [moved, kept] = factors.fold([0.0; 2], |[one, other], (factor, side)| {
-                    [one + factor * side[0], other + factor * side[1]]
-                });
+                let [mut moved, mut kept] = [0.0; 2];
+                for (factor, side) in factors(pair).iter().zip(here) {
+                    (moved, kept) = (moved + factor * side[0], kept + factor * side[1]);
+                }
                 lines.push([1.0 - root * moved, mean - root * kept]);
             }
         }

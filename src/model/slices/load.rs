@@ -15,7 +15,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 /// Tolerances of greatest values: finer ones are lost among the errors of the slices.
-pub(super) const PRECISION: (f64, f64) = (1e-6, 1e-9);
+pub(super) const PRECISION: (f64, f64) = (1e-5, 1e-8);
 
 /// Number of places in a base pitch at which the load is solved.
 const STEPS: usize = 64;
@@ -107,8 +107,8 @@ impl Face {
         loads.s + f64::from(ahead) * self.mesh.base_pitch + self.slices[slice].ahead
     }
 
-    /// The greatest line load of some pairs in a part of the path.
-    fn line_peak(&self, loads: &Loads, pairs: impl Iterator<Item = i32>, part: Part) -> LinePeak {
+    /// The greatest line load of the incoming pair in a part of the path.
+    fn line_peak(&self, loads: &Loads, part: Part) -> LinePeak {
         let place = FacePlace { z: 0.0, path: 0.0 };
         let mut best = LinePeak { line_load: 0.0, place };
         let mut include = |line_load: f64, place: FacePlace| {
@@ -119,34 +119,33 @@ impl Face {
         let (length, edges) = (self.mesh.length, self.mesh.edges());
         // A part can have its greatest load just beside its end.
         let step = self.slices.first().map_or(0.0, |slice| slice.step * self.inputs.lead);
-        for ahead in pairs {
-            for (number, slice) in self.slices.iter().enumerate() {
-                let path = self.path(loads, ahead, number);
-                let [one, other] = slice.borders.map(|border| path - slice.ahead + border);
-                let has_edge = edges.clone().any(|edge| (edge - one) * (edge - other) < 0.0);
-                let load = if has_edge && part != Part::All {
-                    None
-                } else if has_edge {
-                    self.load_at(loads, ahead, path).map(|(load, _)| load)
-                } else {
-                    Some(self.top(loads, ahead, number))
-                };
-                if let Some(load) = load.filter(|_| part.has(path, length)) {
-                    include(load, FacePlace { z: slice.z, path });
-                }
+        let is_here = |path: f64| part.has(path, length);
+        for (number, slice) in self.slices.iter().enumerate() {
+            let path = self.path(loads, 0, number);
+            if !is_here(path) {
+                continue;
             }
-            // The load has bends and jumps where functions of the mesh have them, between two slices.
-            for edge in edges.clone() {
-                let beside = |part: f64| part * step;
-                let beside = [INSIDE * length, beside(0.125), beside(0.25), beside(0.5)];
-                let count = if part == Part::All { 1 } else { beside.len() };
-                let beside = beside.into_iter().take(count);
-                for path in beside.flat_map(|beside| [edge - beside, edge + beside]) {
-                    let known = self.load_at(loads, ahead, path);
-                    if let Some((line_load, z)) = known.filter(|_| part.has(path, length)) {
-                        include(line_load, FacePlace { z, path });
-                    }
-                }
+            let [one, other] = slice.borders.map(|border| path - slice.ahead + border);
+            let has_edge = edges.clone().any(|edge| (edge - one) * (edge - other) < 0.0);
+            let load = if !has_edge {
+                Some(self.top(loads, 0, number))
+            } else if part == Part::All {
+                self.load_at(loads, 0, path).map(|(load, _)| load)
+            } else {
+                None
+            };
+            if let Some(load) = load {
+                include(load, FacePlace { z: slice.z, path });
+            }
+        }
+        // The load has bends and jumps where functions of the mesh have them, between two slices.
+        let beside = [INSIDE * length, 0.125 * step, 0.25 * step, 0.5 * step];
+        let beside = &beside[..if part == Part::All { 1 } else { beside.len() }];
+        let places =
+            edges.flat_map(|edge| beside.iter().flat_map(move |way| [edge - way, edge + way]));
+        for path in places.filter(|path| is_here(*path)) {
+            if let Some((line_load, z)) = self.load_at(loads, 0, path) {
+                include(line_load, FacePlace { z, path });
             }
         }
         best
@@ -163,6 +162,20 @@ impl Face {
         let bend = before - 2.0 * here + after;
         let is_top = before.min(after) > 0.0 && before.max(after) <= here && bend < 0.0;
         if is_top { here - (after - before).powi(2) / (8.0 * bend) } else { here }
+    }
+
+    /// z of the bottom of the parabola through the least of some values and its neighbours.
+    fn bottom(&self, values: &[f64], least: usize) -> f64 {
+        let at = |number: usize| (self.slices[number].z, values[number]);
+        let ((z, value), inner) = (at(least), 1..self.slices.len() - 1);
+        if !inner.contains(&least) {
+            return z;
+        }
+        let [before, after] = [at(least - 1), at(least + 1)];
+        let [fall, rise] = [before, after].map(|(beside, other)| (other - value) / (beside - z));
+        let bend = (rise - fall) / (after.0 - before.0);
+        let slope = fall + bend * (z - before.0);
+        if bend > 0.0 { (z - 0.5 * slope / bend).clamp(before.0, after.0) } else { z }
     }
 
     /// How far before E the incoming tooth touches, in the plane where this is farthest, in m.
@@ -266,7 +279,7 @@ impl Face {
     /// # Errors
     /// Those of [`Face::loads`].
     pub(super) fn greatest_lead(&self, course: Option<&Course>) -> Result<f64, Refusal> {
-        let (mesh, step) = (&self.mesh, self.mesh.base_pitch / STEPS as f64);
+        let (mesh, step) = (&self.mesh, self.mesh.base_pitch / (STEPS / 2) as f64);
         let (from, to) = (mesh.ends().0 - self.reach, self.reach);
         let count = ((to - from) / step).ceil() as usize;
         let places = (0..=count).map(|number| from + (to - from) * number as f64 / count as f64);
@@ -289,15 +302,15 @@ impl Face {
         loads.pairs().map(|ahead| self.force(loads, ahead, Part::All)).fold(0.0, f64::max)
     }
 
-    /// The station of the incoming tooth. Gap, compliance and velocities are those of the slice with the
-    /// least gap.
+    /// The station of the incoming tooth. Gap, compliance and velocities are those at the z with the least
+    /// gap.
     fn station(&self, loads: &Loads, motion: Option<(f64, Option<f64>)>) -> Station {
         let mesh = &self.mesh;
         let (from, to) = mesh.ends();
         let at = |slice: &Slice| mesh.incoming((loads.s + slice.ahead).clamp(from, to));
-        let gap = |slice: &Slice| at(slice).0.gap + slice.gap;
-        let nearest = self.slices.iter().min_by(|one, other| gap(one).total_cmp(&gap(other)));
-        let nearest = nearest.copied().unwrap_or(self.slices[0]);
+        let gaps: Vec<f64> = self.slices.iter().map(|slice| at(slice).0.gap + slice.gap).collect();
+        let least = gaps.iter().enumerate().min_by(|one, other| one.1.total_cmp(other.1));
+        let nearest = Slice::at(&self.inputs, self.bottom(&gaps, least.map_or(0, |(at, _)| at)));
         let (place, slope) = at(&nearest);
         let force = self.force(loads, 0, Part::All);
         let total: f64 = self.over_face(&loads.of_all(), |_| 1.0);
@@ -307,7 +320,7 @@ impl Face {
             force,
             normal_velocity: 0.0 - slope * mesh.speed,
             sliding_velocity: place.sliding,
-            gap: gap(&nearest),
+            gap: place.gap + nearest.gap,
             pair_compliance: Some(mesh.width / place.stiffness),
             own: Own::Shared {
                 part: if total > 0.0 { force / total } else { 0.0 },
@@ -380,8 +393,9 @@ pub(super) struct Passage<'a> {
     /// The motion; `None` at rest.
     course: Option<&'a Course>,
     incoming: Incoming,
-    /// The balance computed last, whose slices are likely to touch again.
-    near: RefCell<Option<Rc<Loads>>>,
+    /// The balances of the samples in their order, and the one computed last.
+    samples: RefCell<Vec<Rc<Loads>>>,
+    last: RefCell<Option<Rc<Loads>>>,
 }
 
 /// The load of the incoming tooth in a passage.
@@ -402,14 +416,25 @@ pub(super) struct Passed {
 
 impl<'a> Passage<'a> {
     pub(super) fn new(face: &'a Face, course: Option<&'a Course>, incoming: Incoming) -> Self {
-        Passage { face, course, incoming, near: RefCell::default() }
+        let (samples, last) = (RefCell::default(), RefCell::default());
+        Passage { face, course, incoming, samples, last }
     }
 
-    /// The loads with the incoming pair at `s`.
+    /// The loads with the incoming pair at `s`. The slices of the nearest known places are likely to
+    /// touch again.
     fn loads(&self, s: f64) -> Result<Rc<Loads>, Refusal> {
-        let mut near = self.near.borrow_mut();
-        if let Some(near) = near.as_ref().filter(|near| near.s.to_bits() == s.to_bits()) {
-            return Ok(Rc::clone(near));
+        /// Of a base pitch.
+        const SAME: f64 = 1e-12;
+        let (samples, mut last) = (self.samples.borrow(), self.last.borrow_mut());
+        let first = samples.partition_point(|known| known.s < s).saturating_sub(2);
+        let known = samples[first..].iter().take(4).chain(last.as_ref());
+        let mut near: Vec<Rc<Loads>> = known.map(Rc::clone).collect();
+        let distance = |known: &Rc<Loads>| (known.s - s).abs();
+        near.sort_by(|one, other| distance(one).total_cmp(&distance(other)));
+        near.dedup_by(|one, other| one.s.to_bits() == other.s.to_bits());
+        let same = SAME * self.face.mesh.base_pitch;
+        if let Some(known) = near.first().filter(|near| distance(near) <= same) {
+            return Ok(Rc::clone(known));
         }
         let mut position = self.face.position(s);
         self.incoming.change(&mut position, 0);
@@ -417,16 +442,20 @@ impl<'a> Passage<'a> {
             Some(course) => Until::Displacement(course.at(s)[0]),
             None => Until::Force(self.face.mesh.force),
         };
-        let loads = Rc::new(position.loads(until, near.as_deref(), PRECISE)?);
+        let loads = Rc::new(position.loads(until, &near, PRECISE)?);
         if !loads.displacement.is_finite() {
             return Err(Refusal::BeyondReach);
         }
-        *near = Some(Rc::clone(&loads));
+        *last = Some(Rc::clone(&loads));
         Ok(loads)
     }
 
     fn samples(&self, places: &[f64]) -> Result<Vec<Rc<Loads>>, Refusal> {
-        places.iter().map(|&s| self.loads(s)).collect()
+        for &s in places {
+            let loads = self.loads(s)?;
+            self.samples.borrow_mut().push(loads);
+        }
+        Ok(self.samples.borrow().clone())
     }
 
     /// The greatest value, with its place, by samples and a search between them.
@@ -442,10 +471,17 @@ impl<'a> Passage<'a> {
         const MOST: usize = 400_000;
         /// Of the steps of a motion, which are many more than an oscillation needs to be seen.
         const EVERY: usize = 2;
-        let pitch = self.face.mesh.base_pitch / (STEPS / 2) as f64;
-        let count = ((to - from) / (pitch * part as f64)).ceil().max(2.0);
-        let even = (0..=count as u32).map(|step| from + (to - from) * f64::from(step) / count);
-        let mut places: Vec<f64> = even.collect();
+        let step = self.face.mesh.base_pitch / (STEPS / 2) as f64 * part as f64;
+        // Stations are at the same halvings of the ways to E and from E.
+        let even = |from: f64, to: f64| {
+            let halvings = ((to - from) / step).log2().round().max(1.0);
+            let count = halvings.exp2();
+            (0..count as u32).map(move |step| from + (to - from) * f64::from(step) / count)
+        };
+        let middle = 0f64.clamp(from, to);
+        let mut places: Vec<f64> = even(from, middle).chain(even(middle, to)).collect();
+        places.push(to);
+        places.dedup();
         if let Some(course) = self.course {
             let moments: Vec<f64> = course.places(from, to).collect();
             let every = (EVERY * part).max(moments.len() * 4 * self.face.slices.len() / MOST);
@@ -475,8 +511,13 @@ impl<'a> Passage<'a> {
         if first == 0 || last + 1 == looks.len() {
             return Err(Refusal::BeyondReach);
         }
-        let lead =
-            |s: f64| self.loads(s).map_or(f64::NAN, |loads| loads.lead(0).0.clamp(-length, length));
+        // A lead among the errors of the balance counts as none.
+        let lead = |s: f64| {
+            self.loads(s).map_or(f64::NAN, |loads| {
+                let lead = loads.lead(0).0.clamp(-length, length);
+                if lead.abs() > PRECISE * loads.displacement { lead } else { 0.0 }
+            })
+        };
         let root =
             |apart: usize, carrying: usize| root::between(looks[apart], looks[carrying], lead);
         Ok(Some((root(first - 1, first), root(last + 1, last))))
@@ -488,20 +529,24 @@ impl<'a> Passage<'a> {
         let Some((first, last)) = self.ends()? else {
             return Ok(None);
         };
-        let place = |s: f64| -> Result<FacePlace, Refusal> {
-            let (_, slice) = self.loads(s)?.lead(0);
-            let Slice { z, ahead, .. } = face.slices[slice];
-            Ok(FacePlace { z, path: s + ahead })
-        };
-        let (first_place, last_place) = (place(first)?, place(last)?);
         let places = self.places(first, last, 1);
         let samples = self.samples(&places)?;
+        let place = |loads: &Loads| {
+            let Slice { z, ahead, .. } = face.slices[loads.lead(0).1];
+            FacePlace { z, path: loads.s + ahead }
+        };
+        let [first_place, last_place] = [0, samples.len() - 1].map(|end| place(&samples[end]));
         let extreme = |of: &dyn Fn(&Loads) -> f64| self.greatest(&samples, of);
         let line_peak = |part: Part| {
-            let peak = |loads: &Loads| face.line_peak(loads, std::iter::once(0), part);
-            let (s, _) = extreme(&|loads| peak(loads).line_load);
-            let found = self.loads(s).ok().map(|loads| peak(&loads));
-            found.filter(|peak| peak.line_load > 0.0)
+            let best = Cell::new(None);
+            extreme(&|loads| {
+                let peak = face.line_peak(loads, part);
+                let is_best =
+                    best.get().is_none_or(|best: LinePeak| peak.line_load > best.line_load);
+                best.set(if is_best { Some(peak) } else { best.get() });
+                peak.line_load
+            });
+            best.get().filter(|peak| peak.line_load > 0.0)
         };
         let peak_force = extreme(&|loads| face.force(loads, 0, Part::All)).1;
         let failed = Cell::new(None);

@@ -8,7 +8,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::Face;
-use super::balance::{Incoming, Loads, PRECISE, Until};
+use super::balance::{Incoming, Loads, PRECISE, Position, Until};
 use super::course::{Course, Moment};
 use super::load::{FaceLoad, PRECISION, Passage, Passed};
 use crate::model::Refusal;
@@ -28,8 +28,10 @@ pub(in crate::model) struct Springs<'a> {
     parts: Vec<(f64, f64, u32)>,
     /// The known points of the force over the displacement.
     points: RefCell<HashMap<Place, Vec<Point>>>,
+    /// The pairs without deviations at the places.
+    positions: RefCell<HashMap<u64, Position<'a>>>,
     /// The loads computed last, whose slices are likely to touch again.
-    near: RefCell<Option<Loads>>,
+    near: RefCell<Option<Rc<Loads>>>,
     /// Precision of the balances.
     precision: f64,
     /// How far a smooth force is known about a point, in m.
@@ -79,12 +81,24 @@ impl<'a> Springs<'a> {
             face,
             parts: borders.windows(2).map(part).collect(),
             points: RefCell::default(),
+            positions: RefCell::default(),
             near: RefCell::default(),
             precision: (0.01 * tolerance).max(PRECISE),
             // The stiffness changes by less than itself over the deflection.
             reach: (2.0 * tolerance).sqrt() * mesh.force / mesh.mean_stiffness(),
             solves: Cell::default(),
         }
+    }
+
+    /// The pairs without deviations at a place.
+    fn position(&self, place: f64) -> Position<'a> {
+        /// Bounds the memory to some ten MB: pairs at slices in all positions.
+        const MOST: usize = 400_000;
+        let mut positions = self.positions.borrow_mut();
+        if positions.values().next().is_some_and(|one| positions.len() * one.size() > MOST) {
+            positions.clear();
+        }
+        positions.entry(place.to_bits()).or_insert_with(|| self.face.position(place)).clone()
     }
 
     /// Force and stiffness of the mesh with the incoming pair `pitches` base pitches after the place.
@@ -112,15 +126,15 @@ impl<'a> Springs<'a> {
             return Ok([force, point.stiffness + point.bend * way]);
         }
         self.solves.set(self.solves.get() + 1);
-        let mut position = self.face.position(place);
+        let mut position = self.position(place);
         if deviates {
             incoming.change(&mut position, pitches);
         }
         let mut near = self.near.borrow_mut();
         let loads =
-            position.loads(Until::Displacement(displacement), near.as_ref(), self.precision)?;
+            position.loads(Until::Displacement(displacement), near.as_slice(), self.precision)?;
         let Loads { force, stiffness, bend, smooth, .. } = loads;
-        *near = Some(loads);
+        *near = Some(Rc::new(loads));
         known.push(Point { displacement, force, stiffness, bend, reach: smooth.min(self.reach) });
         Ok([force, stiffness])
     }
@@ -243,7 +257,7 @@ impl<'a, 'b> Motion<'a, 'b> {
         let face = self.springs.face;
         let mut position = face.position(0.0);
         self.incoming.change(&mut position, pitches);
-        let loads = position.loads(Until::Force(face.mesh.force), None, PRECISE)?;
+        let loads = position.loads(Until::Force(face.mesh.force), &[], PRECISE)?;
         if loads.displacement.is_finite() {
             return Ok(State::new(loads.displacement, 0.0));
         }
