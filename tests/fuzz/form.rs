@@ -67,7 +67,7 @@ fn any_typing_leaves_the_form_valid_and_the_screen_safe() {
     let draft = Document::new(Case::fresh()).render();
     let text = prop_oneof![texts::written(), texts::mutated(), Just(draft), Just(String::new())];
     let seen = RefCell::new(BTreeSet::new());
-    hold(200, &(text, any::<bool>(), happenings()), |(text, ascii, happenings)| {
+    hold(120, &(text, any::<bool>(), happenings()), |(text, ascii, happenings)| {
         let mut bench = Bench::on(&text, ascii);
         bench.assert_sound();
         for happening in happenings {

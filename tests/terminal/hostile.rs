@@ -178,8 +178,8 @@ fn every_size_is_drawn_on_every_screen() {
     for keys in SCREENS {
         let mut desk = on(TABLE_1, SMALL, Look::FULL);
         desk.keys(keys);
-        let widths = (0..=90u16).step_by(7).chain([100, 140, 200]);
-        let heights = || (0..=30u16).step_by(3).chain([5, 15, 17, 35, 60, 80]);
+        let widths = (0..=90u16).step_by(13).chain([60, 80, 140, 200]);
+        let heights = || (0..=30u16).step_by(5).chain([16, 17, 24, 60, 80]);
         for (width, height) in widths.flat_map(|width| heights().map(move |height| (width, height)))
         {
             let size = Size { width, height };
