@@ -6,7 +6,8 @@ use super::units::{self, Dimension};
 use super::{Case, FIELDS};
 use crate::model::compliance::{model_of, without_field};
 use crate::model::inputs::Method;
-use crate::model::{self, Inputs, Quantity, Refusal, Stage, Stages};
+use crate::model::solve::solve_after;
+use crate::model::{self, Earlier, Inputs, Quantity, Refusal, Solution, Stage, Stages};
 
 /// A field that a quantity depends on.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +29,8 @@ pub struct Step {
 
 /// The fields that a quantity depends on, in the order of the form: fields that a stage of the
 /// quantity reads and whose change alters `own`, the value of the quantity with these inputs. A
-/// flag, and a quantity without a value, depend on every field that these stages read.
+/// flag, a quantity without a value, and a quantity over the face width depend on every field that
+/// these stages read: a trial of the slices takes too long to try several values of every field.
 pub fn fields_of(
     quantity: &Quantity,
     case: &Case,
@@ -37,20 +39,22 @@ pub fn fields_of(
 ) -> Vec<Dependence> {
     let behind = Stages::of(quantity.stage);
     let is_behind = |&field: &usize| stages_of(field, inputs).within(behind) != Stages::NONE;
-    let quick = quickest_of(quantity, inputs, own);
+    let base = Base::of(quantity, inputs, own);
+    let is_over_face = inputs.face().is_some() && behind.has(Stage::Mesh);
+    let is_listed = own.is_none() || quantity.is_flag() || is_over_face;
     // A given centre distance fits only the present gears.
-    let is_free = quick.centre_distance.is_none() || quantity.key == "centre_distance";
-    let free = (!is_free).then(|| Inputs { centre_distance: None, ..quick.clone() });
+    let is_free = base.inputs.centre_distance.is_none() || quantity.key == "centre_distance";
+    let free = (!is_free && !is_listed)
+        .then(|| Base::at(quantity, Inputs { centre_distance: None, ..base.inputs.clone() }));
     let dependence = |field| {
-        let small = small_step(field, case, &quick);
-        let after = small.as_ref().map(|(_, inputs)| solved(quantity, inputs));
-        let moves = own.is_none()
-            || quantity.is_flag()
+        let small = small_step(field, case, &base.inputs);
+        let after = small.as_ref().map(|(_, inputs)| base.solved(inputs));
+        let moves = is_listed
             || after.is_some_and(|after| differ(after, own) == Some(true))
-            || is_moved(quantity, own, field, case, &quick)
+            || is_moved(own, field, case, &base)
                 .or_else(|| {
                     let free = free.as_ref()?;
-                    is_moved(quantity, value_of(quantity, free), field, case, free)
+                    is_moved(free.value(), field, case, free)
                 })
                 .unwrap_or_default();
         let step = small.zip(after);
@@ -61,28 +65,55 @@ pub fn fields_of(
     fields.filter(is_behind).filter_map(dependence).collect()
 }
 
-/// The inputs with a quick tooth compliance if the quantity does not depend on the tooth
-/// compliance, otherwise the same inputs. An elastic field for every changed gear takes longer than
-/// all other stages.
-fn quickest_of(quantity: &Quantity, inputs: &Inputs, own: Option<f64>) -> Inputs {
-    // A flag or a value of 0 can agree by chance.
-    let is_telling = !quantity.is_flag() && own.is_some_and(|own| own != 0.0);
-    let quick = without_field(inputs)
-        .filter(|_| is_telling)
-        .map(|tooth| Inputs { tooth_compliance: Some(tooth), ..inputs.clone() });
-    let is_same = |quick: &Inputs| differ(solved(quantity, quick), own) == Some(false);
-    quick.filter(is_same).unwrap_or_else(|| inputs.clone())
+/// The pair that the trials change, and its solution, whose stages they use again.
+struct Base<'a> {
+    quantity: &'a Quantity,
+    inputs: Inputs,
+    solution: Result<Solution, Refusal>,
+}
+
+impl<'a> Base<'a> {
+    /// The inputs with a quick tooth compliance if the quantity does not depend on the tooth
+    /// compliance, otherwise the same inputs. An elastic field for every changed gear takes longer
+    /// than all other stages.
+    fn of(quantity: &'a Quantity, inputs: &Inputs, own: Option<f64>) -> Base<'a> {
+        // A flag or a value of 0 can agree by chance.
+        let is_telling = !quantity.is_flag() && own.is_some_and(|own| own != 0.0);
+        let quick = without_field(inputs)
+            .filter(|_| is_telling)
+            .map(|tooth| Inputs { tooth_compliance: Some(tooth), ..inputs.clone() });
+        let quick = quick.map(|quick| Base::at(quantity, quick));
+        let is_same = |quick: &Base<'_>| differ(quick.solved(&quick.inputs), own) == Some(false);
+        quick.filter(is_same).unwrap_or_else(|| Base::at(quantity, inputs.clone()))
+    }
+
+    fn at(quantity: &'a Quantity, inputs: Inputs) -> Base<'a> {
+        let solution = model::solve(&inputs, Stages::of(quantity.stage));
+        Base { quantity, inputs, solution }
+    }
+
+    /// The value of the quantity.
+    fn value(&self) -> Option<f64> {
+        finite(self.quantity, self.solution.as_ref().ok()?)
+    }
+
+    /// The value of the quantity with other inputs, if it has one.
+    fn solved(&self, inputs: &Inputs) -> Result<Option<f64>, Refusal> {
+        let solution = self.solution.as_ref().ok();
+        let earlier = solution.map(|solution| Earlier { inputs: &self.inputs, solution });
+        let wanted = Stages::of(self.quantity.stage);
+        let solution = solve_after(inputs, wanted, earlier, &|_| true)?;
+        Ok(finite(self.quantity, &solution))
+    }
 }
 
 /// The value of a quantity with these inputs, in SI.
 pub fn value_of(quantity: &Quantity, inputs: &Inputs) -> Option<f64> {
-    solved(quantity, inputs).ok().flatten()
+    finite(quantity, &model::solve(inputs, Stages::of(quantity.stage)).ok()?)
 }
 
-/// The value of a quantity, if it has one.
-fn solved(quantity: &Quantity, inputs: &Inputs) -> Result<Option<f64>, Refusal> {
-    let solution = model::solve(inputs, Stages::of(quantity.stage))?;
-    Ok((quantity.value)(&solution).filter(|value| value.is_finite()))
+fn finite(quantity: &Quantity, solution: &Solution) -> Option<f64> {
+    (quantity.value)(solution).filter(|value| value.is_finite())
 }
 
 /// Whether the value differs in any bit, ignoring the sign of zero. `None` if the pair cannot be
@@ -119,16 +150,10 @@ fn small_step(field: usize, case: &Case, inputs: &Inputs) -> Option<(&'static st
 }
 
 /// Whether a larger change of a field alters a quantity. `None` if no changed pair can be solved.
-fn is_moved(
-    quantity: &Quantity,
-    own: Option<f64>,
-    field: usize,
-    case: &Case,
-    inputs: &Inputs,
-) -> Option<bool> {
+fn is_moved(own: Option<f64>, field: usize, case: &Case, base: &Base<'_>) -> Option<bool> {
     let mut known = None;
-    for other in with_values(field, &other_values(field, case, inputs), inputs) {
-        known = differ(solved(quantity, &other), own).or(known);
+    for other in with_values(field, &other_values(field, case, &base.inputs), &base.inputs) {
+        known = differ(base.solved(&other), own).or(known);
         if known == Some(true) {
             break;
         }
@@ -154,7 +179,9 @@ fn other_values(field: usize, case: &Case, inputs: &Inputs) -> Vec<f64> {
         },
         Kind::Number(dimension, range, _) => {
             let alike = || value_of(Quantity::find(known.name())?, inputs);
-            if let Some(now) = now.or_else(alike) {
+            if now == Some(0.0) {
+                vec![within(range, SHARE)]
+            } else if let Some(now) = now.or_else(alike) {
                 FACTORS.map(|times| times * now).into_iter().chain([within(range, SHARE)]).collect()
             } else {
                 let example = units::parse(known.example(), dimension, range.unit);
