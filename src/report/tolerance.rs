@@ -5,15 +5,15 @@ use super::table::{Named, Results};
 use super::table::{count, item};
 use super::verdict::Absence;
 use super::{common_unit, shown_with};
-use crate::case::fields::index_of;
+use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::sanitize;
-use crate::case::units::System;
+use crate::case::units::{self, System};
 use crate::case::{Acting, Case, Problem, Spread, relevance};
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::study::batch::Points;
 use crate::study::statistics::{Estimate, Figure, Indices, PERCENTILES, least_count};
-use crate::study::tolerance::{Design, Distribution};
+use crate::study::tolerance::{Design, Distribution, centre};
 use crate::study::tolerance::{Exceedance, OfQuantity, Samples, Summary, Tolerance};
 
 /// Greatest length of a bar of a histogram, in characters.
@@ -59,8 +59,12 @@ impl ToleranceReport<'_> {
         lines.extend(spread.flat_map(|(field, text)| item(&format!("  {field:width$}  "), &text)));
         if self.case.spread.iter().any(|spread| spread.field.ends_with(".base_pitch")) {
             let is_sum = self.combination() == "sum";
-            let rule = if is_sum { "with their signs: known" } else { "as squares: independent" };
-            lines.push(format!("  base pitch deviations add {rule}"));
+            let rule = if is_sum {
+                "f_pb1 + f_pb2, each with its sign"
+            } else {
+                "root of the sum of squares (deviations.combination = independent)"
+            };
+            lines.extend(item("  ", &format!("Base pitch deviation of a sample: {rule}")));
         }
         lines
     }
@@ -245,8 +249,21 @@ pub(super) fn samples(study: &Tolerance, summary: &Summary) -> String {
 pub(super) fn distributions(case: &Case) -> Vec<(&'static str, String)> {
     let (inputs, _) = case.read();
     let of = |spread: &Spread| {
-        let value = index_of(spread.field).and_then(|field| case.effective(field));
-        let value = sanitize(value.unwrap_or_default());
+        let field = index_of(spread.field);
+        let given = field.and_then(|field| case.effective(field)).unwrap_or_default();
+        // The case leaves the field out, and its value follows from others.
+        let derived = field.and_then(|field| {
+            let shown = |value: f64| {
+                let (number, unit) =
+                    units::shown(value, FIELDS[field].usual_unit(), 5, System::Metric);
+                format!("{number} {unit}")
+            };
+            let (own, drawn) = (case.derived(field, &inputs)?, centre(field, case, &inputs)?);
+            let by_grade = || format!(" (without samples {}, by the grade)", shown(own));
+            let is_own = own.total_cmp(&drawn).is_eq();
+            Some(shown(drawn) + &if is_own { String::new() } else { by_grade() })
+        });
+        let value = derived.unwrap_or_else(|| sanitize(given));
         let idle = match index_of(spread.field).map(|field| relevance(field, &inputs)) {
             Some(Acting::No(why) | Acting::Beside(why)) => format!("; changes nothing: {why}"),
             _ => String::new(),

@@ -3,7 +3,7 @@
 use crate::case::fields::{FIELDS, Kind, Value, index_of};
 use crate::case::spread::Shape;
 use crate::case::{Case, Limit, Problem, Spread, field_range, units};
-use crate::model::deviation::base_pitch_tolerance;
+use crate::model::deviation::Origin;
 use crate::model::inputs::{Combination, Gear};
 use crate::model::{Inputs, Outcome, Quantity};
 use crate::numeric::decimal::{shortest, significant};
@@ -418,17 +418,17 @@ impl Distribution {
     pub fn of(spread: &Spread, case: &Case, inputs: &Inputs) -> Result<Distribution, Problem> {
         let key = spread.field;
         let refused = |cause, fix| Err(Problem::new(&format!("spread.\"{key}\""), cause, fix));
-        // Another field of the case may replace this one.
-        let given = index_of(key).filter(|&field| case.effective(field).is_some());
-        let Some((field, centre)) = given.and_then(|field| Some((field, case.value(field)?)))
-        else {
+        let known = index_of(key).and_then(|field| Some((field, centre(field, case, inputs)?)));
+        let Some((field, centre)) = known else {
             let cause = format!("{key} has no value to spread around");
-            let fix = if key.ends_with(".base_pitch") {
-                format!("write {key} = \"0 um\": the deviation is drawn around 0")
-            } else {
-                format!("give {key} a value")
+            let partner = index_of(key).filter(|&field| case.is_replaced(field));
+            return match partner.and_then(|field| FIELDS[field].partner()) {
+                Some(given) => {
+                    let given = FIELDS[given].key;
+                    refused(format!("{cause}: the case gives {given}"), format!("spread {given}"))
+                }
+                None => refused(cause, format!("give {key} a value")),
             };
-            return refused(cause, fix);
         };
         let (shape, width) = match spread.shape {
             Shape::Grade => (Shape::Truncated, allowed_deviation(spread, inputs)),
@@ -503,23 +503,42 @@ impl Distribution {
     }
 }
 
-/// The base pitch deviation that a tolerance class allows: of the gear in the key, otherwise of the
-/// larger gear.
-fn allowed_deviation(spread: &Spread, inputs: &Inputs) -> f64 {
-    let diameter = |gear: &Gear| inputs.module * f64::from(gear.teeth);
-    let (driver, driven) = (diameter(&inputs.driver), diameter(&inputs.driven));
-    let diameter = match spread.field {
-        "driver.base_pitch" => driver,
-        "driven.base_pitch" => driven,
-        _ => driver.max(driven),
+/// The value in SI around which the values of a field are drawn: that of the case or of the form.
+/// The base pitch deviation of a gear with a flank tolerance class is drawn around 0, because the
+/// class permits as much below 0 as above; the case itself has the greatest permitted deviation.
+pub fn centre(field: usize, case: &Case, inputs: &Inputs) -> Option<f64> {
+    let own = case.value(field).filter(|_| case.effective(field).is_some());
+    let gear = match FIELDS[field].key {
+        "driver.base_pitch" => Some(&inputs.driver),
+        "driven.base_pitch" => Some(&inputs.driven),
+        _ => None,
     };
-    let class = spread.width as u32;
-    base_pitch_tolerance(class, inputs.module, diameter, inputs.pressure_angle)
+    match gear.map(|gear| inputs.base_pitch_of(gear).1) {
+        _ if own.is_some() => own,
+        _ if case.is_replaced(field) => None,
+        Some(Origin::Grade) => Some(0.0),
+        _ => case.derived(field, inputs),
+    }
+}
+
+/// Base pitch deviation of a flank tolerance class, in m: for the common deviation of both gears that
+/// of the larger gear.
+fn allowed_deviation(spread: &Spread, inputs: &Inputs) -> f64 {
+    let allowed = |gear: &Gear| {
+        let grade = Some(spread.width as u32);
+        inputs.base_pitch_of(&Gear { base_pitch: None, grade, ..gear.clone() }).0
+    };
+    match spread.field {
+        "driver.base_pitch" => allowed(&inputs.driver),
+        "driven.base_pitch" => allowed(&inputs.driven),
+        _ => allowed(&inputs.driver).max(allowed(&inputs.driven)),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{Stages, solve};
 
     fn distribution(shape: Shape) -> Distribution {
         Distribution {
@@ -584,5 +603,31 @@ mod tests {
         assert!(refusal("driven.tip_relief", "truncated 10 um").is_ok());
         let message = refusal("operation.torque", "normal 1 N m").unwrap_err();
         assert!(message.contains("operation.torque has no value to spread around"), "{message}");
+        assert!(message.ends_with("the case gives operation.power: spread operation.power"));
+    }
+
+    #[test]
+    fn the_deviation_of_a_graded_gear_is_drawn_around_0_and_replaces_that_of_the_grade() {
+        let mut case = Case::table_1();
+        case.set("deviations.combination", "sum").unwrap();
+        let gears = ["driver", "driven"];
+        for gear in gears {
+            case.set(&format!("{gear}.grade"), "7").unwrap();
+        }
+        let inputs = case.inputs().unwrap();
+        let mut sample = inputs.clone();
+        for (gear, nominal) in gears.iter().zip(inputs.base_pitches()) {
+            for text in ["grade 7", "normal 4 um"] {
+                let spread = Spread::new(&format!("{gear}.base_pitch"), text).unwrap();
+                let found = Distribution::of(&spread, &case, &inputs).unwrap();
+                assert_eq!(found.centre.to_bits(), 0);
+                let is_graded = found.width.to_bits() == nominal.to_bits();
+                assert!(is_graded || found.shape == Shape::Normal, "{found:?}");
+                found.put(nominal, &mut sample);
+            }
+        }
+        assert!(sample.driver.base_pitch.is_some() && sample.driven.base_pitch.is_some());
+        let [found, nominal] = [&sample, &inputs].map(|inputs| solve(inputs, Stages::EVERY));
+        assert_eq!(found.unwrap(), nominal.unwrap());
     }
 }
