@@ -293,6 +293,9 @@ pub struct Hertz {
     give: f64,
     /// Common face width, in m.
     width: f64,
+    /// cos β_b: the radii of curvature of the normal section are greater than those of the transverse
+    /// section by its reciprocal.
+    oblique: f64,
     /// Radii of the tip edges of driver and driven gear, in m.
     tip_radii: [Option<f64>; 2],
 }
@@ -304,6 +307,7 @@ impl Hertz {
         Hertz {
             give: give(&inputs.driver) + give(&inputs.driven),
             width: inputs.common_width(),
+            oblique: inputs.base_helix_angle().cos(),
             tip_radii: [inputs.driver.tip_radius, inputs.driven.tip_radius],
         }
     }
@@ -312,6 +316,12 @@ impl Hertz {
     /// in m: √(F E'/(π b ρ)), in Pa (Hertz 1882).
     pub fn pressure(&self, force: f64, curvature: f64) -> f64 {
         (force / (PI * self.width * curvature * self.give)).sqrt()
+    }
+
+    /// The pressure under a transverse line load over the reduced radius of curvature of the transverse
+    /// section, in N/m²: √(w cos β_b E'/(π ρ_t)), in Pa.
+    fn of_line(&self, load_over_curvature: f64) -> f64 {
+        (load_over_curvature * self.oblique / (PI * self.give)).sqrt()
     }
 }
 
@@ -324,13 +334,13 @@ impl Solution {
     }
 
     /// The Hertz pressure at a station, in Pa: of both flanks from E to B, and of the rounded tip edge
-    /// on the flank before E and after B. `None` at a sharp edge, where no pressure is finite.
+    /// on the flank before E and after B. `None` at a sharp edge, where no pressure is finite. In slices
+    /// the greatest pressure of both flanks over the face width.
     pub fn pressure(&self, station: &Station) -> Option<f64> {
-        // The force of a station does not say where on the face it acts.
-        if self.has_slices() {
-            return None;
-        }
         let (geometry, hertz) = (&self.geometry, &self.kept.hertz);
+        if self.has_slices() {
+            return station.load_over_curvature().map(|load| hertz.of_line(load));
+        }
         let along = geometry.start - station.roll_angle_driver * geometry.driver.base;
         let curvature = if station.roll_angle_driven > 0.0 {
             let radius = hertz.tip_radii[1]?;

@@ -76,6 +76,8 @@ pub struct Face {
     reach: f64,
     /// Least gap by misalignment and flank lines, in m.
     least_gap: f64,
+    /// Distance N1E, and length of the line of action N1N2, in m.
+    line: (f64, f64),
 }
 
 impl Face {
@@ -100,7 +102,9 @@ impl Face {
         mesh: &Arc<Mesh>,
     ) -> Result<Face, Refusal> {
         let sections = mesh.sections(geometry)?;
-        Ok(Face::at(inputs, (mesh, &sections), &inputs.places(inputs.count(mesh.base_pitch))))
+        let places = inputs.places(inputs.count(mesh.base_pitch));
+        let line = (geometry.start, geometry.tangent_length);
+        Ok(Face { line, ..Face::at(inputs, (mesh, &sections), &places) })
     }
 
     fn at(
@@ -139,6 +143,7 @@ impl Face {
             reach: 0.5 * inputs.width * inputs.lead.abs(),
             least_gap: slices.iter().map(|slice| slice.gap).fold(f64::INFINITY, f64::min),
             slices,
+            line: (0.0, 0.0),
         }
     }
 

@@ -56,6 +56,9 @@ pub enum Own {
         part: f64,
         /// Displacement of the driver ahead along the line of action, in m.
         displacement: f64,
+        /// Greatest line load over the reduced radius of curvature of its flanks, in N/m²; only in
+        /// slices, if a slice carries load between E and B.
+        load_over_curvature: Option<f64>,
         /// Time since E, in s, and at a computed station the rate of the displacement, in m/s; only
         /// in `dynamic`.
         motion: Option<(f64, Option<f64>)>,
@@ -87,6 +90,15 @@ impl Station {
         if let Own::Shared { displacement, .. } = self.own { Some(displacement) } else { None }
     }
 
+    /// Greatest line load over the reduced radius of curvature, in N/m²; only in slices.
+    #[must_use]
+    pub fn load_over_curvature(&self) -> Option<f64> {
+        match self.own {
+            Own::Shared { load_over_curvature, .. } => load_over_curvature,
+            Own::Impact { .. } => None,
+        }
+    }
+
     /// Time since E, in s; only in the method `dynamic`.
     #[must_use]
     pub fn time(&self) -> Option<f64> {
@@ -110,7 +122,8 @@ impl Station {
         let own = match both(Station::load_share).zip(both(Station::transmission_error)) {
             Some((part, displacement)) => {
                 let motion = both(Station::time).map(|time| (time, both(Station::rate)));
-                Own::Shared { part, displacement, motion }
+                let load_over_curvature = both(Station::load_over_curvature);
+                Own::Shared { part, displacement, load_over_curvature, motion }
             }
             None => self.own,
         };
@@ -164,6 +177,7 @@ impl Station {
             own: Own::Shared {
                 part: if total > 0.0 { force / total } else { 0.0 },
                 displacement,
+                load_over_curvature: None,
                 motion,
             },
         }

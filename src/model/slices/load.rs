@@ -325,9 +325,24 @@ impl Face {
             own: Own::Shared {
                 part: if total > 0.0 { force / total } else { 0.0 },
                 displacement: loads.displacement,
+                load_over_curvature: self.load_over_curvature(loads),
                 motion,
             },
         }
+    }
+
+    /// The greatest line load of the incoming tooth over the reduced radius of curvature of its flanks,
+    /// from E to B, in N/m². `None` without load there.
+    fn load_over_curvature(&self, loads: &Loads) -> Option<f64> {
+        let (start, tangent_length) = self.line;
+        let at_slices = (0..self.slices.len()).filter_map(|number| {
+            let path = self.path(loads, 0, number);
+            let along = start + path;
+            let curvature = along * (tangent_length - along) / tangent_length;
+            let is_on_flanks = (0.0..=self.mesh.length).contains(&path) && curvature > 0.0;
+            is_on_flanks.then(|| loads.at(0, number) / curvature)
+        });
+        at_slices.filter(|found| *found > 0.0).reduce(f64::max)
     }
 
     /// Power of friction on the incoming tooth, in W.
