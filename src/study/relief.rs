@@ -26,6 +26,10 @@ pub const AMOUNT_STEP: f64 = 1e-6;
 /// demand.
 pub const MOST_LOAD: f64 = 64.0;
 
+/// Greatest amounts of a proposal, relative to the least amounts without corner contact: a shape that is
+/// good only with more relief than this lets the load rise far beyond the demand.
+const MOST_AMOUNT: f64 = 2.0;
+
 /// Fraction of the progress that the search makes up; whole solves make up the rest.
 const SEARCH: f64 = 0.7;
 
@@ -71,6 +75,9 @@ pub struct Figures {
     pub peak: f64,
     /// Dynamic factor of the mesh in steady motion; only nominal and of method `dynamic`.
     pub factor: Option<f64>,
+    /// Transmission errors at the load of the case as in its results, in m: TE_st,pp without deviations,
+    /// and TE_st with the deviations of the case; only nominal.
+    pub own_errors: Option<[f64; 2]>,
     /// Greatest line load, in N/m, if the load varies over the face width.
     pub line_load: Option<f64>,
 }
@@ -82,7 +89,7 @@ pub struct Choice {
     pub name: &'static str,
     /// The reliefs.
     pub reliefs: TipReliefs,
-    /// Peak-to-peak transmission error at each load, in m.
+    /// Peak-to-peak transmission error at each load, without deviations, in m.
     pub errors: Vec<f64>,
     /// The figures without deviations.
     pub nominal: Figures,
@@ -210,6 +217,7 @@ impl Figures {
             entry: self.entry.max(other.entry),
             peak: self.peak.max(other.peak),
             factor: None,
+            own_errors: None,
             line_load: self.line_load.into_iter().chain(other.line_load).reduce(f64::max),
         }
     }
@@ -239,10 +247,11 @@ impl Specification {
 /// ```
 /// x is the transmission error of the static balance. If the method of the case is `dynamic`, the
 /// amounts grow until the motion has no corner contact either. Of the kinds of relief whose figures
-/// differ by no more than [`Criterion::worth`], the one with the smallest amounts is chosen. If no relief
-/// prevents corner contact, the criterion `entry` chooses the one with the least overlap. If the load
-/// varies over the face width, both gears have the same relief, the crowning of the driver is found
-/// together with it, and the misalignment ± its deviation is one of the tolerances.
+/// differ by no more than [`Criterion::worth`], the one with the smallest amounts is chosen. No kind
+/// has amounts above twice the least ones that prevent corner contact. If no relief prevents corner
+/// contact, the criterion `entry` chooses the one with the least overlap. If the load varies over the
+/// face width, both gears have the same relief, the crowning of the driver is found together with it,
+/// and the misalignment ± its deviation is one of the tolerances.
 ///
 /// # Source
 /// Harris maps of the transmission error over the load: Harris 1958; long and short relief: Munro,
@@ -539,8 +548,15 @@ impl WholeSolves<'_> {
         } else {
             None
         };
+        let stages = Stages::of(Stage::Static).and(Stages::of(Stage::StaticSpectrum));
+        let solution = self.solve_all(&reliefs.of(self.inputs), stages)?;
+        let ideal = solution.static_spectrum.transpose()?;
+        let own_errors = ideal
+            .zip(solution.static_load)
+            .map(|(ideal, load)| [ideal.spectrum.peak_to_peak, load.transmission_error]);
         let error = demand.figure(errors.iter().copied());
-        let nominal = Figures { error, factor, ..self.figures(&reliefs, self.is_in_motion)? };
+        let nominal =
+            Figures { error, factor, own_errors, ..self.figures(&reliefs, self.is_in_motion)? };
         let mut worst = nominal.worst(self.worst(&reliefs)?);
         for (off, misalignment) in self.limits() {
             let errors = self.errors(&reliefs.off(off), misalignment)?;
@@ -551,12 +567,15 @@ impl WholeSolves<'_> {
     }
 
     /// The least favourable figures at the limits of the tolerances, without the errors. The motion
-    /// is computed where both gears have equal deviations.
+    /// is computed where both gears have equal deviations; the other limits have no forces in motion.
     fn worst(&self, reliefs: &TipReliefs) -> Result<Figures, NoRelief> {
         let none = Figures { gap: f64::INFINITY, ..Figures::default() };
         self.limits().into_iter().try_fold(none, |worst, (off, misalignment)| {
             let in_motion = self.is_in_motion && is_alike(&off);
-            let found = self.figures_at(&reliefs.off(off), misalignment, 1.0, in_motion)?;
+            let mut found = self.figures_at(&reliefs.off(off), misalignment, 1.0, in_motion)?;
+            if self.is_in_motion && !in_motion {
+                (found.entry, found.peak) = (0.0, 0.0);
+            }
             Ok(worst.worst(found))
         })
     }
@@ -596,8 +615,8 @@ impl WholeSolves<'_> {
             strikes: gap < 0.0 || strikes_after,
             entry: if leads[0] > 0.0 { found.force_at_start } else { 0.0 },
             peak: found.peak_force,
-            factor: None,
             line_load,
+            ..Figures::default()
         };
         if !in_motion {
             return Ok(at_rest);
@@ -618,7 +637,11 @@ impl WholeSolves<'_> {
     }
 
     fn solve(&self, inputs: &Inputs, stage: Stage) -> Result<Solution, NoRelief> {
-        Ok(solve_while(inputs, Stages::of(stage), &|_| (self.go_on)(self.part.get()))?)
+        self.solve_all(inputs, Stages::of(stage))
+    }
+
+    fn solve_all(&self, inputs: &Inputs, stages: Stages) -> Result<Solution, NoRelief> {
+        Ok(solve_while(inputs, stages, &|_| (self.go_on)(self.part.get()))?)
     }
 
     /// Whether no tolerance leads to overlap at rest under a multiple of the greatest load.

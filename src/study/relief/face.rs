@@ -4,7 +4,9 @@
 use std::collections::HashMap;
 
 use super::search::{KINDS, LEAST};
-use super::{AMOUNT_STEP, Criterion, NoRelief, SEARCH, TipReliefs, WholeSolves, decimal, loaded};
+use super::{
+    AMOUNT_STEP, Criterion, MOST_AMOUNT, NoRelief, SEARCH, TipReliefs, WholeSolves, decimal, loaded,
+};
 use crate::case::Problem;
 use crate::model::inputs::ReliefShape;
 use crate::model::{Inputs, Outcome, Quantity, Refusal};
@@ -104,6 +106,9 @@ impl Search<'_> {
         places.sort_unstable();
         places.dedup();
         self.evaluate(&places)?;
+        self.lower((needed / 5.0) as i32)?;
+        let most = self.least.map_or(i32::MAX, |least| (MOST_AMOUNT * f64::from(least[0])) as i32);
+        places.retain(|place| place[0] <= most);
         let mut best = self.cheapest(&places);
         let crowning = (f64::from(crownings[1]) / 2.0).max(2.0);
         let mut strides = [needed / 5.0, f64::from(grid.most_length) / 8.0, crowning]
@@ -113,7 +118,7 @@ impl Search<'_> {
             let around = around.map(|(by, sign)| {
                 self.inside([0, 1, 2].map(|axis| best.0[axis] + sign * by[axis] * strides[axis]))
             });
-            let around: Vec<Place> = around.collect();
+            let around: Vec<Place> = around.filter(|place| place[0] <= most).collect();
             self.evaluate(&around)?;
             let next = self.cheapest(&around);
             if next.1 < best.1 {
@@ -125,6 +130,19 @@ impl Search<'_> {
             }
         }
         Ok(None)
+    }
+
+    /// Lowers the least amount without corner contact by steps that are halved.
+    fn lower(&mut self, mut stride: i32) -> Result<(), NoRelief> {
+        while stride >= LAST[0] {
+            let Some([amount, length, crowning]) = self.least else { break };
+            let place = self.inside([amount - stride, length, crowning]);
+            self.evaluate(&[place])?;
+            if self.least != Some(place) {
+                stride /= 2;
+            }
+        }
+        Ok(())
     }
 
     /// The nearest place of the grid.

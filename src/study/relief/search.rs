@@ -4,7 +4,7 @@ use std::array::from_fn;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 
-use super::{AMOUNT_STEP, Criterion, Demand, NoRelief, Off, TipReliefs, decimal};
+use super::{AMOUNT_STEP, Criterion, Demand, MOST_AMOUNT, NoRelief, Off, TipReliefs, decimal};
 use crate::model::geometry::{Geometry, PairShape, geometry};
 use crate::model::inputs::{Gear, ReliefShape};
 use crate::model::mesh::Mesh;
@@ -116,6 +116,8 @@ pub(super) struct Search<'a> {
     grid: &'a Grid,
     /// The deviations at the limits of the tolerances.
     corners: Vec<Off>,
+    /// Greatest sum of both amounts, in steps.
+    most: i32,
     go_on: &'a dyn Fn(f64) -> bool,
     /// The overlaps and errors of the evaluated reliefs, by shape, amounts and lengths in 0.1 nm.
     known: [HashMap<[i64; 5], f64>; 2],
@@ -128,7 +130,7 @@ impl<'a> Search<'a> {
         go_on: &'a dyn Fn(f64) -> bool,
     ) -> Search<'a> {
         let corners = bench.demand.corners();
-        Search { bench, grid, corners, go_on, known: Default::default() }
+        Search { bench, grid, corners, most: i32::MAX, go_on, known: Default::default() }
     }
 
     /// The number of evaluated reliefs.
@@ -149,6 +151,9 @@ impl<'a> Search<'a> {
         let (mut found, mut least) = (Vec::new(), None);
         for (shape, names) in KINDS {
             let (mut starts, clear) = self.starts(shape)?;
+            let least_sum = clear.iter().map(|(steps, _)| steps[0] + steps[1]).min();
+            self.most = least_sum.map_or(i32::MAX, |sum| (MOST_AMOUNT * f64::from(sum)) as i32);
+            starts.retain(|(steps, _)| steps[0] + steps[1] <= self.most);
             let fixed = self.best(shape, &clear, &[])?;
             least = least.or(fixed.map(|(steps, _)| self.grid.reliefs(shape, steps)));
             for (kind, directions) in [(1, &DIRECTIONS[..1]), (0, &DIRECTIONS[..])] {
@@ -302,7 +307,7 @@ impl<'a> Search<'a> {
             for direction in directions.iter().flatten() {
                 for by in [stride, -stride] {
                     let next: Steps = from_fn(|axis| at[axis] + by * direction[axis]);
-                    if self.grid.has(next) {
+                    if self.grid.has(next) && next[0] + next[1] <= self.most {
                         let cost = cost(self, next, best.1)?;
                         if cost < best.1 {
                             best = (next, cost);
