@@ -114,11 +114,11 @@ pub(super) const TABLE: &[Quantity] = &[
         .corrections(&["Eqs. 7-20"]),
     AT_REST
         .row(
-            ["static_force_at_start", "F_st,E", "static: force at E"],
+            ["static_force_at_start", "F_st,E", "static: force before E"],
             ("N", "N", 5),
             |s| Some(s.static_load.as_ref()?.force_at_start),
-            "The force on the incoming tooth at E at rest. A sufficient tip relief \
-            reduces this force to 0.",
+            "The greatest force at rest that the incoming tooth carries before E, on its tip edge; of a \
+            spur pair the force at E. A sufficient tip relief reduces this force to 0.",
             Cases(&[
                 (in_slices, Found("the largest Σ w_k F_k of the slices before their E", SHARED)),
                 (always, Difference("max(k_E (x_E + Δf_0 - C_E), 0)")),
@@ -127,17 +127,18 @@ pub(super) const TABLE: &[Quantity] = &[
         .variants(&[Variant::meaning(
             in_slices,
             " Each slice of the face reaches its E at another time: this is the part of the force \
-                on the tooth that its tip edge carries before E, at its largest. The chart of the \
-                force shows the whole force on the tooth.",
+                on the tooth in slices before their E, at its largest. The chart of the force \
+                shows the whole force on the tooth.",
         )])
         .corrections(&["Eq. 53", "Eq. 54"]),
     AT_REST
         .row(
-            ["static_force_at_end", "F_st,B", "static: force at B"],
+            ["static_force_at_end", "F_st,B", "static: force after B"],
             ("N", "N", 5),
             |s| Some(s.static_load.as_ref()?.force_at_end),
-            "The force on the incoming tooth at the exit B at rest. A sufficient tip \
-            relief of the driver reduces this force to 0.",
+            "The greatest force at rest that the incoming tooth carries after the exit B, on the \
+            driver's tip edge; of a spur pair the force at B. A sufficient tip relief of the driver \
+            reduces this force to 0.",
             Found("F_k of the tooth at B, with Σ w_k F_k = F_0", SHARED),
         )
         .corrections(&["Eq. 53", "Eq. 54"]),
