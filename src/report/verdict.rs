@@ -260,6 +260,8 @@ pub enum Absence {
     OtherMethod(Method, Stage),
     /// No corner contact: the reason, and the total deviation in m.
     NoContact(&'static str, f64),
+    /// The closed form over the face width, which only the method `exact` computes.
+    OverFace(Method),
     /// No contact after the end of the path of contact.
     NoExit,
     /// The model withholds the quantity.
@@ -282,6 +284,14 @@ impl Absence {
         let solution = solution.having(stage);
         if let Some(absence) = Absence::by_method(quantity, solution.method) {
             return absence;
+        }
+        // Load sharing in slices has no closed form beside it.
+        let is_without_form = !solution.stages.has(Stage::Position) && solution.withheld.is_none();
+        if solution.method.shares_load() && quantity.is_of_free_impact() && is_without_form {
+            return match stage {
+                Stage::Position | Stage::Velocity => Absence::OverFace(solution.method),
+                _ => Absence::Withheld(Refusal::NotOverFace { method: Method::Exact }),
+            };
         }
         let is_shared = matches!(stage, Stage::Static | Stage::Dynamic);
         let is_without = solution.outcome == Outcome::NoCornerContact;
@@ -405,6 +415,12 @@ impl fmt::Display for Absence {
             Absence::NoContact(why, total) => {
                 write!(f, "no corner contact: {why}, Δ = {} um", significant(total * 1e6, 5))
             }
+            Absence::OverFace(method) => write!(
+                f,
+                "method {} computes the load over the face width and no closed form; method exact has \
+                 its value (--method exact)",
+                method.name()
+            ),
             Absence::NoExit => f.write_str("no contact after B, the end of the path of contact"),
             Absence::Withheld(refusal) => write!(f, "{refusal}; {}", refusal.fix()),
             Absence::Because(reason) => f.write_str(reason),
