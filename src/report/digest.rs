@@ -10,6 +10,7 @@ use crate::case::units::{self, System};
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
 use crate::numeric::decimal::significant;
+use std::cmp::Ordering;
 
 /// The stages of the verdict, apart from the relief; a method ignores those that it lacks.
 pub const STAGES: Stages =
@@ -241,17 +242,22 @@ pub fn whine(solution: &Solution) -> Option<String> {
     let (frequency, speed) = (shown("mesh_frequency")?, shown("resonance_speed")?);
     let ratio = significant(of("resonance_ratio", solution)?, 2);
     let resonance = format!("N = 1 of the mean stiffness at {speed} (now N = {ratio})");
-    let at = |speed, factor| Some(format!("{} at {}", shown(factor)?, shown(speed)?));
+    let at = |speed, factor| {
+        Some((of(factor, solution)?, format!("{} at {}", shown(factor)?, shown(speed)?)))
+    };
     let rising = at("resonance_peak_speed", "resonance_peak_factor");
     let falling = at("resonance_peak_speed_falling", "resonance_peak_factor_falling");
     let Some((rising, falling)) = rising.zip(falling) else {
         return Some(format!("Mesh frequency {frequency}; {resonance}"));
     };
-    let falling =
-        if rising == falling { String::new() } else { format!(" rising, {falling} falling") };
-    Some(format!(
-        "Greatest dynamic factor {rising}{falling}; mesh frequency {frequency}, {resonance}"
-    ))
+    // The greater factor comes first.
+    let [rise, fall] = [&rising.1, &falling.1];
+    let greatest = match rising.0.total_cmp(&falling.0) {
+        _ if rise == fall => rise.clone(),
+        Ordering::Less => format!("{fall} with falling speed ({rise} with rising speed)"),
+        _ => format!("{rise} with rising speed ({fall} with falling speed)"),
+    };
+    Some(format!("Greatest dynamic factor {greatest}; mesh frequency {frequency}, {resonance}"))
 }
 
 #[cfg(test)]

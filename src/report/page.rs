@@ -25,6 +25,7 @@ use askama::Template;
 use std::fmt::Write;
 use std::io;
 use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// What a page shows.
 #[derive(Debug, Clone, Default)]
@@ -112,10 +113,37 @@ pub struct Page<'a> {
     has_appendix: bool,
     title: String,
     version: &'static str,
+    date: String,
     cases: Vec<PageCase<'a>>,
     inputs: Table,
     main: Table,
     results: Vec<Table>,
+}
+
+/// The date of today in UTC, or of `SOURCE_DATE_EPOCH` for pages with the same bytes on every day.
+fn today() -> String {
+    let given = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|text| text.parse().ok());
+    let now = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs());
+    date(given.unwrap_or_else(now) / 86_400)
+}
+
+/// The date some days after 1970-01-01.
+fn date(days: u64) -> String {
+    let (mut year, mut day) = (1970, days.min(1 << 22));
+    let is_leap = |year: u64| year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    while day >= 365 + u64::from(is_leap(year)) {
+        day -= 365 + u64::from(is_leap(year));
+        year += 1;
+    }
+    let february = 28 + u64::from(is_leap(year));
+    let mut month = 1;
+    for length in [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30] {
+        if day < length {
+            break;
+        }
+        (day, month) = (day - length, month + 1);
+    }
+    format!("{year}-{month:02}-{:02}", day + 1)
 }
 
 impl<'a> Page<'a> {
@@ -134,6 +162,7 @@ impl<'a> Page<'a> {
             has_appendix: !settings.no_appendix,
             title,
             version: env!("CARGO_PKG_VERSION"),
+            date: today(),
             cases,
             inputs,
             main,
@@ -462,4 +491,17 @@ pub fn render(format: Format, subjects: &[Subject], settings: &Settings) -> io::
         }
     }
     String::from_utf8(bytes).map_err(io::Error::other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn days_are_counted_with_leap_years() {
+        let known = [(0, "1970-01-01"), (19_782, "2024-02-29"), (20_818, "2026-12-31")];
+        for (days, text) in known {
+            assert_eq!(date(days), text);
+        }
+    }
 }

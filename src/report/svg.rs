@@ -219,7 +219,7 @@ fn grid(text: &mut String, chart: &Chart, (across, up): (Span, Span)) {
             continue;
         }
         let _ = writeln!(text, "<path d=\"M{x:.1} {top}V{bottom}\" class=\"mark\"/>");
-        if let Some(row) = (0..ends.len()).find(|&row| x - half > ends[row]) {
+        if let Some(row) = (0..ends.len()).find(|&row| x - half > ends[row] + LETTER) {
             ends[row] = x + half;
             let above = top - 9.0 - 14.0 * row as f64;
             let _ = writeln!(
