@@ -48,7 +48,9 @@ pub fn fields_of(
         .then(|| Base::at(quantity, Inputs { centre_distance: None, ..base.inputs.clone() }));
     let dependence = |field| {
         let small = small_step(field, case, &base.inputs);
-        let after = small.as_ref().map(|(_, inputs)| base.solved(inputs));
+        // A quantity without a value has no change to show.
+        let solved = |inputs: &Inputs| own.map_or(Ok(None), |_| base.solved(inputs));
+        let after = small.as_ref().map(|(_, inputs)| solved(inputs));
         let moves = is_listed
             || after.is_some_and(|after| differ(after, own) == Some(true))
             || is_moved(own, field, case, &base)
