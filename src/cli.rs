@@ -2,7 +2,8 @@
 //! scripts.
 
 mod commands;
-mod options;
+pub mod options;
+pub mod questions;
 
 use std::cell::Cell;
 use std::ffi::OsString;
@@ -21,7 +22,6 @@ use crate::case::{Acting, Case, Document, Problem, partial_relevance, relevance}
 use crate::model::{Inputs, Quantity, Refusal};
 use crate::report::solve::Unsolved;
 use crate::report::table::{Named, Results};
-use crate::study::batch::Stopped;
 use crate::study::shard::Format;
 use crate::system::files::is_same;
 use crate::system::interrupt::Interrupt;
@@ -29,6 +29,7 @@ use clap::{CommandFactory, FromArgMatches, Parser};
 pub use commands::Command;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use options::{CaseFile, Edits, Setting};
+use questions::Misuse;
 
 /// The streams of a command.
 pub struct Streams<'a> {
@@ -192,7 +193,7 @@ impl Opened {
     /// Writes results of the case to the file, or to standard output.
     fn write(
         &self,
-        results: &impl Results,
+        results: &dyn Results,
         format: Format,
         out: Option<&Path>,
         streams: &mut Streams,
@@ -567,16 +568,15 @@ impl Failure {
         Failure::new(Exit::BadCase, format!("{name}: {reason}"))
     }
 
+    /// An option of a question without a valid value.
+    fn misused((option, value, problem): &Misuse) -> Failure {
+        Failure::of_option(&format!("--{option}"), value, problem)
+    }
+
     /// An invalid value of an option.
     fn of_option(option: &str, value: &str, problem: &Problem) -> Failure {
         let Problem { cause, fix, .. } = problem;
         Failure::usage(format!("{option} {value}: {cause}: {fix}"))
-    }
-}
-
-impl From<Stopped> for Failure {
-    fn from(_: Stopped) -> Failure {
-        Failure::Interrupted
     }
 }
 

@@ -24,6 +24,8 @@ use crate::case::file::{Document, MOST_MODEL_BYTES, ReadError, read_bytes};
 use crate::case::{
     Case as Fields, EXAMPLES, Example, Problem, put_field, rexs, unknown_quantity, violated_rule,
 };
+use crate::cli::options::Threads;
+use crate::cli::questions::{Excitation, Misuse, NoAnswer, Question, Seek, Stiffness, within};
 use crate::cli::{self, Arguments, Streams};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Refusal, Solution, Stages};
@@ -32,17 +34,15 @@ use crate::report::compare::ComparedCase;
 use crate::report::data::{self, stations, write_json};
 use crate::report::page::{format_of, render};
 use crate::report::solve::{Unsolved, compared, comparison};
-use crate::report::studies::{SeekReport, StiffnessReport, table};
+use crate::report::studies::table;
 use crate::report::table::{Cell as TableCell, Column as TableColumn, Named, Results, Table};
 use crate::report::tolerance::ToleranceReport;
 use crate::report::{Report, Selection, page};
-use crate::study::axis::{AxisRange, Grid, Sampling};
-use crate::study::batch::{Batch, Control, Points, Refusals, solve_all};
-use crate::study::excitation::{Excitation, POINTS};
-use crate::study::relief::{Criterion, Demand, NoRelief, demand, specify};
-use crate::study::seek::{Condition, distinct, headline, seek};
+use crate::study::axis::Grid;
+use crate::study::batch::{Batch, Refusals, Row, solve_all};
+use crate::study::relief::{Criterion, Demand, demand};
+use crate::study::seek::{distinct, headline};
 use crate::study::shard::Format;
-use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare_flanks, compare_path};
 use crate::study::tolerance::{MOST_SAMPLES, Samples, Size, Tolerance};
 
 pyo3::import_exception!(tipstrike, CaseError);
@@ -88,11 +88,29 @@ fn misused(argument: &str, Problem { cause, fix, .. }: &Problem) -> PyErr {
     wrong(format!("{argument}: {cause}: {fix}"))
 }
 
-fn within(argument: &str, count: usize, least: usize, most: usize) -> PyResult<()> {
-    let is_within = (least..=most).contains(&count);
-    is_within.then_some(()).ok_or_else(|| {
-        wrong(format!("{argument} = {count}: write a number from {least} to {most}"))
-    })
+fn misuse((option, value, problem): Misuse) -> PyErr {
+    misused(&format!("{option} = {value}"), &problem)
+}
+
+/// The rows of a study and its refused points.
+fn solved(
+    py: Python<'_>,
+    batch: &Batch,
+    jobs: Option<u16>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(Vec<Row>, Vec<String>)> {
+    let (threads, count) = (Threads { jobs }, batch.points.count());
+    let mut rows = Vec::with_capacity(count);
+    let _ = run(py, progress, |go_on| {
+        solve_all(batch, 0..count, &threads.control(go_on), &mut |_, solved| {
+            rows.extend_from_slice(solved);
+            true
+        })
+    })?;
+    let mut refusals = Refusals::default();
+    refusals.count(0, &rows);
+    let notes = refusals.0.iter().map(|refused| refused.sentence(batch.points));
+    Ok((rows, notes.collect()))
 }
 
 /// Place, field, cause and fix of problems.
@@ -246,6 +264,29 @@ impl Case {
         Ok((columns, write(Format::Json)?, write(Format::Text)?, Vec::new()))
     }
 
+    /// The inputs with which method `auto` computes these quantities.
+    fn needing(&self, quantities: &[&Quantity]) -> PyResult<Inputs> {
+        let stages = quantities.iter().map(|quantity| quantity.stage);
+        Ok(self.inputs()?.clone().needing(stages))
+    }
+
+    fn answer(
+        &self,
+        py: Python<'_>,
+        question: &impl Question,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Found> {
+        let case = self.with_varied(question.varied().map_err(misuse)?);
+        let inputs = case.inputs()?;
+        let found = run(py, progress, |go_on| question.answer(inputs, go_on))?;
+        let found = found.map_err(|none| match none {
+            NoAnswer::Misused(misused) => misuse(misused),
+            NoAnswer::Refused(refusal) => case.refused(&refusal),
+            NoAnswer::Failed(reason) => case.failed(&reason),
+        })?;
+        case.found(py, &*found)
+    }
+
     /// The case with a value for each field that a study varies and that the case lacks.
     fn with_varied(&self, fields: impl IntoIterator<Item = (usize, String)>) -> Case {
         let mut document = self.document.clone();
@@ -362,7 +403,7 @@ impl Case {
         points: Vec<usize>,
         log: bool,
         only: Vec<String>,
-        jobs: Option<usize>,
+        jobs: Option<u16>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(Vec<Column>, Vec<String>)> {
         let grid = Grid::parse(&vary, &points, log);
@@ -370,23 +411,12 @@ impl Case {
             .map_err(|(text, problem)| misused(text.split('=').next().unwrap_or(text), &problem))?;
         let case = self.with_varied(grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0))));
         let mut quantities = quantities(&only)?;
-        let stages = quantities.iter().map(|quantity| quantity.stage);
-        let inputs = case.inputs()?.clone().needing(stages);
+        let inputs = case.needing(&quantities)?;
         if quantities.is_empty() {
             quantities = headline(&case.document.case, &grid.methods(&inputs));
         }
         let batch = Batch { inputs: &inputs, points: &grid, quantities: &quantities };
-        let mut rows = Vec::with_capacity(grid.count());
-        let _ = run(py, progress, |go_on| {
-            let control = Control { jobs, go_on };
-            solve_all(&batch, 0..grid.count(), &control, &mut |_, solved| {
-                rows.extend_from_slice(solved);
-                true
-            })
-        })?;
-        let mut refusals = Refusals::default();
-        refusals.count(0, &rows);
-        let notes = refusals.0.iter().map(|refused| refused.sentence(&grid)).collect();
+        let (rows, notes) = solved(py, &batch, jobs, progress)?;
         Ok((columns(py, &table(&grid, &quantities, 0, &rows))?, notes))
     }
 
@@ -398,60 +428,37 @@ impl Case {
         seed: u64,
         ranking: Option<usize>,
         only: Vec<String>,
-        jobs: Option<usize>,
+        jobs: Option<u16>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Found> {
-        within("samples", samples, 2, MOST_SAMPLES)?;
+        within("samples", samples, 2, MOST_SAMPLES).map_err(misuse)?;
         let only = quantities(&only)?;
-        let stages = only.iter().map(|quantity| quantity.stage);
-        let inputs = self.inputs()?.clone().needing(stages);
+        let inputs = self.needing(&only)?;
+        let case = &self.document.case;
         let size = Size { samples, seed, ranked: ranking };
-        let study = Tolerance::of(&self.document.case, &inputs, &only, size);
+        let study = Tolerance::of(case, &inputs, &only, size);
         let study = study.map_err(|problem| self.faulty(vec![problem]))?;
-        let (mut rows, mut found) = (Vec::new(), Samples::of(&study));
         let (points, quantities) = (&study.design, &study.quantities);
         let batch = Batch { inputs: &inputs, points, quantities };
-        let _ = run(py, progress, |go_on| {
-            let control = Control { jobs, go_on };
-            solve_all(&batch, 0..points.count(), &control, &mut |first, solved| {
-                found.add(first, solved);
-                rows.extend_from_slice(solved);
-                true
-            })
-        })?;
-        let case = &self.document.case;
+        let (rows, notes) = solved(py, &batch, jobs, progress)?;
+        let mut found = Samples::of(&study);
+        found.add(0, &rows);
         let report =
             ToleranceReport { case, method: inputs.method, study: &study, samples: &found };
         let (_, json, text, _) = self.found(py, &report)?;
-        let notes = found.refusals.0.iter().map(|refused| refused.sentence(points)).collect();
         Ok((columns(py, &table(points, quantities, 0, &rows))?, json, text, notes))
     }
 
     fn seek(
         &self,
         py: Python<'_>,
-        vary: &str,
-        until: &str,
+        vary: String,
+        until: String,
         points: usize,
-        jobs: Option<usize>,
+        jobs: Option<u16>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Found> {
-        let bad_range = |problem| misused("vary", &problem);
-        let bad_condition = |problem| misused("until", &problem);
-        let range = AxisRange::parse(vary).map_err(bad_range)?;
-        let condition = Condition::parse(until).map_err(bad_condition)?;
-        let scan =
-            range.axis(Sampling { points: Some(points), is_log: false }).map_err(bad_range)?;
-        let case = self.with_varied([(range.field, scan.with_unit(0))]);
-        let stages = condition.quantity().map(|quantity| quantity.stage);
-        let inputs = case.inputs()?.clone().needing(stages);
-        condition.check(inputs.method).map_err(bad_condition)?;
-        let found = run(py, progress, |go_on| {
-            seek(&inputs, &range, &condition, scan, &Control { jobs, go_on })
-        })?;
-        let found = found.map_err(|_| wrong("the study was stopped"))?;
-        let method = inputs.method.name();
-        self.found(py, &SeekReport { method, range: &range, condition: &condition, found: &found })
+        self.answer(py, &Seek { vary, until, points, threads: Threads { jobs } }, progress)
     }
 
     #[expect(clippy::too_many_arguments, reason = "the options of the command")]
@@ -466,35 +473,20 @@ impl Case {
         minimise: &str,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Found> {
-        let criteria = [Criterion::Te, Criterion::Peak, Criterion::Entry];
-        let minimise = criteria.into_iter().find(|known| known.name() == minimise);
+        let minimise = Criterion::ALL.into_iter().find(|known| known.name() == minimise);
         let demand = Demand {
             loads: demand::loads(load).map_err(wrong)?,
-            spectrum: spectrum.map_or(Ok(Vec::new()), demand::spectrum).map_err(wrong)?,
+            spectrum: demand::spectrum(spectrum.unwrap_or_default()).map_err(wrong)?,
             tolerance: demand::tolerance(tolerance).map_err(wrong)?,
             tolerance_length: tolerance_length.map(demand::tolerance).transpose().map_err(wrong)?,
             misalignment: demand::tolerance(misalignment).map_err(wrong)?,
             minimise: minimise.ok_or_else(|| wrong("minimise: write te, peak or entry"))?,
         };
-        let inputs = self.inputs()?;
-        let found = run(py, progress, |go_on| {
-            specify(inputs, &demand, &|part| go_on((100.0 * part) as usize, 100))
-        })?;
-        let found = found.map_err(|none| match none {
-            NoRelief::Refused(refusal) => self.refused(&refusal),
-            none => self.failed(&none),
-        })?;
-        self.found(py, &found)
+        self.answer(py, &demand, progress)
     }
 
     fn stiffness(&self, py: Python<'_>, points: usize) -> PyResult<Found> {
-        let inputs = self.inputs()?;
-        within("points", points, LEAST_POINTS, MOST_POINTS)?;
-        let found = py.detach(|| {
-            Ok::<_, Refusal>((compare_flanks(inputs, points)?, compare_path(inputs, points)?))
-        });
-        let (flanks, path) = found.map_err(|refusal| self.refused(&refusal))?;
-        self.found(py, &StiffnessReport { flanks: &flanks, path: &path })
+        self.answer(py, &Stiffness { points }, None)
     }
 
     fn excitation(
@@ -503,11 +495,7 @@ impl Case {
         points: usize,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Found> {
-        let inputs = self.inputs()?;
-        within("points", points, POINTS[0], POINTS[2])?;
-        let found = run(py, progress, |go_on| Excitation::of(inputs, points, go_on))?;
-        let found = found.map_err(|refusal| self.refused(&refusal))?;
-        self.found(py, &found)
+        self.answer(py, &Excitation { points }, progress)
     }
 
     /// A chart as SVG.

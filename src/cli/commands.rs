@@ -8,6 +8,8 @@ mod results;
 mod studies;
 
 use super::{Done, Streams};
+use crate::cli::questions::{Accuracy, Excitation, Seek, Stiffness};
+use crate::study::relief::Demand;
 use clap::Subcommand;
 
 /// A headless command.
@@ -38,14 +40,14 @@ pub enum Command {
     /// with a load over the face width the settings are numbers of slices, coupled and independent.
     /// Where no method finds corner contact, no setting is recommended. JSON is one object in SI
     /// units, without missing values.
-    Trade(studies::Trade),
+    Trade(studies::Asked<Accuracy>),
     /// Compare the tooth compliance of every model over the flank with finite elements
     ///
     /// The finite elements are plane strain on the whole gear, as in tooth_compliance =
     /// "finite-element". CSV has one row per gear and radius, in SI units; a cell is empty where a
     /// model does not cover the gear. JSON is one object in SI units, in which gaps and refusal
     /// give the reason of a missing value.
-    Stiffness(studies::Stiffness),
+    Stiffness(studies::Asked<Stiffness>),
     /// Export stiffness, transmission error and forces of the mesh for other solvers
     ///
     /// The part `period` is the mesh at rest over one base pitch of equal pairs, also as Fourier
@@ -56,7 +58,7 @@ pub enum Command {
     /// e(t)) = F0 with mesh_stiffness k and displacement_excitation e. CSV has one row per place,
     /// JSON is one object with the constants and the series; all in SI units. The page
     /// docs/scripting.md describes every column.
-    Excitation(studies::Excitation),
+    Excitation(studies::Asked<Excitation>),
     /// Solve a case over a range of one or more fields, as a table
     ///
     /// CSV has one row per point: the varied fields in the units of --vary, then the quantities in
@@ -95,7 +97,7 @@ pub enum Command {
     /// `always` and `never` are answers for the whole range. Without corner contact a quantity of
     /// the impact is below every limit. JSON is one object; its numbers are in the unit of
     /// --vary, and those of the quantity in SI.
-    Seek(studies::Seek),
+    Seek(studies::Asked<Seek>),
     /// Find the tip relief to specify on both gears: no corner contact, least transmission error
     ///
     /// The answer is what a drawing states: amounts in whole um, lengths in steps of 0.1 mm (0.05
@@ -108,7 +110,7 @@ pub enum Command {
     /// over six loads of the range, or the mean over a spectrum. With method dynamic the motion
     /// must have no corner contact either. --out FILE.svg draws the relief with its tolerances. CSV
     /// has one row per choice and point of the map, JSON is one object; both are in SI units.
-    Relief(studies::Relief),
+    Relief(studies::Asked<Demand>),
     /// Write a chart of a case, or its teeth, as a picture (SVG)
     ///
     /// The chart shows the method of the case. If the method has no such chart, the command draws

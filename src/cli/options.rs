@@ -16,14 +16,12 @@ use clap::error::{Error, ErrorKind};
 use clap::{Arg, Args, ValueEnum};
 
 /// Formats of words and objects.
-pub(super) const WORDS: [Format; 2] = [Format::Text, Format::Json];
+pub(super) const WORDS: &[Format] = &[Format::Text, Format::Json];
 /// Formats of words, objects and tables.
-pub(super) const TABLES: [Format; 3] = [Format::Text, Format::Json, Format::Csv];
+pub(super) const TABLES: &[Format] = &[Format::Text, Format::Json, Format::Csv];
 
 /// Parser of the formats of a command.
-pub(super) fn formats<const N: usize>(
-    formats: [Format; N],
-) -> impl TypedValueParser<Value = Format> {
+pub(super) fn formats(formats: &[Format]) -> impl TypedValueParser<Value = Format> + use<> {
     let values = formats.iter().filter_map(ValueEnum::to_possible_value);
     PossibleValuesParser::new(values).try_map(|name| Format::from_str(&name, false))
 }
@@ -45,8 +43,8 @@ impl Only {
 }
 
 /// The number of threads.
-#[derive(Debug, Args)]
-pub(super) struct Threads {
+#[derive(Debug, Clone, Copy, Args)]
+pub struct Threads {
     /// Number of threads (default: one per core); does not change the output
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
@@ -54,7 +52,7 @@ pub(super) struct Threads {
 
 impl Threads {
     /// The control of a study that reports to `go_on`.
-    pub(super) fn control<'a>(&self, go_on: &'a dyn Fn(usize, usize) -> bool) -> Control<'a> {
+    pub fn control<'a>(&self, go_on: &'a dyn Fn(usize, usize) -> bool) -> Control<'a> {
         Control { jobs: self.jobs.map(usize::from), go_on }
     }
 }

@@ -24,11 +24,11 @@ use std::fmt;
 const OTHERS: [Picture; 7] = [
     Picture { is_on_page: false, ..of_one(TOOTH_KEYS[0], Part::Flanks, |cases| tooth(0, cases)) },
     Picture { is_on_page: false, ..of_one(TOOTH_KEYS[1], Part::Flanks, |cases| tooth(1, cases)) },
-    Picture { is_of_one_case: false, ..of_one(SPECTRUM, Part::Stations, spectrum) },
+    Picture { is_of_one_case: false, ..of_one(SPECTRUM, Part::Stations, spectrum_chart) },
     Picture { is_of_one_case: false, ..of_one(SPEED, Part::Speeds, speed) },
     of_one(RELIEF, Part::Stations, reliefs),
     of_one(PATTERN, Part::Stations, pattern),
-    of_one("teeth", Part::Stations, teeth),
+    Picture { drawing: Drawing::Teeth, ..of_one(TEETH, Part::Stations, spectrum_chart) },
 ];
 
 /// A picture of solved cases.
@@ -45,17 +45,18 @@ pub struct Picture {
     drawing: Drawing,
 }
 
-/// The SVG of solved cases.
-type Draw = fn(&[NamedCase]) -> Result<String, String>;
+/// The chart of solved cases.
+type Draw = fn(&[NamedCase]) -> Result<Chart, String>;
 
 #[derive(Debug, Clone, Copy)]
 enum Drawing {
     Graph(&'static Graph),
-    Other(Draw),
+    Chart(Draw),
+    Teeth,
 }
 
 const fn of_one(key: &'static str, part: Part, draw: Draw) -> Picture {
-    let drawing = Drawing::Other(draw);
+    let drawing = Drawing::Chart(draw);
     Picture { key, part, is_of_one_case: true, is_on_page: true, drawing }
 }
 
@@ -64,44 +65,30 @@ fn first<'a>(cases: &[NamedCase<'a>]) -> Result<(&'a Subject, &'a Report), Strin
     case.and_then(|case| Some((case, case.own()?))).ok_or_else(|| "no case is solved".to_owned())
 }
 
-fn tooth(gear: usize, cases: &[NamedCase]) -> Result<String, String> {
+fn tooth(gear: usize, cases: &[NamedCase]) -> Result<Chart, String> {
     let (case, report) = first(cases)?;
     match &case.flanks {
-        Some(Ok(flanks)) => tooth_chart(gear, flanks, model_of(&report.inputs)).map(draw),
+        Some(Ok(flanks)) => tooth_chart(gear, flanks, model_of(&report.inputs)),
         Some(Err(refusal)) => Err(refusal.to_string()),
         None => Err("it is not computed".to_owned()),
     }
 }
 
-fn spectrum(cases: &[NamedCase]) -> Result<String, String> {
-    spectrum_chart(cases).map(draw)
-}
-
-fn speed(cases: &[NamedCase]) -> Result<String, String> {
+fn speed(cases: &[NamedCase]) -> Result<Chart, String> {
     let named = cases.iter().filter_map(|(name, case)| Some((*name, case.speeds.as_ref()?)));
-    speed_chart(&named.collect::<Vec<_>>()).map(draw)
+    speed_chart(&named.collect::<Vec<_>>())
 }
 
-fn reliefs(cases: &[NamedCase]) -> Result<String, String> {
+fn reliefs(cases: &[NamedCase]) -> Result<Chart, String> {
     let (_, report) = first(cases)?;
     let (reliefs, geometry) = (report.inputs.reliefs(), &report.solution.geometry);
-    relief_chart(&reliefs, geometry, tolerances(&report.case)).map(draw)
+    relief_chart(&reliefs, geometry, tolerances(&report.case))
 }
 
-fn pattern(cases: &[NamedCase]) -> Result<String, String> {
+fn pattern(cases: &[NamedCase]) -> Result<Chart, String> {
     let (case, report) = first(cases)?;
     let solutions = case.reports.iter().map(|report| &report.solution);
-    pattern_chart(&report.inputs, &solutions.collect::<Vec<_>>()).map(draw)
-}
-
-fn teeth(cases: &[NamedCase]) -> Result<String, String> {
-    let (_, report) = first(cases)?;
-    Ok(svg::teeth(&report.inputs, &report.solution))
-}
-
-#[expect(clippy::needless_pass_by_value, reason = "it is mapped over charts that nobody else has")]
-fn draw(chart: Chart) -> String {
-    svg::draw(&chart)
+    pattern_chart(&report.inputs, &solutions.collect::<Vec<_>>())
 }
 
 /// Why there is no picture.
@@ -136,10 +123,15 @@ impl Picture {
     /// # Errors
     /// The reason if no case has values for the picture.
     pub fn draw(self, cases: &[NamedCase]) -> Result<String, String> {
-        match self.drawing {
-            Drawing::Graph(graph) => graph_chart(graph, cases).map(draw),
-            Drawing::Other(draw) => draw(cases),
-        }
+        let chart = match self.drawing {
+            Drawing::Graph(graph) => graph_chart(graph, cases)?,
+            Drawing::Chart(chart) => chart(cases)?,
+            Drawing::Teeth => {
+                let (_, report) = first(cases)?;
+                return Ok(svg::teeth(&report.inputs, &report.solution));
+            }
+        };
+        Ok(svg::draw(&chart))
     }
 
     /// Solves a case and draws it. `go_on` receives the number of computed parts and their total,
@@ -162,7 +154,7 @@ impl Picture {
 impl fmt::Display for Picture {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.key {
-            "teeth" => f.write_str("the teeth"),
+            TEETH => f.write_str("the teeth"),
             key => write!(f, "the chart {key}"),
         }
     }
@@ -344,6 +336,8 @@ fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
     }
 }
 
+/// The key of the picture of the teeth.
+const TEETH: &str = "teeth";
 /// The key of the chart of harmonics.
 pub const SPECTRUM: &str = "spectrum";
 /// The key of the chart over speed.

@@ -410,19 +410,16 @@ impl Specification {
         }
         settings
     }
-
-    /// The diagram of the relief to specify with its tolerances, on the pair of the case.
-    ///
-    /// # Errors
-    /// As [`relief_chart`].
-    pub fn chart(&self, inputs: &Inputs) -> Result<Chart, String> {
-        let (amount, length) = (self.demand.tolerance, self.tolerance_length());
-        let reliefs = self.chosen().reliefs.of(inputs).reliefs();
-        relief_chart(&reliefs, &self.geometry, [amount, amount, length, length])
-    }
 }
 
 impl Results for Specification {
+    /// The diagram of the relief to specify with its tolerances, on the pair of the case.
+    fn picture(&self, inputs: &Inputs) -> Option<Result<Chart, String>> {
+        let (amount, length) = (self.demand.tolerance, self.tolerance_length());
+        let reliefs = self.chosen().reliefs.of(inputs).reliefs();
+        Some(relief_chart(&reliefs, &self.geometry, [amount, amount, length, length]))
+    }
+
     fn lines(&self, case: Named) -> Vec<String> {
         // Rows of tables fit; only sentences are wrapped.
         let is_short = |line: &String| line.chars().count() <= WIDTH;

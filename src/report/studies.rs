@@ -14,30 +14,31 @@ use crate::case::units::{self, System};
 use crate::model::Quantity;
 use crate::model::inputs::ToothCompliance;
 use crate::numeric::decimal::{shortest, significant};
+use crate::report::tolerance::ToleranceReport;
 use crate::study::axis::{AxisRange, Grid};
-use crate::study::batch::{Points, Row, with_unit};
+use crate::study::batch::{Points, Refusals, Row, with_unit};
 use crate::study::excitation::{self, Excitation, STIFFNESS, VALUES};
 use crate::study::seek::{Condition, Found, Sample, State};
 use crate::study::shard::{Format, Kind, Study};
 use crate::study::stiffness::{
     FIELD, FieldPoint, Flanks, GearComparison, PathComparison, PathPoint, Point,
 };
+use crate::study::tolerance::Samples;
 use std::io::{self, Write};
 
 /// A search and its result.
-#[derive(Clone, Copy)]
-pub struct SeekReport<'a> {
+pub struct SeekReport {
     /// The name of the method.
-    pub method: &'a str,
+    pub method: &'static str,
     /// The searched range.
-    pub range: &'a AxisRange,
+    pub range: AxisRange,
     /// The condition.
-    pub condition: &'a Condition,
+    pub condition: Condition,
     /// The result.
-    pub found: &'a Found,
+    pub found: Found,
 }
 
-impl SeekReport<'_> {
+impl SeekReport {
     /// The result in one word.
     fn answer(&self) -> &'static str {
         match self.found.segments()[..] {
@@ -63,9 +64,9 @@ impl SeekReport<'_> {
     }
 }
 
-impl Results for SeekReport<'_> {
+impl Results for SeekReport {
     fn lines(&self, case: Named) -> Vec<String> {
-        let AxisRange { field, from, to, .. } = *self.range;
+        let AxisRange { field, from, to, .. } = self.range;
         let (key, from, to) = (FIELDS[field].key, self.value(from), self.value(to));
         let (condition, method) = (sanitize(&self.condition.text), self.method);
         let first = format!("{condition} by method {method}, {key} from {from} to {to}:");
@@ -102,7 +103,7 @@ impl Results for SeekReport<'_> {
     }
 
     fn json(&self) -> Json {
-        let AxisRange { field, unit, from, to } = self.range;
+        let AxisRange { field, unit, from, to } = &self.range;
         let quantity = self.condition.quantity();
         let end = |Sample { at, state, value }: &Sample| {
             let value = quantity.and_then(|known| Some(measured(known, (*value)?, None)));
@@ -142,38 +143,51 @@ fn word(state: &State) -> &'static str {
     }
 }
 
-/// Writes the rows of a study as they arrive: JSON lines of a sweep, otherwise CSV.
-#[derive(Clone, Copy)]
-pub struct RowWriter<'a>(pub &'a Study);
+/// Receives the rows of a study in order, with the index of the first of them.
+pub type Take<'a> = &'a mut dyn FnMut(usize, &[Row]) -> io::Result<()>;
 
-impl RowWriter<'_> {
-    /// Writes the part before the first row.
-    ///
-    /// # Errors
-    /// Errors of the writer.
-    pub fn begin(self, out: &mut dyn Write) -> io::Result<()> {
-        match self.0.request.format {
-            Format::Json => Ok(()),
-            _ => self.table(0, &[]).write_csv_header(out),
+/// Writes the results of a study in its format, rows as they arrive; `rows` passes them. Returns the
+/// refused points.
+///
+/// # Errors
+/// Errors of `rows` and of the writer.
+pub fn write(
+    study: &Study,
+    rows: impl FnOnce(Take) -> io::Result<()>,
+    out: &mut dyn Write,
+) -> io::Result<Refusals> {
+    let Study { request, case, inputs, quantities, kind } = study;
+    match (kind, request.format) {
+        (Kind::Tolerance(study), format) if format != Format::Csv => {
+            let mut samples = Samples::of(study);
+            rows(&mut |first, rows| {
+                samples.add(first, rows);
+                Ok(())
+            })?;
+            let report = ToleranceReport { case, method: inputs.method, study, samples: &samples };
+            let case = Named { name: &request.name, title: case.title() };
+            case.write(&report, format, out)?;
+            Ok(samples.refusals)
         }
-    }
-
-    /// Writes rows.
-    ///
-    /// # Errors
-    /// Errors of the writer.
-    pub fn write(self, first: usize, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
-        let Study { request, kind, quantities, .. } = self.0;
-        match (kind, request.format) {
-            (Kind::Sweep(grid), Format::Json) => (first..)
-                .zip(rows)
-                .try_for_each(|(index, row)| write_line(&line(grid, quantities, index, row), out)),
-            _ => self.table(first, rows).write_csv_rows(out),
+        (kind, format) => {
+            let table = |first, rows: &[Row]| table(study.points(), quantities, first, rows);
+            if format != Format::Json {
+                table(0, &[]).write_csv_header(out)?;
+            }
+            let mut refusals = Refusals::default();
+            rows(&mut |first, rows| {
+                refusals.count(first, rows);
+                match (kind, format) {
+                    (Kind::Sweep(grid), Format::Json) => {
+                        (first..).zip(rows).try_for_each(|(index, row)| {
+                            write_line(&line(grid, quantities, index, row), out)
+                        })
+                    }
+                    _ => table(first, rows).write_csv_rows(out),
+                }
+            })?;
+            Ok(refusals)
         }
-    }
-
-    fn table(self, first: usize, rows: &[Row]) -> Table {
-        table(self.0.points(), &self.0.quantities, first, rows)
     }
 }
 
@@ -454,17 +468,17 @@ const MICRON_MILLIMETRE: f64 = 1e-9;
 const MILLIMETRE: f64 = 1e-3;
 
 /// A comparison and its case.
-#[derive(Debug, Clone, Copy)]
-pub struct StiffnessReport<'a> {
+#[derive(Debug)]
+pub struct StiffnessReport {
     /// The compliances over the flanks.
-    pub flanks: &'a Flanks,
+    pub flanks: Flanks,
     /// The stiffness over the path of contact.
-    pub path: &'a PathComparison,
+    pub path: PathComparison,
 }
 
-impl Results for StiffnessReport<'_> {
+impl Results for StiffnessReport {
     fn lines(&self, case: Named) -> Vec<String> {
-        let StiffnessReport { flanks, path } = *self;
+        let StiffnessReport { flanks, path } = self;
         let mut lines = case.headings("stiffness models against finite elements");
         let gears = flanks.gears.iter().map(|gear| gear_section(flanks, gear));
         let paths = [("one pair", PAIR), ("all pairs in contact", MESH)].map(|(pairs, of)| {
@@ -479,7 +493,7 @@ impl Results for StiffnessReport<'_> {
     }
 
     fn json(&self) -> Json {
-        let StiffnessReport { flanks, path } = *self;
+        let StiffnessReport { flanks, path } = self;
         let gear = |gear: &GearComparison| {
             let gaps = gear.gaps.iter().map(|gap| (key(gap.model.name()), json!(gap.reason)));
             let points = flank_table(flanks, std::slice::from_ref(gear));
@@ -505,7 +519,12 @@ impl Results for StiffnessReport<'_> {
 
     /// One row per gear and radius; an absent value is an empty cell.
     fn table(&self) -> Table {
-        flank_table(self.flanks, &self.flanks.gears)
+        flank_table(&self.flanks, &self.flanks.gears)
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let gears = self.flanks.gears.iter();
+        gears.filter_map(|gear| Some(format!("{}: {}", gear.gear, gear.no_field()?))).collect()
     }
 }
 

@@ -3,7 +3,8 @@
 use super::number;
 use crate::case::Problem;
 use crate::case::sanitize::{is_hidden, sanitize};
-use crate::model::Quantity;
+use crate::model::{Inputs, Quantity};
+use crate::report::chart::Chart;
 use crate::study::shard::Format;
 use csv::{ErrorKind, Writer};
 use serde::Serialize;
@@ -379,6 +380,16 @@ pub trait Results {
     /// The rows of CSV, if the results have this format.
     fn table(&self) -> Table {
         Table::default()
+    }
+
+    /// Sentences that have no place in CSV.
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The picture of the results for a pair, if they have one.
+    fn picture(&self, _: &Inputs) -> Option<Result<Chart, String>> {
+        None
     }
 }
 

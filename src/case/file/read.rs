@@ -3,12 +3,11 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::{Entry, FORMAT, Layout, MOST, Value, line_start};
-use crate::case::changes::texts;
 use crate::case::check::{MISSING, NEWER_FORMAT};
 use crate::case::fields::{AUTO, Absent, FIELDS, Field, GROUPS, Kind, index_of};
 use crate::case::sanitize::{cut, quoted, suggestion};
 use crate::case::units::{self, Dimension};
-use crate::case::{Case, Limit, Override, Problem, Spread, Variant, changes, check, spread};
+use crate::case::{ABOUT, Case, Limit, Override, Problem, Spread, Variant, changes, check, spread};
 use crate::model::Quantity;
 use toml_edit::TomlError;
 
@@ -59,7 +58,7 @@ pub(super) fn read(text: &str, is_newer: bool) -> Reading {
     reader.check();
     let mut case = reader.scopes[0].case.clone();
     let named = reader.scopes[1..].iter().filter(|own| Variant::check_name(&own.name).is_ok());
-    case.variants = named.map(|own| Variant::new(&own.name, own.overrides())).collect();
+    case.variants = named.map(|own| Variant::new(&own.name, own.overrides.clone())).collect();
     Reading { case, faults: reader.faults }
 }
 
@@ -70,8 +69,8 @@ struct Scope {
     /// The place of the name of a variant.
     at: usize,
     case: Case,
-    /// Keys that a variant removes.
-    removed: Vec<String>,
+    /// The texts as overrides; an empty text removes its key.
+    overrides: Vec<Override>,
     /// Fields with invalid values.
     wrong: Vec<usize>,
     has_faults: bool,
@@ -80,7 +79,7 @@ struct Scope {
 impl Scope {
     fn new(name: &str, at: usize) -> Scope {
         let (name, case) = (name.to_owned(), Case::empty());
-        Scope { name, at, case, removed: Vec::new(), wrong: Vec::new(), has_faults: false }
+        Scope { name, at, case, overrides: Vec::new(), wrong: Vec::new(), has_faults: false }
     }
 
     /// A key of the scope as a key of the file.
@@ -91,11 +90,11 @@ impl Scope {
         }
     }
 
-    /// Every value as an override.
-    fn overrides(&self) -> Vec<Override> {
-        let removed = self.removed.iter().map(|key| (key.clone(), String::new()));
-        let all = texts(&self.case).into_iter().chain(removed);
-        all.map(|(key, text)| Override { key, text }).collect()
+    /// Writes a text by its key.
+    fn give(&mut self, key: String, text: &str) -> Result<(), Problem> {
+        self.case.apply(&key, Some(text))?;
+        self.overrides.push(Override { key, text: text.to_owned() });
+        Ok(())
     }
 }
 
@@ -227,8 +226,7 @@ impl<'l> Reader<'l> {
     fn about(&mut self, scope: usize, name: &str, value: &Value) -> Result<(), Problem> {
         match value {
             Value::String(text) | Value::Number(text) | Value::Date(text) => {
-                self.scopes[scope].case.write_about(name, text);
-                Ok(())
+                self.scopes[scope].give(format!("{ABOUT}{name}"), text)
             }
             _ => Err(misplaced("a text in quotes", value, "project = \"Mill 7\"")),
         }
@@ -246,25 +244,20 @@ impl<'l> Reader<'l> {
             _ => missing("the value is missing"),
         };
         let text = text.inspect_err(|_| own.wrong.push(field))?;
-        if text.is_empty() {
-            own.removed.push(known.key.to_owned());
-        }
-        own.case.write(field, &text);
-        Ok(())
+        own.give(known.key.to_owned(), &text)
     }
 
     fn limit(&mut self, scope: usize, quantity: &Quantity, value: &Value) -> Result<(), Problem> {
-        let own = &mut self.scopes[scope];
+        let (own, key) = (&mut self.scopes[scope], format!("limits.{}", quantity.key));
         if scope > 0 && value.is_empty() {
-            own.removed.push(format!("limits.{}", quantity.key));
-            return Ok(());
+            return own.give(key, "");
         }
         let example = format!("{} = {}", quantity.key, limit_by_example(quantity));
         // A limit may be relative to another result, such as "1.3 x mesh_force".
         let is_relative = matches!(value, Value::String(text) if text.contains(" x "));
         let text = number_or_text(value, quantity.unit == "1" && !is_relative, &example)?;
-        own.case.limits.push(Limit::new(quantity.key, &text)?);
-        Ok(())
+        Limit::new(quantity.key, &text)?;
+        own.give(key, &text)
     }
 
     /// Reads the distributions, each of one shape with a width.
@@ -278,18 +271,16 @@ impl<'l> Reader<'l> {
             let only = parts.next().filter(|_| parts.next().is_none());
             let read = match only.map(|entry| (&entry.path[depth..], &entry.value)) {
                 Some(([], value)) if scope > 0 && value.is_empty() => {
-                    self.scopes[scope].removed.push(spread::place(key));
-                    continue;
+                    self.scopes[scope].give(spread::place(key), "")
                 }
                 Some(([shape], Value::String(width) | Value::Number(width))) => {
-                    Spread::new(key, &format!("{shape} {width}"))
+                    self.scopes[scope].give(spread::place(key), &format!("{shape} {width}"))
                 }
                 Some(([shape], _)) => Err(Spread::malformed(key, Some(shape))),
                 _ => Err(Spread::malformed(key, None)),
             };
-            match read {
-                Ok(spread) => self.scopes[scope].case.spread.push(spread),
-                Err(problem) => self.fault(scope, entries[0].span.start, problem),
+            if let Err(problem) = read {
+                self.fault(scope, entries[0].span.start, problem);
             }
         }
     }
@@ -315,7 +306,7 @@ impl<'l> Reader<'l> {
                 self.fault(scope, self.layout.place(&key), problem);
             }
             let own = &self.scopes[scope];
-            if scope > 0 && own.overrides().is_empty() && !own.has_faults {
+            if scope > 0 && own.overrides.is_empty() && !own.has_faults {
                 let place = format!("{}{}", changes::PREFIX, own.name);
                 let fix = format!("write an override, such as {OVERRIDE}, or remove the table");
                 self.fault(0, own.at, Problem::new(&place, "the variant changes nothing", fix));

@@ -216,7 +216,7 @@ pub struct Compare {
     #[command(flatten)]
     only: Only,
     /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Csv, Format::Json, Format::Md]))]
+    #[arg(long, default_value = "text", value_parser = formats(&[Format::Text, Format::Csv, Format::Json, Format::Md]))]
     format: Format,
 }
 

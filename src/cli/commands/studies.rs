@@ -1,35 +1,24 @@
 //! Commands of studies: a sweep and a tolerance study, which can be split into shards, and questions
 //! about one case.
 
-use std::cell::Cell;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use crate::cli::options::{
-    CaseFile, Destination, Edits, Only, StudyOptions, TABLES, Threads, WORDS, count, formats,
-};
-use crate::cli::{
-    self, Done, Exit, Failure, Opened, Streams, check_out, follow, write_text, write_to,
-};
-use crate::model::{Inputs, Quantity};
-use crate::numeric::decimal::shortest;
+use crate::cli::options::{CaseFile, Destination, Only, StudyOptions, TABLES, count, formats};
+use crate::cli::questions::{NoAnswer, Question, within};
+use crate::cli::{Done, Exit, Failure, Opened, Streams, check_out, follow, write_text, write_to};
+use crate::model::Quantity;
 use crate::report::page::is_picture;
-use crate::report::studies::{self, RowWriter, SeekReport, StiffnessReport};
+use crate::report::studies::{self, Take};
 use crate::report::svg::draw;
-use crate::report::table::Named;
-use crate::report::tolerance::ToleranceReport;
 use crate::report::verdict::Absence;
-use crate::study::axis::{Axis, AxisRange, Grid, Sampling};
-use crate::study::batch::{Points, Refusals, Row, solve_all, with_unit};
-use crate::study::excitation::{Excitation as Exported, POINTS};
-use crate::study::relief::{Criterion, Demand, NoRelief, demand, specify};
-use crate::study::seek::{Condition, USUAL_SCAN, headline, seek};
+use crate::study::axis::{Axis, Grid};
+use crate::study::batch::{Refusals, solve_all};
+use crate::study::seek::headline;
 use crate::study::shard::{
     Complete, Format, Header, Kind, PointsRequest, Request, ShardWriter, Study, in_order,
 };
-use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare_flanks, compare_path};
-use crate::study::tolerance::{self, MOST_SAMPLES, Samples, Size, USUAL_SAMPLES};
-use crate::study::trade::{self, STEADY};
+use crate::study::tolerance::{self, MOST_SAMPLES, Size, USUAL_SAMPLES};
 use clap::Args;
 
 /// The options of the command.
@@ -53,7 +42,7 @@ pub struct Sweep {
     #[command(flatten)]
     only: Only,
     /// Format of the output
-    #[arg(long, default_value = "csv", value_parser = formats([Format::Csv, Format::Json]))]
+    #[arg(long, default_value = "csv", value_parser = formats(&[Format::Csv, Format::Json]))]
     format: Format,
     /// How the study runs
     #[command(flatten)]
@@ -138,10 +127,8 @@ pub struct Tolerance {
 impl Tolerance {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let Tolerance { samples, seed, ranking, .. } = *self;
-        if !(2..=MOST_SAMPLES).contains(&samples) {
-            let fix = format!("--samples {samples}: write a number from 2 to {MOST_SAMPLES}");
-            return Err(Failure::usage(fix));
-        }
+        let size = within("samples", samples, 2, MOST_SAMPLES);
+        size.map_err(|misuse| Failure::misused(&misuse))?;
         self.running.destination.check(&self.input.case)?;
         self.running.destination.fits(self.format, false)?;
         let mut opened = self.input.open(&[], streams)?;
@@ -208,9 +195,6 @@ fn of_case(
     Study { request, case: document.case, inputs, quantities, kind }
 }
 
-/// Receives the rows of a study in order.
-type Take<'a> = &'a mut dyn FnMut(usize, &[Row]) -> io::Result<()>;
-
 /// Solves the points of a study and writes the results, or writes one of its shards.
 fn run_study(study: &Study, options: &StudyOptions, streams: &mut Streams) -> Done {
     let out = options.destination.out.as_deref();
@@ -249,49 +233,23 @@ fn write_study(
     streams: &mut Streams,
     rows: impl FnOnce(Take) -> io::Result<()>,
 ) -> Done {
-    let refusals = match (&study.kind, study.request.format) {
-        (Kind::Tolerance(tolerance), format) if format != Format::Csv => {
-            let mut samples = Samples::of(tolerance);
-            rows(&mut |first, rows| {
-                samples.add(first, rows);
-                Ok(())
-            })?;
-            let report = ToleranceReport {
-                case: &study.case,
-                method: study.inputs.method,
-                study: tolerance,
-                samples: &samples,
-            };
-            // The figures take time, during which a signal must still end the program; therefore
-            // they are complete before the file is created.
-            let mut figures = Vec::new();
-            let case = Named { name: &study.request.name, title: study.case.title() };
-            case.write(&report, format, &mut figures)?;
-            write_to(out, streams, |sink| sink.write_all(&figures))?;
-            samples.refusals
+    let mut refusals = Refusals::default();
+    let is_drawn = out.is_some_and(is_picture);
+    let is_table = matches!(study.kind, Kind::Sweep(_)) || study.request.format == Format::Csv;
+    if is_table && !is_drawn {
+        write_to(out, streams, |sink| studies::write(study, rows, sink).map(|all| refusals = all))?;
+    } else {
+        // Figures take time, during which a signal must still end the program; therefore they are
+        // complete before the file is created.
+        let mut text = Vec::new();
+        refusals = studies::write(study, rows, &mut text)?;
+        if is_drawn {
+            let drawn = studies::drawn(&String::from_utf8_lossy(&text), &study.quantities);
+            let drawn = drawn.map_err(|reason| Failure::of_case(&study.request.name, &reason))?;
+            text = draw(&drawn).into_bytes();
         }
-        _ => {
-            let (writer, mut refusals) = (RowWriter(study), Refusals::default());
-            let write = |sink: &mut dyn Write| {
-                writer.begin(sink)?;
-                rows(&mut |first, rows| {
-                    refusals.count(first, rows);
-                    writer.write(first, rows, sink)
-                })
-            };
-            if out.is_some_and(is_picture) {
-                let mut table = Vec::new();
-                write(&mut table)?;
-                let drawn = studies::drawn(&String::from_utf8_lossy(&table), &study.quantities);
-                let name = &study.request.name;
-                let drawn = drawn.map_err(|reason| Failure::of_case(name, &reason))?;
-                write_text(out, streams, &draw(&drawn))?;
-            } else {
-                write_to(out, streams, write)?;
-            }
-            refusals
-        }
-    };
+        write_to(out, streams, |sink| sink.write_all(&text))?;
+    }
     for refused in &refusals.0 {
         streams.say(&format!("{}: {}", study.request.name, refused.sentence(study.points())));
     }
@@ -299,294 +257,49 @@ fn write_study(
     Ok(if is_all { Exit::BadCase } else { Exit::Done })
 }
 
-/// The options of the command.
+/// The options of a command that asks a question about one case.
 #[derive(Debug, Args)]
-pub struct Seek {
-    /// The field and its range, such as 'deviations.base_pitch=0..40 um'
-    #[arg(long, value_name = "KEY=FROM..TO")]
-    vary: String,
-    /// The condition, such as 'impact_force<=2500 N', 'dynamic_contact_lost=true' or
-    /// 'outcome=no-corner-contact'
-    #[arg(long, value_name = "CONDITION")]
-    until: String,
-    /// Number of points of the first scan; a finer scan finds narrower regions
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = USUAL_SCAN, value_parser = count)]
-    points: usize,
+pub struct Asked<Q: Args + Question> {
+    /// The question
+    #[command(flatten)]
+    question: Q,
     /// The case
     #[command(flatten)]
     input: CaseFile,
     /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats(WORDS))]
-    format: Format,
-    /// The threads
-    #[command(flatten)]
-    threads: Threads,
-    /// The file
-    #[command(flatten)]
-    destination: Destination,
-}
-
-impl Seek {
-    pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let Seek { input, vary, until, points, destination, .. } = self;
-        let bad_range = |problem| Failure::of_option("--vary", vary, &problem);
-        let bad_condition = |problem| Failure::of_option("--until", until, &problem);
-        let range = AxisRange::parse(vary).map_err(bad_range)?;
-        let condition = Condition::parse(until).map_err(bad_condition)?;
-        destination.check(&input.case)?;
-        destination.fits(self.format, false)?;
-        let first = (range.field, with_unit(&shortest(range.from), &range.unit));
-        let mut opened = input.open(&[first], streams)?;
-        opened.need(condition.quantity());
-        streams.say_all(opened.without_effect(range.field, &opened.inputs));
-        condition.check(opened.inputs.method).map_err(bad_condition)?;
-        let scan = range.axis(Sampling { points: Some(*points), is_log: false });
-        let scan = scan.map_err(bad_range)?;
-        let found = follow("points", |go_on| {
-            seek(&opened.inputs, &range, &condition, scan, &self.threads.control(go_on))
-        })??;
-        let report = SeekReport {
-            method: opened.inputs.method.name(),
-            range: &range,
-            condition: &condition,
-            found: &found,
-        };
-        opened.write(&report, self.format, destination.out.as_deref(), streams)
-    }
-}
-
-/// The options of the command.
-#[derive(Debug, Args)]
-pub struct Relief {
-    /// Loads that the relief must serve, in percent of the load of the case
-    #[arg(
-        long,
-        value_name = "A..B",
-        default_value = "25..110%",
-        value_parser = demand::loads,
-        allow_hyphen_values = true
-    )]
-    load: (f64, f64),
-    /// Loads with their shares of the time, in place of the range, such as
-    /// '50%:0.2, 100%:0.7, 130%:0.1'
-    #[arg(
-        long,
-        value_name = "LOAD:SHARE,...",
-        value_parser = Spectrum::parse,
-        conflicts_with = "load",
-        allow_hyphen_values = true
-    )]
-    spectrum: Option<Spectrum>,
-    /// Manufacturing tolerance of each amount, plus and minus, such as '5 um'
-    #[arg(
-        long,
-        value_name = "LENGTH",
-        default_value = "5 um",
-        value_parser = demand::tolerance,
-        allow_hyphen_values = true
-    )]
-    tolerance: f64,
-    /// Manufacturing tolerance of each length along the path of contact, plus and minus, such as
-    /// '0.2 mm' (default: one step of a length)
-    #[arg(
-        long,
-        value_name = "LENGTH",
-        value_parser = demand::tolerance,
-        allow_hyphen_values = true
-    )]
-    tolerance_length: Option<f64>,
-    /// Deviation of the misalignment over the face width, plus and minus, such as '10 um'
-    #[arg(
-        long,
-        value_name = "LENGTH",
-        default_value = "0 um",
-        value_parser = demand::tolerance,
-        allow_hyphen_values = true
-    )]
-    misalignment: f64,
-    /// The figure to minimise
-    #[arg(long, value_name = "FIGURE", default_value = "te")]
-    minimise: Criterion,
-    /// The case
-    #[command(flatten)]
-    input: CaseFile,
-    /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats(TABLES))]
+    #[arg(long, default_value = "text", value_parser = formats(Q::FORMATS))]
     format: Format,
     /// The file
     #[command(flatten)]
     destination: Destination,
 }
 
-/// The loads of a spectrum with their shares; one argument has all of them.
-#[derive(Debug, Clone)]
-struct Spectrum(Vec<(f64, f64)>);
-
-impl Spectrum {
-    fn parse(text: &str) -> Result<Spectrum, String> {
-        demand::spectrum(text).map(Spectrum)
-    }
-}
-
-impl Relief {
+impl<Q: Args + Question> Asked<Q> {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let Relief { input, destination, .. } = self;
+        let Asked { question, input, format, destination } = self;
+        let varied = question.varied().map_err(|misuse| Failure::misused(&misuse))?;
         destination.check(&input.case)?;
-        destination.fits(self.format, true)?;
-        let opened = input.open(&[], streams)?;
-        let demand = Demand {
-            loads: self.load,
-            spectrum: self.spectrum.as_ref().map_or(Vec::new(), |spectrum| spectrum.0.clone()),
-            tolerance: self.tolerance,
-            tolerance_length: self.tolerance_length,
-            misalignment: self.misalignment,
-            minimise: self.minimise,
-        };
-        let found = follow("% of the budget", |go_on| {
-            specify(&opened.inputs, &demand, &|part| go_on((100.0 * part) as usize, 100))
-        })?;
+        destination.fits(*format, Q::IS_DRAWN)?;
+        let opened = input.open(&varied, streams)?;
+        let inputs = &opened.inputs;
+        streams
+            .say_all(varied.iter().filter_map(|(field, _)| opened.without_effect(*field, inputs)));
+        let found = follow(Q::PARTS, |go_on| question.answer(inputs, go_on))?;
         let found = found.map_err(|none| match none {
-            NoRelief::Refused(refusal) => opened.refused(&refusal),
-            none => opened.failed(&none),
+            NoAnswer::Misused(misuse) => Failure::misused(&misuse),
+            NoAnswer::Refused(refusal) => opened.refused(&refusal),
+            NoAnswer::Failed(reason) => opened.failed(&reason),
         })?;
-        if destination.is_picture() {
-            let chart = found.chart(&opened.inputs).map_err(|reason| opened.failed(&reason))?;
-            return write_text(destination.out.as_deref(), streams, &draw(&chart));
+        let out = destination.out.as_deref();
+        if let Some(chart) = found.picture(inputs).filter(|_| destination.is_picture()) {
+            let chart = chart.map_err(|reason| opened.failed(&reason))?;
+            return write_text(out, streams, &draw(&chart));
         }
-        opened.write(&found, self.format, destination.out.as_deref(), streams)
-    }
-}
-
-/// The options of the command.
-#[derive(Debug, Args)]
-pub struct Stiffness {
-    /// Case file; - is standard input
-    #[arg(value_name = "CASE")]
-    case: PathBuf,
-    /// The changes of the case
-    #[command(flatten)]
-    edits: Edits,
-    /// Number of radii on each flank, from the form circle to the tip
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = count_within::<LEAST_POINTS, MOST_POINTS>)]
-    points: usize,
-    /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats(TABLES))]
-    format: Format,
-}
-
-impl Stiffness {
-    pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let opened = cli::open(&self.case, &self.edits, &[], streams)?;
-        let refused = |refusal| opened.refused(&refusal);
-        let flanks = compare_flanks(&opened.inputs, self.points).map_err(refused)?;
-        let path = compare_path(&opened.inputs, self.points).map_err(refused)?;
-        let report = StiffnessReport { flanks: &flanks, path: &path };
-        opened.write(&report, self.format, None, streams)?;
-        if self.format == Format::Csv {
-            let (name, gears) = (&opened.name, flanks.gears.iter());
-            streams.say_all(
-                gears.filter_map(|gear| {
-                    Some(format!("{name}: {}: {}", gear.gear, gear.no_field()?))
-                }),
-            );
+        opened.write(&*found, *format, out, streams)?;
+        if *format == Format::Csv {
+            let remarks = found.remarks().into_iter();
+            streams.say_all(remarks.map(|remark| format!("{}: {remark}", opened.name)));
         }
         Ok(Exit::Done)
-    }
-}
-
-/// Parses a number of points between two limits.
-fn count_within<const LEAST: usize, const MOST: usize>(text: &str) -> Result<usize, String> {
-    let count = text.parse().ok().filter(|count| (LEAST..=MOST).contains(count));
-    count.ok_or_else(|| format!("write a number from {LEAST} to {MOST}"))
-}
-
-/// The options of the command.
-#[derive(Debug, Args)]
-pub struct Excitation {
-    /// The case
-    #[command(flatten)]
-    input: CaseFile,
-    /// Number of places in a base pitch
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = POINTS[1], value_parser = count_within::<{ POINTS[0] }, { POINTS[2] }>)]
-    points: usize,
-    /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats(TABLES))]
-    format: Format,
-    /// The file
-    #[command(flatten)]
-    destination: Destination,
-}
-
-impl Excitation {
-    pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let Excitation { input, destination, .. } = self;
-        destination.check(&input.case)?;
-        destination.fits(self.format, false)?;
-        let opened = input.open(&[], streams)?;
-        let found = follow("places", |go_on| Exported::of(&opened.inputs, self.points, go_on))?;
-        let found = found.map_err(|refusal| opened.refused(&refusal))?;
-        opened.write(&found, self.format, destination.out.as_deref(), streams)
-    }
-}
-
-/// The options of the command.
-#[derive(Debug, Args)]
-pub struct Trade {
-    /// Case file; - is standard input
-    #[arg(value_name = "CASE")]
-    case: PathBuf,
-    /// The changes of the case
-    #[command(flatten)]
-    edits: Edits,
-    /// Greatest error of the recommended setting, such as 5% or 0.05 (default: model.within of
-    /// the case)
-    #[arg(long, value_name = "ERROR", allow_hyphen_values = true, value_parser = part)]
-    within: Option<f64>,
-    /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats(WORDS))]
-    format: Format,
-}
-
-impl Trade {
-    pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let opened = cli::open(&self.case, &self.edits, &[], streams)?;
-        let within = self.within.unwrap_or(opened.inputs.within);
-        let inputs = Inputs { within, ..opened.inputs.clone() };
-        let found = follow("settings", |report| {
-            let (done, planned) = (Cell::new(0), Cell::new(1));
-            let mut show = |sofar: &trade::Trade| {
-                done.set(sofar.settings.len());
-                planned.set(sofar.planned);
-            };
-            let go_on = || report(done.get(), planned.get());
-            trade::trade(&inputs, STEADY, &go_on, &mut show)
-        })?;
-        let trade = found.map_err(|refusal| opened.refused(&refusal))?;
-        opened.write(&trade, self.format, None, streams)
-    }
-}
-
-/// Parses a fraction: "5%" or 0.05.
-fn part(text: &str) -> Result<f64, String> {
-    let (number, whole) =
-        text.trim().strip_suffix('%').map_or((text.trim(), 1.0), |number| (number.trim(), 100.0));
-    let value = number
-        .parse::<f64>()
-        .ok()
-        .map(|number| number / whole)
-        .filter(|part| part.is_finite() && *part > 0.0);
-    value.ok_or_else(|| "write a number above 0, such as 5% or 0.05".to_owned())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_part_is_written_with_or_without_its_sign() {
-        assert_eq!((part("5%"), part("0.05"), part(" 0.5 % ")), (Ok(0.05), Ok(0.05), Ok(0.005)));
-        assert!(
-            ["", "%", "five", "-1%", "0", "nan", "inf%"].iter().all(|text| part(text).is_err())
-        );
     }
 }

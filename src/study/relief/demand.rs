@@ -27,7 +27,8 @@ pub enum Criterion {
 }
 
 impl Criterion {
-    const ALL: [Criterion; 3] = [Criterion::Te, Criterion::Peak, Criterion::Entry];
+    /// Every criterion.
+    pub const ALL: [Criterion; 3] = [Criterion::Te, Criterion::Peak, Criterion::Entry];
 
     /// The name in the option and in JSON.
     pub fn name(self) -> &'static str {
@@ -48,20 +49,32 @@ impl fmt::Display for Criterion {
     }
 }
 
+/// Loads with their shares of the time.
+pub type Spectrum = Vec<(f64, f64)>;
+
 /// What a relief must satisfy.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "cli", derive(clap::Args))]
 pub struct Demand {
-    /// Least and greatest load, relative to the load of the case.
+    /// Loads that the relief must serve, in percent of the load of the case
+    #[cfg_attr(feature = "cli", arg(long = "load", value_name = "A..B", default_value = "25..110%", value_parser = loads, allow_hyphen_values = true))]
     pub loads: (f64, f64),
-    /// Loads with their shares of the time, in place of the range.
-    pub spectrum: Vec<(f64, f64)>,
-    /// Deviation of each amount in both directions, in m.
+    /// Loads with their shares of the time, in place of the range, such as
+    /// '50%:0.2, 100%:0.7, 130%:0.1'
+    #[cfg_attr(feature = "cli", arg(long, value_name = "LOAD:SHARE,...", default_value = "", hide_default_value = true, value_parser = spectrum, conflicts_with = "loads", allow_hyphen_values = true))]
+    pub spectrum: Spectrum,
+    /// Manufacturing tolerance of each amount, plus and minus, such as '5 um'
+    #[cfg_attr(feature = "cli", arg(long, value_name = "LENGTH", default_value = "5 um", value_parser = tolerance, allow_hyphen_values = true))]
     pub tolerance: f64,
-    /// Deviation of each length in both directions, in m. `None` for one step of a length.
+    /// Manufacturing tolerance of each length along the path of contact, plus and minus, such as
+    /// '0.2 mm' (default: one step of a length)
+    #[cfg_attr(feature = "cli", arg(long, value_name = "LENGTH", value_parser = tolerance, allow_hyphen_values = true))]
     pub tolerance_length: Option<f64>,
-    /// Deviation of the misalignment in both directions, in m.
+    /// Deviation of the misalignment over the face width, plus and minus, such as '10 um'
+    #[cfg_attr(feature = "cli", arg(long, value_name = "LENGTH", default_value = "0 um", value_parser = tolerance, allow_hyphen_values = true))]
     pub misalignment: f64,
-    /// The figure to minimise.
+    /// The figure to minimise
+    #[cfg_attr(feature = "cli", arg(long, value_name = "FIGURE", default_value = "te"))]
     pub minimise: Criterion,
 }
 
@@ -197,11 +210,14 @@ pub fn loads(text: &str) -> Result<(f64, f64), String> {
     }
 }
 
-/// Parses loads with their shares of the time, such as `50%:0.2, 100%:0.8`.
+/// Parses loads with their shares of the time, such as `50%:0.2, 100%:0.8`; none in an empty text.
 ///
 /// # Errors
 /// Returns the syntax of a load spectrum.
-pub fn spectrum(text: &str) -> Result<Vec<(f64, f64)>, String> {
+pub fn spectrum(text: &str) -> Result<Spectrum, String> {
+    if text.is_empty() {
+        return Ok(Spectrum::new());
+    }
     let share = |text: &str| text.trim().parse::<f64>().ok().filter(|share| *share > 0.0);
     let item = |item: &str| {
         let (percent, part) = item.split_once(':')?;

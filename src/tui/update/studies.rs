@@ -12,14 +12,13 @@ use crate::case::{Evaluator, Problem, Variant};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Stages};
 use crate::report::page::{format_of, is_picture};
-use crate::report::studies::RowWriter;
+use crate::report::studies::{Take, write};
 use crate::report::svg;
-use crate::report::table::Named;
 use crate::report::tolerance::ToleranceReport;
 use crate::report::trade::conclusion;
 use crate::study::axis::Grid;
 use crate::study::batch::{self, Batch, Control, Points, Refusals, Stopped, solve_all};
-use crate::study::shard::{Format, Kind, PointsRequest, Request, Study};
+use crate::study::shard::{Format, PointsRequest, Request, Study};
 use crate::study::tolerance::Design;
 use crate::study::tolerance::{Samples, Size, Tolerance, USUAL_RANKED};
 use crate::study::trade::{Trade, trade};
@@ -364,28 +363,17 @@ fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
 
 /// The output of the command of a study.
 fn text_of(of: &Study, running: &Running<'_>) -> io::Result<String> {
-    let (mut out, mut written) = (Vec::new(), Ok(()));
-    let (writer, count) = (RowWriter(of), of.points().count());
-    if let (Kind::Tolerance(tolerance), Format::Json) = (&of.kind, of.request.format) {
-        let mut samples = Samples::of(tolerance);
-        let solved = solve(&of.batch(), count, running, &mut |first, rows| {
-            samples.add(first, rows);
-            true
-        });
-        solved.map_err(|_| io::ErrorKind::Interrupted)?;
-        let (case, method) = (&of.case, of.inputs.method);
-        let report = ToleranceReport { case, method, study: tolerance, samples: &samples };
-        let named = Named { name: &of.request.name, title: case.title() };
-        named.write(&report, Format::Json, &mut out)?;
-    } else {
-        writer.begin(&mut out)?;
-        let solved = solve(&of.batch(), count, running, &mut |first, rows| {
-            written = writer.write(first, rows, &mut out);
+    let mut out = Vec::new();
+    let rows = |take: Take| {
+        let mut written = Ok(());
+        let solved = solve(&of.batch(), of.points().count(), running, &mut |first, rows| {
+            written = take(first, rows);
             written.is_ok()
         });
         written?;
-        solved.map_err(|_| io::ErrorKind::Interrupted)?;
-    }
+        solved.map_err(|_| io::ErrorKind::Interrupted.into())
+    };
+    write(of, rows, &mut out)?;
     String::from_utf8(out).map_err(io::Error::other)
 }
 
