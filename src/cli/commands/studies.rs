@@ -13,7 +13,7 @@ use crate::report::studies::{self, Take};
 use crate::report::svg::draw;
 use crate::report::verdict::Absence;
 use crate::study::axis::{Axis, Grid};
-use crate::study::batch::{Refusals, solve_all};
+use crate::study::batch::{Points, Refusals, solve_all};
 use crate::study::seek::headline;
 use crate::study::shard::{
     Complete, Format, Header, Kind, PointsRequest, Request, ShardWriter, Study, in_order,
