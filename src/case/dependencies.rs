@@ -202,19 +202,22 @@ fn within(range: Range, share: f64) -> f64 {
 /// The stages that read a field in a case with these inputs: the stages whose inputs change, or
 /// that no longer run, if the field has another value.
 pub fn stages_of(field: usize, inputs: &Inputs) -> Stages {
-    let others = with_other_values(field, inputs);
-    let reads = |stage: &Stage| {
-        others.iter().any(|other| {
-            !stage.has_equal_inputs(inputs, other) || !other.method.stages().has(*stage)
-        })
-    };
-    let stages = inputs.method.stages().iter().filter(reads);
-    stages.fold(Stages::NONE, Stages::with)
+    readers(field, inputs).fold(Stages::NONE, Stages::with)
 }
 
 /// Whether any stage reads a field in a case with these inputs.
 pub fn is_read(field: usize, inputs: &Inputs) -> bool {
-    stages_of(field, inputs) != Stages::NONE
+    readers(field, inputs).next().is_some()
+}
+
+fn readers(field: usize, inputs: &Inputs) -> impl Iterator<Item = Stage> {
+    let others = with_other_values(field, inputs);
+    let reads = move |stage: &Stage| {
+        others.iter().any(|other| {
+            !stage.has_equal_inputs(inputs, other) || !other.method.stages().has(*stage)
+        })
+    };
+    inputs.method.stages().iter().filter(reads)
 }
 
 /// The inputs with other values in a field. At least one value differs from the present value.

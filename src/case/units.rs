@@ -159,17 +159,21 @@ fn times(number: f64, factor: f64, rest: f64) -> f64 {
 const LONGEST: usize = 64;
 
 fn find(unit: &str, units: &'static [Unit]) -> Option<&'static Unit> {
-    if unit.len() > LONGEST {
-        return None;
-    }
-    let spelled =
-        |text: &str| units.iter().find(|unit| unit.symbol == text || unit.aliases.contains(&text));
-    spelled(unit).or_else(|| spelled(&plain_spelling(unit)))
+    spelled(unit, |text| units.iter().find(|unit| unit.is_spelled(text)))
 }
 
 /// A unit of any dimension.
 fn known(unit: &str) -> Option<(Dimension, &'static Unit)> {
-    UNITS.iter().find_map(|(dimension, _, units)| Some((*dimension, find(unit, units)?)))
+    let own = |text: &str, units: &'static [Unit]| units.iter().find(|unit| unit.is_spelled(text));
+    spelled(unit, |text| {
+        UNITS.iter().find_map(|(dimension, _, units)| Some((*dimension, own(text, units)?)))
+    })
+}
+
+/// What is found by a unit as it is written, or else by its plain spelling.
+fn spelled<T>(unit: &str, found: impl Fn(&str) -> Option<T>) -> Option<T> {
+    let short = Some(unit).filter(|unit| unit.len() <= LONGEST)?;
+    found(short).or_else(|| found(&plain_spelling(short)))
 }
 
 /// Normalizes spellings such as `N·m`, `N*m`, `N-m`; `kg/m³`, `kg / m^3`; `µm`, `μm`.
@@ -492,6 +496,12 @@ struct Unit {
     symbol: &'static str,
     aliases: &'static [&'static str],
     scale: Scale,
+}
+
+impl Unit {
+    fn is_spelled(&self, text: &str) -> bool {
+        self.symbol == text || self.aliases.contains(&text)
+    }
 }
 
 const fn ten(symbol: &'static str, aliases: &'static [&'static str], exponent: i32) -> Unit {

@@ -74,7 +74,7 @@ impl Title {
         }
         let block = block.title(Line::from(vec![mark, title]));
         let inner = block.inner(area);
-        block.render(area, buffer);
+        block.render(Rect { height: area.height.min(1), ..area }, buffer);
         inner
     }
 

@@ -5,7 +5,7 @@
 use std::borrow::Cow;
 use std::ops::{Deref, Range};
 
-use ratatui::buffer::Buffer;
+use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
 use ratatui::widgets::{Scrollbar, ScrollbarOrientation, ScrollbarState, StatefulWidget, Widget};
@@ -466,7 +466,8 @@ pub fn written_out(line: &str) -> Cow<'_, str> {
 
 /// The last pass over a finished frame.
 pub fn finish(buffer: &mut Buffer, ascii: bool) {
-    for cell in &mut buffer.content {
+    let is_plain = |cell: &Cell| matches!(cell.symbol().as_bytes(), [b' '..=b'~']);
+    for cell in buffer.content.iter_mut().filter(|cell| !is_plain(cell)) {
         if let Some((end, _)) = cell.symbol().char_indices().nth(1 + MOST_MARKS) {
             let symbol = cell.symbol()[..end].to_owned();
             cell.set_symbol(&symbol);

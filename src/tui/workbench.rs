@@ -33,6 +33,9 @@ use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
 /// Time between two frames of the animation.
 const TICK: Duration = Duration::from_millis(83);
 
+/// The results of a fast solve arrive within this time and are drawn with the edit, in one frame.
+const QUICK: Duration = Duration::from_millis(5);
+
 /// How the workbench ended.
 pub(super) enum End {
     /// The user quit; no unsaved edits are to be kept.
@@ -161,12 +164,36 @@ impl Workbench {
 
     // Applies all waiting events and draws one frame if the state changed. Returns how the
     // workbench ended, if it has ended.
-    fn take(&mut self, batch: Vec<Event>) -> io::Result<Option<End>> {
+    fn take(&mut self, mut batch: Vec<Event>) -> io::Result<Option<End>> {
+        let (mut has_changed, quick) = (false, Instant::now() + QUICK);
+        while !batch.is_empty() {
+            match self.apply(batch)? {
+                Ok(changed) => has_changed |= changed,
+                Err(end) => return Ok(Some(end)),
+            }
+            let waits = self.app.is_busy(Slot::Solve) && !self.app.tab.is_settled;
+            batch = if waits && Instant::now() < quick {
+                self.events.batch(None, Some(quick))
+            } else {
+                Vec::new()
+            };
+        }
+        self.keep_settings();
+        if self.keep()? || has_changed {
+            self.screen.draw(&self.app)?;
+        }
+        self.autosave.keep_if_due(Instant::now());
+        self.threads.watch(self.app.files());
+        Ok(None)
+    }
+
+    // Applies events and returns whether the state changed, or how the workbench ended.
+    fn apply(&mut self, batch: Vec<Event>) -> io::Result<Result<bool, End>> {
         let mut events = batch.into_iter().peekable();
         let mut has_changed = false;
         while let Some(event) = events.peek() {
             match *event {
-                Event::Lost => return Ok(Some(End::Lost)),
+                Event::Lost => return Ok(Err(End::Lost)),
                 Event::Tick => self.alarm = Some(Instant::now() + TICK),
                 Event::Signal(signal) => {
                     has_changed = true;
@@ -177,7 +204,7 @@ impl Workbench {
                             let size = self.screen.size()?;
                             self.act(Action::Resize(size))?;
                         }
-                        _ => return Ok(Some(End::Signal(signal))),
+                        _ => return Ok(Err(End::Signal(signal))),
                     }
                 }
                 _ => {}
@@ -187,17 +214,11 @@ impl Workbench {
             };
             has_changed = true;
             if self.act(action)? {
-                return Ok(Some(End::Left));
+                return Ok(Err(End::Left));
             }
             self.keep()?;
         }
-        self.keep_settings();
-        if self.keep()? || has_changed {
-            self.screen.draw(&self.app)?;
-        }
-        self.autosave.keep_if_due(Instant::now());
-        self.threads.watch(self.app.files());
-        Ok(None)
+        Ok(Ok(has_changed))
     }
 
     // Returns whether the workbench ends.

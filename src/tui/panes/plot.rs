@@ -113,12 +113,13 @@ impl TerminalChart<'_> {
         let curves = all().filter(|(_, (series, _))| is_curve(series.kind));
         let layers: Vec<Buffer> =
             curves.map(|(_, (series, look))| plot.layer(&series.pieces, *look)).collect();
-        for position in plot.cells.positions() {
-            let drawn = layers.iter().filter_map(|layer| layer.cell(position));
-            let drawn: Vec<&Cell> = drawn.filter(|cell| cell.symbol() != " ").collect();
-            let turn = if self.is_compared { position.x.into() } else { drawn.len().max(1) - 1 };
-            if let Some(own) = drawn.get(turn % drawn.len().max(1)) {
-                buffer[position] = (*own).clone();
+        for (at, position) in plot.cells.positions().enumerate() {
+            let cells = layers.iter().map(|layer| &layer.content[at]);
+            let mut drawn = cells.filter(|cell| cell.symbol() != " ");
+            let count = drawn.clone().count().max(1);
+            let turn = if self.is_compared { position.x.into() } else { count - 1 };
+            if let Some(own) = drawn.nth(turn % count) {
+                buffer[position] = own.clone();
             }
         }
         for (_, (series, look)) in all() {
@@ -352,10 +353,10 @@ impl Plot {
 pub(crate) fn put(layer: &Buffer, buffer: &mut Buffer) {
     let dots = |cell: &Cell| cell.symbol().chars().next().map_or(0, u32::from);
     let is_braille = |dots: u32| (0x2800..0x2900).contains(&dots);
-    for position in layer.area.positions() {
-        let (over, under) = (&layer[position], &mut buffer[position]);
+    let drawn = layer.area.positions().zip(&layer.content);
+    for (position, over) in drawn.filter(|(_, over)| over.symbol() != " ") {
+        let under = &mut buffer[position];
         let both = match [dots(over), dots(under)] {
-            _ if over.symbol() == " " => continue,
             [over, under] if is_braille(over) && is_braille(under) => char::from_u32(over | under),
             _ if ["▀▄", "▄▀"].contains(&[over.symbol(), under.symbol()].concat().as_str()) => {
                 Some('█')

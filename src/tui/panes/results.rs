@@ -367,6 +367,8 @@ const EXCEEDED: &str = "!";
 const NONE: &str = "–";
 /// A longer name of a variant is cut.
 const LONGEST_NAME: usize = 18;
+/// The width of all but a few numbers.
+const NUMBER: usize = 9;
 
 /// A column with a cell for each quantity. In a narrow pane, the columns of the highest rank are
 /// removed first, and those of rank 0 remain; a column is cut to its least width before.
@@ -388,14 +390,14 @@ const OF_CASE: usize = 1;
 const UNITS: usize = 2;
 
 impl Column {
-    fn words(rank: usize, least: usize, cells: Vec<String>, style: Style) -> Column {
+    fn words(rank: usize, least: usize, room: usize, cells: Vec<String>, style: Style) -> Column {
         let (heading, alignment) = (String::new(), Alignment::Left);
-        Column { rank, least, heading, cells, room: 0, alignment, styles: [style; 2] }
+        Column { rank, least, heading, cells, room, alignment, styles: [style; 2] }
     }
 
     fn numbers(rank: usize, heading: String, cells: Vec<String>, styles: [Style; 2]) -> Column {
         let (least, alignment) = (usize::MAX, Alignment::Right);
-        Column { rank, least, heading, cells, room: 0, alignment, styles }
+        Column { rank, least, heading, cells, room: NUMBER, alignment, styles }
     }
 
     fn width(&self) -> usize {
@@ -498,21 +500,12 @@ pub(crate) fn compared(pane: &Results<'_>, quantity: &'static Quantity) -> Optio
     Some(format!("{own}; baseline{whose}: {}.", printed(base)))
 }
 
-/// The columns of the visible rows that fit, each after a blank. Units need the room of the visible
-/// rows alone, other columns that of all rows, so that they do not move; variants need all the room.
+/// The columns of the visible rows that fit, each after a blank. Texts have the room of all rows, so
+/// that columns do not move; variants need all the room.
 fn fitting(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
-    let mut columns = columns(pane, answer);
-    for column in &mut columns {
-        let of_all = column.width();
-        column.cells = column.cells.iter().skip(pane.state.top).take(rows).cloned().collect();
-        column.room = match pane.variants {
-            Some(_) => 0,
-            None if column.rank == UNITS => {
-                let unit = |cell: &String| cell.trim_end_matches([' ', '←', '!']).width();
-                column.cells.iter().map(unit).max().unwrap_or(0) + 1 + CHANGED.width()
-            }
-            None => of_all,
-        };
+    let mut columns = columns(pane, answer, rows);
+    if pane.variants.is_some() {
+        columns.iter_mut().for_each(|column| column.room = 0);
     }
     loop {
         let taken: usize = columns.iter().map(|column| column.width() + 1).sum();
@@ -540,8 +533,9 @@ fn fitting(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
     }
 }
 
-fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
-    let (theme, active, known) = (pane.look.theme, answer.active, order(pane, answer));
+fn columns(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
+    let (theme, active, all) = (pane.look.theme, answer.active, order(pane, answer));
+    let known: Vec<_> = all.iter().copied().skip(pane.state.top).take(rows).collect();
     // Results of `static` are among the rows of `dynamic`.
     let shows_others = pane.shows_every_method && pane.variants.is_none();
     let is_shown = |method: Method| {
@@ -565,11 +559,14 @@ fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
         value.map_or_else(|| NONE.to_owned(), shown)
     };
     let cells = |cell: &dyn Fn(usize) -> String| (0..known.len()).map(cell).collect::<Vec<_>>();
-    let symbols = cells(&|at| symbol(known[at].symbol_in(active), pane.look.ascii).into_owned());
-    let labels = cells(&|at| label(known[at], active).into_owned());
+    let words = |rank, least, style, text: &dyn Fn(&'static Quantity) -> Cow<'static, str>| {
+        let room = all.iter().map(|quantity| text(quantity).width()).max().unwrap_or(0);
+        Column::words(rank, least, room, cells(&|at| text(known[at]).into_owned()), style)
+    };
+    let symbols = |of: &'static Quantity| symbol(of.symbol_in(active), pane.look.ascii);
     let mut columns = vec![
-        Column::words(0, 0, symbols, Style::new()),
-        Column::words(90, 9, labels, Style::new()),
+        words(0, 0, Style::new(), &symbols),
+        words(90, 9, Style::new(), &|of| label(of, active)),
     ];
     for (at, &method) in methods.iter().enumerate() {
         let numbers = cells(&|at| number(at, value(answer, method, known[at])));
@@ -589,7 +586,10 @@ fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
         let mark = if pane.variants.is_some() { "" } else { mark(pane, answer, known[at]) };
         [unit, mark].join(" ").trim().to_owned()
     };
-    columns.push(Column::words(UNITS, 5, cells(&of_unit), Style::new()));
+    let of_units = cells(&of_unit);
+    let widths = of_units.iter().map(|cell| cell.trim_end_matches([' ', '←', '!']).width());
+    let room = widths.max().unwrap_or(0) + 1 + CHANGED.width();
+    columns.push(Column::words(UNITS, 5, room, of_units, Style::new()));
     if let Some((variants, first)) = pane.variants {
         let plain = [theme.other, Style::new()];
         for (at, (name, found)) in variants.columns.iter().skip(first).enumerate() {
@@ -612,8 +612,7 @@ fn columns(pane: &Results<'_>, answer: &Answer) -> Vec<Column> {
         let heading = "baseline".to_owned();
         columns.push(Column::numbers(1, heading, cells(&difference), [theme.baseline; 2]));
     } else {
-        let equations = cells(&|at| known[at].equation.to_owned());
-        columns.push(Column::words(99, 12, equations, theme.faint));
+        columns.push(words(99, 12, theme.faint, &|of| of.equation.into()));
     }
     columns
 }
@@ -644,7 +643,8 @@ fn mark(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> &'static st
     let before = pane.earlier.zip(at).map(|(earlier, at)| earlier.get(at).copied().flatten());
     let printed =
         |value: Option<f64>| value.map(|value| report::shown_in(quantity, value, pane.units));
-    let is_changed = |before| printed(before) != printed((quantity.value)(solution));
+    let now = (quantity.value)(solution);
+    let is_changed = |before| before != now && printed(before) != printed(now);
     if before.is_some_and(is_changed) { CHANGED } else { "" }
 }
 
