@@ -571,7 +571,8 @@ impl Charts<'_> {
             Some(answer) if is_pattern => {
                 let solution: Vec<_> = self.solution().into_iter().collect();
                 let reason = pattern_chart(&answer.inputs, &solution).err();
-                reason.map_or_else(String::new, |reason| format!("No chart: {reason}."))
+                let words = reason.map(|reason| format!("No chart: {reason}. j: next chart."));
+                words.unwrap_or_default()
             }
             _ => self.work.missing(of),
         };

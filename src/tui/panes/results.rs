@@ -367,7 +367,8 @@ const EXCEEDED: &str = "!";
 const NONE: &str = "–";
 /// A longer name of a variant is cut.
 const LONGEST_NAME: usize = 18;
-/// The width of all but a few numbers.
+/// The width of all but a few symbols, and of all but a few numbers.
+const SYMBOL: usize = 8;
 const NUMBER: usize = 9;
 
 /// A column with a cell for each quantity. In a narrow pane, the columns of the highest rank are
@@ -564,8 +565,9 @@ fn columns(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
         Column::words(rank, least, room, cells(&|at| text(known[at]).into_owned()), style)
     };
     let symbols = |of: &'static Quantity| symbol(of.symbol_in(active), pane.look.ascii);
+    let symbols = words(0, 0, Style::new(), &symbols);
     let mut columns = vec![
-        words(0, 0, Style::new(), &symbols),
+        Column { room: symbols.room.min(SYMBOL), ..symbols },
         words(90, 9, Style::new(), &|of| label(of, active)),
     ];
     for (at, &method) in methods.iter().enumerate() {
