@@ -34,7 +34,7 @@ use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
 const TICK: Duration = Duration::from_millis(83);
 
 /// The results of a fast solve arrive within this time and are drawn with the edit, in one frame.
-const QUICK: Duration = Duration::from_millis(5);
+const QUICK: Duration = Duration::from_millis(3);
 
 /// How the workbench ended.
 pub(super) enum End {
@@ -171,12 +171,8 @@ impl Workbench {
                 Ok(changed) => has_changed |= changed,
                 Err(end) => return Ok(Some(end)),
             }
-            let waits = self.app.is_busy(Slot::Solve) && !self.app.tab.is_settled;
-            batch = if waits && Instant::now() < quick {
-                self.events.batch(None, Some(quick))
-            } else {
-                Vec::new()
-            };
+            let waits = self.app.is_busy(Slot::Solve) && Instant::now() < quick;
+            batch = if waits { self.events.batch(None, Some(quick)) } else { Vec::new() };
         }
         self.keep_settings();
         if self.keep()? || has_changed {

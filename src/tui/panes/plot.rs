@@ -111,8 +111,9 @@ impl TerminalChart<'_> {
         }
         let is_curve = |kind| matches!(kind, Kind::Curve | Kind::Bound);
         let curves = all().filter(|(_, (series, _))| is_curve(series.kind));
-        let layers: Vec<Buffer> =
-            curves.map(|(_, (series, look))| plot.layer(&series.pieces, *look)).collect();
+        let layers: Vec<Buffer> = curves
+            .map(|(_, (series, look))| plot.layer(&[(&series.pieces, look.1)], look.0))
+            .collect();
         for (at, position) in plot.cells.positions().enumerate() {
             let cells = layers.iter().map(|layer| &layer.content[at]);
             let mut drawn = cells.filter(|cell| cell.symbol() != " ");
@@ -313,9 +314,10 @@ impl Plot {
         }
     }
 
-    /// The pieces of a curve in cells of their own; a piece with one point is a dot. A sign is in
-    /// the cells that a Braille curve crosses, so that a curve covers those that coincide with it.
-    pub(crate) fn layer(&self, pieces: &[Vec<Point>], (marker, style): Look) -> Buffer {
+    /// Curves in cells of their own, the later ones on top; a piece with one point is a dot. Braille
+    /// dots of all curves stay visible in a common cell. A sign is in the cells that a Braille curve
+    /// crosses, so that a curve covers those that coincide with it.
+    pub(crate) fn layer(&self, curves: &[(&[Vec<Point>], Style)], marker: Marker) -> Buffer {
         let mut layer = Buffer::empty(self.cells);
         let is_sign = matches!(marker, Marker::Custom(_));
         let canvas = Canvas::default()
@@ -323,50 +325,42 @@ impl Plot {
             .x_bounds(widened(self.across))
             .y_bounds(widened(self.up))
             .paint(|context| {
-                for piece in pieces {
-                    if let [point] = piece[..] {
-                        context.draw(&Points { coords: &[point], color: Color::White });
-                    }
-                    for ends in piece.windows(2) {
-                        let [(x1, y1), (x2, y2)] = [ends[0], ends[1]];
-                        context.draw(&Line::new(x1, y1, x2, y2, Color::White));
+                for (at, (pieces, _)) in (0..).zip(curves) {
+                    // The colour names the curve until its style replaces the colour.
+                    let color = Color::Indexed(at);
+                    for piece in *pieces {
+                        if let [point] = piece[..] {
+                            context.draw(&Points { coords: &[point], color });
+                        }
+                        for ends in piece.windows(2) {
+                            let [(x1, y1), (x2, y2)] = [ends[0], ends[1]];
+                            context.draw(&Line::new(x1, y1, x2, y2, color));
+                        }
                     }
                 }
             });
         canvas.render(self.cells, &mut layer);
         for cell in layer.content.iter_mut().filter(|cell| cell.symbol() != " ") {
+            let curve = |color| if let Color::Indexed(at) = color { Some(at) } else { None };
             // A half block has two colours, for its upper and its lower half.
-            let is_full = cell.bg == Color::White;
             let symbol = match marker {
                 Marker::Custom(_) => sample(marker),
-                _ if is_full => "█".to_owned(),
+                _ if curve(cell.bg).is_some() => "█".to_owned(),
                 _ => cell.symbol().to_owned(),
             };
+            let top = curve(cell.fg).max(curve(cell.bg)).map_or(0, usize::from);
             *cell = Cell::default();
-            cell.set_symbol(&symbol).set_style(style);
+            cell.set_symbol(&symbol).set_style(curves[top].1);
         }
         layer
     }
 }
 
-/// Draws a layer over a buffer. The dots of both stay visible in a common cell.
+/// Draws a layer over a buffer.
 pub(crate) fn put(layer: &Buffer, buffer: &mut Buffer) {
-    let dots = |cell: &Cell| cell.symbol().chars().next().map_or(0, u32::from);
-    let is_braille = |dots: u32| (0x2800..0x2900).contains(&dots);
     let drawn = layer.area.positions().zip(&layer.content);
-    for (position, over) in drawn.filter(|(_, over)| over.symbol() != " ") {
-        let under = &mut buffer[position];
-        let both = match [dots(over), dots(under)] {
-            [over, under] if is_braille(over) && is_braille(under) => char::from_u32(over | under),
-            _ if ["▀▄", "▄▀"].contains(&[over.symbol(), under.symbol()].concat().as_str()) => {
-                Some('█')
-            }
-            _ => None,
-        };
-        *under = over.clone();
-        if let Some(both) = both {
-            under.set_char(both);
-        }
+    for (position, cell) in drawn.filter(|(_, cell)| cell.symbol() != " ") {
+        buffer[position] = cell.clone();
     }
 }
 

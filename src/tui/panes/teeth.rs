@@ -239,9 +239,9 @@ impl<'a> Painter<'a> {
         let factor = moment.map_or(1.0, |moment| view.factor(inputs, solution, moment));
         let lead = moment.map_or(0.0, |moment| moment.lead(factor));
         let scene = Scene::of(inputs, solution, moment, lead, &self.window);
-        for (pieces, style) in self.layers(&scene).into_iter().filter(|layer| !layer.0.is_empty()) {
-            put(&self.plot().layer(&pieces, (self.marker, style)), buffer);
-        }
+        let curves = self.layers(&scene);
+        let curves: Vec<_> = curves.iter().map(|(pieces, style)| (&pieces[..], *style)).collect();
+        put(&self.plot().layer(&curves, self.marker), buffer);
         for (at, word, style) in self.words(&scene, moment.map(|_| factor)) {
             let room = self.area.right().saturating_sub(at.x).into();
             buffer.set_stringn(at.x, at.y, word, room, Style::reset().patch(style));
@@ -631,8 +631,8 @@ mod tests {
             );
             for (right, up) in [(0.02, -0.03), (-0.99, 0.99), (0.999, 0.999), (0.51, 0.13)] {
                 let point = centre + Vector2::new(right * half.x, up * half.y);
-                let look = (painter.marker, Style::new());
-                let buffer = painter.plot().layer(&[vec![(point.x, point.y)]], look);
+                let dot = [vec![(point.x, point.y)]];
+                let buffer = painter.plot().layer(&[(&dot, Style::new())], painter.marker);
                 let drawn = size.positions().find(|position| buffer[*position].symbol() != " ");
                 assert_eq!(drawn, painter.cell(point), "{size:?} {right} {up}");
             }
