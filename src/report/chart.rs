@@ -150,7 +150,7 @@ impl Chart {
         let name = |axis: &Axis| axis.in_unit().split(';').next().unwrap_or_default().to_owned();
         let [across, up] = [&self.across, &self.up].map(name);
         match &self.map {
-            Some(map) => format!("{} over {across} and {up}", map.value.in_unit()),
+            Some(map) => format!("{} over {up} and {across}", map.value.in_unit()),
             None => format!("{up} over {across}"),
         }
     }

@@ -196,11 +196,7 @@ fn parts(pane: &Results<'_>) -> (Vec<Line<'static>>, usize) {
         head.truncate(most);
         head.iter_mut().last().into_iter().for_each(|line| line.push_span("…"));
     }
-    let notes = match hidden {
-        0 => None,
-        1 => Some(format!("1 note ({}n)", pane.title.leave())),
-        _ => Some(format!("{hidden} notes ({}n)", pane.title.leave())),
-    };
+    let notes = (hidden > 0).then(|| format!("{hidden} more ({}n)", pane.title.leave()));
     let folded = pane.answer.and_then(|answer| folded(pane, answer));
     // Between variants the results need the line; the key of the notes is in the line of keys.
     let has_room = pane.variants.is_none() || head.len() < kept(USUAL_ROWS);

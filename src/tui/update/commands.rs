@@ -402,6 +402,8 @@ pub static BINDINGS: &[Binding] = &[
         "Move the cursor of the study right or left.").shown(),
     pair(Place::STUDY, "Shift-Right/Shift-Left", "", |app, by| studies::move_cursor(app, 10 * by, 0),
         "Move the cursor of the study ten points right or left."),
+    pair(Place::STUDY, "G/g End/Home", "", |app, by| studies::move_cursor(app, 100_000 * by, 0),
+        "Move the cursor of the study to the last or first point."),
     pair(Place::STUDY, "k/j Up/Down", "", |app, by| studies::move_cursor(app, 0, by),
         "Move the cursor of the map up or down."),
     row(Place::STUDY, "+ =", "narrower", |app| studies::zoom(app, 1),

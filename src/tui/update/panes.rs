@@ -222,7 +222,10 @@ pub(super) fn cursor_to_start(app: &mut App) {
 
 /// Asks for an angle, a time or a point.
 pub(super) fn ask_cursor(app: &mut App) {
-    if range_of_cursor(app).is_some() {
+    let is_own = app.chart.own_axes().is_some() && !app.chart.is_pattern();
+    if is_own && app.layout.focus() == Pane::Chart {
+        app.say("this chart has a cursor of its own: h and l move it");
+    } else if range_of_cursor(app).is_some() {
         app.prompts.push(Prompt::CursorTo(CursorTo::new(move_cursor)));
     } else {
         app.complain(NO_CURSOR);
@@ -242,7 +245,7 @@ fn move_cursor(app: &mut App, typed: Result<f64, String>) {
     put_cursor(app, typed.as_ref().copied().map_err(String::as_str));
     if let Ok(angle) = typed {
         let reading = chart::readout(&app.charts(), angle);
-        app.say(format!("cursor at {reading}"));
+        app.say(format!("cursor: {reading}"));
     }
 }
 
@@ -297,7 +300,11 @@ pub(super) fn stop_playing(app: &mut App) -> bool {
 pub(super) fn request_chart(app: &mut App) {
     let is_visible = app.layout.plan().shows(Pane::Chart);
     let chart = app.chart.own_axes().filter(|_| is_visible && !app.chart.is_pattern());
-    let Some((chart, inputs)) = chart.zip(app.tab.inputs().cloned()) else {
+    let inputs = app.tab.inputs().map(|inputs| {
+        let chosen = app.tab.chosen.filter(|_| inputs.method == Method::Auto);
+        Inputs { method: chosen.unwrap_or(inputs.method), ..inputs.clone() }
+    });
+    let Some((chart, inputs)) = chart.zip(inputs) else {
         if app.cancel(Slot::Chart) {
             let work = &mut app.tab.chart_work;
             (work.request, work.is_running) = (None, false);

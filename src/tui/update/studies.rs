@@ -622,6 +622,8 @@ pub(super) fn keep_variant(app: &mut App, name: &str) {
     ));
 }
 
+const SOLVING: &str = "solving the variants";
+
 /// Shows the variants beside the case, the next variants, or the methods again.
 pub(super) fn next_variants(app: &mut App) {
     let count = app.tab.case.variants.len();
@@ -635,6 +637,9 @@ pub(super) fn next_variants(app: &mut App) {
         Some(first) if first + page < count => Some(first + page),
         Some(_) => None,
     };
+    if app.first_variant.is_some() && app.tab.variants.is_none() {
+        app.say(SOLVING);
+    }
 }
 
 /// Solves the visible variants, unless they are solved already; where the method is `auto`, by the
@@ -676,6 +681,7 @@ pub(super) fn request_variants(app: &mut App) {
     app.start(Work::new(Slot::Variants, solve, move |app, found| {
         if let Some(tab) = app.tab_with(id) {
             tab.variants = Some(found);
+            app.message.take_if(|message| message.text == SOLVING);
         }
     }));
 }
