@@ -87,7 +87,7 @@ impl Loads {
 /// Usual precision of a balance: that of a lead over the displacement. A slice has a small part of the
 /// load, so that force and displacement are more precise. Searches compare loads at places beside
 /// each other.
-pub(super) const PRECISE: f64 = 1e-8;
+pub(super) const PRECISE: f64 = 1e-10;
 
 /// What ends the search for a balance.
 #[derive(Debug, Clone, Copy, PartialEq)]
