@@ -583,14 +583,15 @@ impl Position<'_> {
 
     /// The means of the leads near by, which keep their places on the path.
     fn moved(&self, near: &Loads) -> Vec<f64> {
-        let (moved, last) = (self.face.slices_in(self.s - near.s), self.face.slices.len() - 1);
+        let moved = self.face.slices_in(self.s - near.s);
+        let (whole, part) = (moved.floor() as isize, moved - moved.floor());
+        let last = self.face.slices.len() - 1;
         let mut means = vec![f64::NEG_INFINITY; self.contacts.len()];
         for (pair, ahead) in (self.first..).take(self.pairs).enumerate() {
             let Some(known) = near.index(ahead) else { continue };
-            let mean = |slice: usize| near.means[slice * near.pairs + known];
+            let mean = |slice: usize| near.means[slice.min(last) * near.pairs + known];
             for (slice, new) in means[pair..].iter_mut().step_by(self.pairs).enumerate() {
-                let old = (slice as f64 + moved).clamp(0.0, last as f64);
-                let (before, part) = (old as usize, old.fract());
+                let before = slice.saturating_add_signed(whole);
                 *new = mean(before);
                 if part > 0.0 {
                     *new += part * (mean(before + 1) - *new);
@@ -738,7 +739,7 @@ impl<'a> System<'a> {
                 }
                 let Contact { mean, local, root, .. } = self.at.contacts[at];
                 let push = part * slice.width * root / local;
-                let gap = mean - rest / part;
+                let gap = if part < 1.0 { mean - rest / part } else { mean };
                 for (slot, factor) in factors.iter().enumerate().filter(|(_, it)| **it != 0.0) {
                     let (push, side, row) = (push * factor, &mut sides[slot], &mut block[slot]);
                     *side = [side[0] + push, side[1] + push * gap];
@@ -747,7 +748,7 @@ impl<'a> System<'a> {
                     }
                 }
             }
-            rows.extend(block);
+            rows.extend_from_slice(&block);
         }
         Banded::<ROW>::of(Rows::from_vec(rows))?.solve(&mut sides);
         let mut all = vec![[0.0; 2]; slices.len() * count];
