@@ -4,6 +4,7 @@
 
 mod changes;
 mod compliance;
+mod shape;
 mod sources;
 
 use std::fmt::Write as _;
@@ -133,6 +134,7 @@ fn page() -> String {
         text += &source(one);
     }
     text += &sources::iso_table();
+    text += &shape::section();
     text += &compliance::section();
     text += &changes::section();
     text

@@ -27,7 +27,7 @@ fn by(inputs: &Inputs, method: Method, key: &str) -> Option<f64> {
     value(&solved(inputs, method)?, key)
 }
 
-fn exact(inputs: &Inputs, key: &str) -> Option<f64> {
+pub(super) fn exact(inputs: &Inputs, key: &str) -> Option<f64> {
     by(inputs, Method::Exact, key)
 }
 
@@ -60,7 +60,7 @@ fn dense(inputs: &Inputs) -> Inputs {
 
 /// Mesh stiffness F_0/x of the load at rest at each station: distance from E over the base pitch,
 /// and the stiffness in N/um.
-fn mesh_stiffness(inputs: &Inputs) -> Option<Vec<(f64, f64)>> {
+pub(super) fn mesh_stiffness(inputs: &Inputs) -> Option<Vec<(f64, f64)>> {
     let solution = solved(&dense(inputs), Method::Static)?;
     let geometry = solution.geometry;
     let of = |station: &Station| {
@@ -83,6 +83,32 @@ fn greatest_stiffness(inputs: &Inputs) -> Option<f64> {
     let curve = mesh_stiffness(inputs)?;
     let within = curve.iter().filter(|(way, _)| (0.0..=1.0).contains(way));
     within.map(|&(_, stiffness)| stiffness).max_by(f64::total_cmp)
+}
+
+/// The least stiffness of a pair on the path, in N/um.
+fn least_pair_stiffness(inputs: &Inputs) -> Option<f64> {
+    let solution = solved(&dense(inputs), Method::Static)?;
+    let path = solution.geometry.end - solution.geometry.start;
+    let on_path = |one: &&Station| {
+        (0.0..=path).contains(&(-one.roll_angle_driver * solution.geometry.driver.base))
+    };
+    let load = solution.static_load?;
+    let compliances = load.stations.iter().filter(on_path).filter_map(|one| one.pair_compliance);
+    let most = compliances.max_by(f64::total_cmp)?;
+    Some(PER_MICROMETRE * inputs.common_width() / most)
+}
+
+/// Speed of the main resonance, in rpm.
+fn resonance_speed(inputs: &Inputs) -> Option<f64> {
+    Some(by(inputs, Method::Static, "resonance_speed")? * 30.0 / PI)
+}
+
+/// The dynamic factor of ISO 6336-1 with a base pitch deviation of each gear, in um.
+fn iso_dynamic_factor(inputs: &Inputs, driver: f64, driven: f64) -> Option<f64> {
+    let mut inputs = inputs.clone();
+    inputs.driver.base_pitch = Some(1e-6 * driver);
+    inputs.driven.base_pitch = Some(1e-6 * driven);
+    exact(&inputs, "iso_dynamic_factor")
 }
 
 /// Stiffness per unit width of the pair at the pitch point, in single-tooth contact, in N/(um mm).
@@ -209,7 +235,7 @@ fn over_passage(inputs: &Inputs, of: fn(f64, f64, &Geometry) -> f64) -> Option<f
 }
 
 /// The same pair with independent slices.
-fn of_slices(inputs: &Inputs) -> Inputs {
+pub(super) fn of_slices(inputs: &Inputs) -> Inputs {
     Inputs { slice_coupling: false, ..inputs.clone() }
 }
 
@@ -269,7 +295,7 @@ macro_rules! light {
 pub(super) const SOURCES: &[Source] = &[
     Source {
         title: "ROSS",
-        from: "petrobras/ross, its gear tests; potential energy, constant contact",
+        from: "petrobras/ross, its gear tests, the same in version 2.3.0; potential energy, constant contact",
         case: "ross-62-62",
         figures: &[
             figure("contact ratio", "", 1.789_779_866_8, |inputs| exact(inputs, "contact_ratio"),
@@ -277,6 +303,10 @@ pub(super) const SOURCES: &[Source] = &[
             figure("mesh stiffness at the start of double contact", "N/um", 396.62, |inputs| stiffness_at(inputs, 0.0),
                 SUM_OF_ENERGY),
             figure("greatest mesh stiffness", "N/um", 419.57, greatest_stiffness, SUM_OF_ENERGY),
+            figure("mean of its curve over a base pitch, 2.3.0", "N/um", 373.51, mean_stiffness, "partly, for the same reasons."),
+            figure("its one value of the mesh stiffness, 2.3.0", "N/um", 409.66, mean_stiffness,
+                "no. Version 2.3.0 computes it as ε_α b E_1 E_2/(9 (E_1 + E_2)), without the shape of the teeth; until \
+                then it was the greatest of the curve. It is 9.7 % above the mean of its own curve."),
             figure("polar inertia of a gear", "kg m2", 0.003_602_5, |inputs| exact(inputs, "inertia_driver"),
                 "partly. The source takes a disc to the reference circle; tipstrike integrates the outline.").by_no_model(),
         ],
@@ -303,6 +333,14 @@ pub(super) const SOURCES: &[Source] = &[
             light!(5000, 1.519, ""),
             light!(7000, 1.078, ""),
         ],
+    },
+    Source {
+        title: "Chen & Shao 2011",
+        from: "Chen & Shao 2011, potential energy, as quoted by later papers",
+        case: "chen-shao-30-25",
+        figures: &[figure("least stiffness of a pair", "N/um", 152.0, least_pair_stiffness,
+            "partly. The figure is second-hand, and bores and fillets of the source are not known to us. The source \
+            uses the potential-energy method.")],
     },
     Source {
         title: "GEARpie, FZG C14",
@@ -339,6 +377,7 @@ pub(super) const SOURCES: &[Source] = &[
         case: "iso-6336-30-1-helical",
         figures: &[
             figure("virtual teeth of the driver", "", 18.905, |inputs| exact(inputs, "virtual_teeth_driver"), GEOMETRY).by_no_model(),
+            figure("virtual teeth of the driven gear", "", 114.543, |inputs| exact(inputs, "virtual_teeth_driven"), "").by_no_model(),
             figure("tangential force", "N", 127_352.0, |inputs| exact(inputs, "tangential_force"), FORCE).by_no_model(),
             figure("c'", "N/(um mm)", 12.370_47, |inputs| per_um(inputs, Method::Exact, "iso_single_stiffness"),
                 "yes. The same formulas.").by_no_model(),
@@ -394,6 +433,13 @@ pub(super) const SOURCES: &[Source] = &[
             figure("reduced mass per width", "kg/mm", 0.365_03, mass_per_width,
                 "partly. The report takes rings to the mean diameter; tipstrike integrates the outline, and the bore \
                 is the inside of the rim.").by_no_model(),
+            figure("resonance speed n_E1", "rpm", 2843.0, resonance_speed,
+                "partly. The report has c_gamma, with C_R and the factor 0.8, where tipstrike has its mean stiffness."),
+            figure("dynamic factor K_V, with its base pitch deviations of 13.1 and 15.9 um", "", 1.092,
+                |inputs| iso_dynamic_factor(inputs, 13.1, 15.9),
+                "partly. The formulas are the same. The report has an application factor of 1.25, subtracts the \
+                running-in allowances of 1.2 and 1.6 um, has a profile form deviation of 22 um, and contains C_R. \
+                tipstrike has none of these and takes the base pitch deviation for the form deviation.").by_no_model(),
         ],
     },
     Source {
@@ -403,6 +449,8 @@ pub(super) const SOURCES: &[Source] = &[
         figures: &[
             figure("transverse contact ratio", "", 1.46, |inputs| exact(inputs, "contact_ratio"), GEOMETRY).by_no_model(),
             figure("overlap ratio", "", 0.54, |inputs| exact(inputs, "overlap_ratio"), GEOMETRY).by_no_model(),
+            figure("transverse base pitch", "mm", 10.652, |inputs| Some(1e3 * exact(inputs, "base_pitch")?), GEOMETRY).by_no_model(),
+            figure("path of contact", "mm", 15.55, path_length, GEOMETRY).by_no_model(),
             figure("force along the line of action", "N", 2949.2, |inputs| exact(inputs, "mesh_force"), FORCE).by_no_model(),
             figure("axial force", "N", 739.5, |inputs| exact(inputs, "axial_force"), FORCE).by_no_model(),
         ],
