@@ -372,6 +372,7 @@ impl Geometry {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::profile::normal_tip_thickness;
     use crate::model::sample::standard_pair;
     use crate::model::{Stage, Stages, solve};
 
@@ -461,6 +462,17 @@ mod tests {
         // EP on both sides of the pitch point, with twice the speed.
         let approach = solution.geometry.approach_length;
         assert_near(entry, 2.0 * inputs.speed * approach, 12);
+    }
+
+    /// z 20, m_n 5 mm, β 20 deg: the helix angle at the tip circle is 21.71 deg.
+    #[test]
+    fn a_helical_tip_is_thinner_in_the_normal_section() {
+        let inputs = Inputs { helix_angle: 20_f64.to_radians(), ..standard_pair(20, 20, 5e-3) };
+        let solution = solve(&inputs, Stages::of(Stage::Figures)).unwrap();
+        let reference = 50e-3 / 20_f64.to_radians().cos();
+        let at_tip = (20_f64.to_radians().tan() * (reference + 5e-3) / reference).atan();
+        let normal = normal_tip_thickness(&inputs, &inputs.driver, &solution.geometry.driver);
+        assert_near(normal, solution.figures.unwrap().tip_thickness[0] * at_tip.cos(), 12);
     }
 
     #[test]

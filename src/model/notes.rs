@@ -10,7 +10,7 @@ use super::deviation::{Origin, out_of_range};
 use super::explanation::tidy;
 use super::geometry::Circles;
 use super::inputs::{Gear, InertiaModel, Method};
-use super::profile::{Profile, Rack};
+use super::profile::{Profile, Rack, normal_tip_thickness};
 use super::{Context, Inputs, Solution};
 use crate::numeric::decimal::significant;
 
@@ -378,7 +378,7 @@ fn undercut(name: &str, k: &Context, gear: &Gear) -> Found {
 
 /// The tip of a gear is pointed or thin.
 fn tip(name: &str, k: &Context, gear: &Gear, circles: &Circles) -> Found {
-    let thickness = Profile::of(&Rack::of(k.inputs, gear), circles).tip_thickness();
+    let thickness = normal_tip_thickness(k.inputs, gear, circles);
     let (value, least) = (milli(thickness), THIN_TIP * k.inputs.module);
     if thickness <= 0.0 {
         let message = format!(

@@ -26,6 +26,13 @@ pub struct Profile {
     pub junction: Junction,
 }
 
+/// Thickness of a tooth at its tip circle in the normal section, in m: s_an = s_at cos β_a with
+/// tan β_a = tan β r_a/r (ISO 21771).
+pub(super) fn normal_tip_thickness(inputs: &Inputs, gear: &Gear, circles: &Circles) -> f64 {
+    let slope = inputs.helix_angle.tan() * circles.tip / circles.reference;
+    Profile::of(&Rack::of(inputs, gear), circles).tip_thickness() / slope.hypot(1.0)
+}
+
 /// The junction of fillet and involute.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Junction {

@@ -5,7 +5,7 @@ use crate::model::explanation::{Context, Finding, four, micro, mm};
 use crate::model::notes::{
     THIN_TIP, USUAL_BACKLASH, backlash, inertia_at_rest, is_possible, sliding,
 };
-use crate::model::profile::{Profile, Rack};
+use crate::model::profile::{Profile, Rack, normal_tip_thickness};
 
 /// No interference at the start of contact.
 pub(super) fn start(k: &Context) -> Option<Finding> {
@@ -240,10 +240,12 @@ pub(super) fn contact_kept(k: &Context) -> Option<Finding> {
 
 /// The tips are not thin.
 pub(super) fn tips(k: &Context) -> Option<Finding> {
-    let least = THIN_TIP * k.inputs.module;
-    let [driver, driven] = k.solution.figures?.tip_thickness;
+    let (inputs, geometry) = (k.inputs, &k.solution.geometry);
+    let least = THIN_TIP * inputs.module;
+    let driver = normal_tip_thickness(inputs, &inputs.driver, &geometry.driver);
+    let driven = normal_tip_thickness(inputs, &inputs.driven, &geometry.driven);
     Finding::new(
-        "s_a >= 0.2 m: a thinner tip is brittle when hardened",
+        "in the normal section s_a >= 0.2 m: a thinner tip is brittle when hardened",
         format!("s_a1 = {}, s_a2 = {}, 0.2 m = {}", mm(driver), mm(driven), mm(least)),
         driver.min(driven) >= least,
     )

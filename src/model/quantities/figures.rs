@@ -72,8 +72,8 @@ macro_rules! gear {
                     concat!(
                         "The thickness of a tooth of the ",
                         $name,
-                        " between its flanks at the tip circle, less the chamfer. A thin tip breaks \
-            when it is hardened or strikes."
+                        " between its flanks at the tip circle, less the chamfer, in the transverse \
+            section. A thin tip breaks when it is hardened or strikes."
                     ),
                     Difference(concat!(
                         "2 r_a",
