@@ -228,22 +228,11 @@ fn stages_that_are_no_external_cylindrical_pair_are_refused_by_name() {
     ] {
         has(&refusal_of(&edited(name, from, to)), &[reason]);
     }
+    let (_, _, message) = run(&["import", "two-stages-1.0.rexs", "--stage", "8"]);
+    has(&message, &["the model has no stage \"8\""]);
     let (code, _, message) = run(&["import", "planetary-1.1.rexsz", "--stage", "9"]);
     assert_eq!(code, 3);
     has(&message, &["stage 9 \"Planetenstufe [9]\" is a planetary stage"]);
-}
-
-#[test]
-fn of_several_stages_the_first_is_imported_and_the_others_are_named() {
-    let (code, _, message) = run(&["import", "two-stages-1.0.rexs"]);
-    assert_eq!(code, 0);
-    has(
-        &message,
-        &["stage 6 \"Stirnradstufe\": a spur stage (23/67 teeth), imported", "--stage` imports 7"],
-    );
-    let unknown =
-        import(Path::new("m.rexs"), &fs::read(model("two-stages-1.0.rexs")).unwrap(), Some("8"));
-    assert!(unknown.unwrap_err().contains("the model has no stage \"8\""));
 }
 
 #[test]

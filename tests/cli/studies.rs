@@ -14,21 +14,6 @@ fn objects(line: &str) -> Vec<Value> {
 }
 
 #[test]
-fn a_relief_states_what_a_drawing_needs_and_marks_the_relief_to_specify() {
-    let text = page(
-        "relief cases/mill-coarse-slow.toml --load 50..100% --set model.tooth_compliance=beam",
-    );
-    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
-    let map = &text[text.rfind("  amount").expect("a map")..];
-    assert_eq!(map.matches('*').count(), 1, "{map}");
-    has(&text, &["Tip relief for 50 to 100 % of 35000 N m"]);
-    for stated in ["C_a, um", "L_Ca, mm", "roll angle, deg", "d_Ca, mm", "shape"] {
-        let line = text.lines().find(|line| line.contains(stated)).expect(stated);
-        assert!(stated == "shape" || line.matches("+-").count() == 2, "{line}");
-    }
-}
-
-#[test]
 fn the_formats_of_a_relief_agree_and_the_chosen_relief_solves_without_contact() {
     let command = "relief TABLE_1 --spectrum '50%:0.3, 100%:0.7' --tolerance-length '0.2 mm'";
     let found = json(&format!("{command} --format json"));

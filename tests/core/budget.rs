@@ -305,18 +305,3 @@ fn a_motion_whose_steps_need_more_memory_than_a_solve_may_take_is_refused() {
     let sentence = refusal.to_string();
     assert!(sentence.contains("memory") && !sentence.contains("100"), "{sentence}");
 }
-
-#[test]
-fn a_narrow_bracket_is_printed_with_ends_that_differ() {
-    let refusal = Refusal::SearchTooLong {
-        tries: 400,
-        in_motion: true,
-        touching: Some(22.628_104_1e-6),
-        clear: Some(22.628_104_9e-6),
-    };
-    assert_eq!(
-        refusal.to_string(),
-        "the search stopped after 400 motions: the tooth touches before E with 22.628104 um more tip \
-         relief of the driven gear, and not with 22.628105 um more"
-    );
-}

@@ -555,32 +555,6 @@ fn a_key_changes_few_bytes_of_a_chart() {
     }
 }
 
-#[test]
-fn the_mesh_stiffness_has_a_curve_for_every_model_with_that_of_the_case_on_top() {
-    let mut desk = at_method(SMALL, "exact");
-    let request = |desk: &Desk| desk.app.tab.requested_stiffness;
-    assert!(!request(&desk), "a hidden chart is not requested");
-    desk.keys(&["1", ":", "chart: mesh stiffness", "Enter", "3"]);
-    assert!(request(&desk));
-    for name in ["kuang-yang (case)", "beam", "finite-element"] {
-        desk.assert_shows(name);
-    }
-    let charts = desk.app.charts();
-    let graph = &GRAPHS[charts.shown()[0]];
-    let curves = curves::curves(&charts, graph);
-    let [.., field, own] = &curves[..] else {
-        panic!("curves of several models");
-    };
-    assert!(curves::is_field(field.source) && !curves::is_field(own.source));
-    // From E to the end of the path of contact, without the strike.
-    let window = charts.window();
-    assert!(window.from < 0.0 && window.to > 20.0, "{window:?}");
-    let geometry = &charts.solution().expect("a solution").geometry;
-    let end = (geometry.end - geometry.start) / geometry.driver.base;
-    let last = curves[0].pieces[0].last().expect("a point");
-    assert!((last.0 - end.to_degrees()).abs() < 1e-9);
-}
-
 /// The models share the columns that several of them cross, so that no curve hides another without
 /// colour.
 #[test]
