@@ -33,12 +33,18 @@ fn times() -> Option<u32> {
 /// Checks a property, which asserts, with a number of cases.
 #[track_caller]
 fn hold<S: Strategy>(cases: u32, strategy: &S, property: impl Fn(S::Value)) {
+    hold_from(1, cases, strategy, property);
+}
+
+/// The same with the cases of a seed.
+#[track_caller]
+fn hold_from<S: Strategy>(seed: u64, cases: u32, strategy: &S, property: impl Fn(S::Value)) {
     let asked = times();
     let config = Config {
         cases: cases * asked.unwrap_or(1),
         failure_persistence: None,
         max_shrink_time: SHRINKING,
-        rng_seed: if asked.is_some() { RngSeed::Random } else { RngSeed::Fixed(1) },
+        rng_seed: if asked.is_some() { RngSeed::Random } else { RngSeed::Fixed(seed) },
         ..Config::default()
     };
     let result = TestRunner::new(config).run(strategy, |value| {
