@@ -20,6 +20,7 @@ pub mod trade;
 pub mod verdict;
 
 use self::table::Named;
+use self::verdict::Absence;
 use crate::case::Case;
 use crate::case::fields::index_of;
 use crate::case::units::{self, System};
@@ -118,6 +119,7 @@ impl Report {
     ) -> Report {
         let mut notes = model::notes(&inputs, &solution);
         notes.extend(selection.quantities().filter_map(|quantity| not_finite(quantity, &solution)));
+        notes.extend(selection.only.iter().filter_map(|quantity| absent(quantity, &solution)));
         Report { name, case, inputs, solution, notes, selection, others: Vec::new() }
     }
 
@@ -219,6 +221,14 @@ fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
             code: "not-finite",
             message: format!("{} exceeds the range of numbers and is omitted", quantity.key),
         }
+    })
+}
+
+/// Why a requested quantity has no value.
+fn absent(quantity: &Quantity, solution: &Solution) -> Option<Note> {
+    (quantity.value)(solution.having(quantity.stage)).is_none().then(|| {
+        let absence = Absence::of(quantity, solution);
+        Note { code: "no-value", message: format!("{} has no value: {absence}", quantity.key) }
     })
 }
 

@@ -167,8 +167,11 @@ class Result(_Mapping):
 
     @property
     def notes(self):
-        """The messages by their codes."""
-        return dict(self._solved.notes)
+        """The messages by their codes; several messages of a code are lines."""
+        notes = {}
+        for code, message in self._solved.notes:
+            notes[code] = f"{notes[code]}\n{message}" if code in notes else message
+        return notes
 
     @property
     def stations(self):

@@ -11,7 +11,7 @@ use crate::report::digest::{differing, free_impact, sentence, whine};
 use crate::report::stations::columns;
 pub use crate::report::table::write_line;
 use crate::report::table::{Cell, Column, Table, WIDTH, flow, item, json, measured, object, text};
-use crate::report::verdict::{Absence, verdicts};
+use crate::report::verdict::verdicts;
 use std::io::{self, Write};
 
 /// The page; empty sections are omitted.
@@ -93,8 +93,7 @@ fn inputs(report: &Report) -> Vec<String> {
     lines.into_iter().chain(item("Notes of the case: ", &one_line(report.text("notes")))).collect()
 }
 
-/// The quantities in groups; selected quantities in their order, each without a value with its
-/// reason.
+/// The quantities in groups; selected quantities in their order.
 fn quantity_lines(report: &Report) -> Vec<String> {
     let solution = &report.solution;
     let method = solution.method;
@@ -129,14 +128,7 @@ fn quantity_lines(report: &Report) -> Vec<String> {
         let tables: Vec<Table> = tables.filter(|table| !table.rows.is_empty()).collect();
         return text(&tables).concat();
     }
-    let known = || report.selection.quantities();
-    let absent = known().filter(|quantity| value(quantity, solution).is_none());
-    let absent = absent.flat_map(|quantity| {
-        let start = format!("  {} has no value: ", quantity.symbol_in(method));
-        item(&start, &Absence::of(quantity, solution).to_string())
-    });
-    let table = Table::new("", columns).with(known().filter_map(row));
-    Table { notes: absent.collect(), ..table }.lines()
+    Table::new("", columns).with(report.selection.quantities().filter_map(row)).lines()
 }
 
 fn lower(title: &str) -> String {

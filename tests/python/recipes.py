@@ -39,7 +39,10 @@ def fresh(folder, name):
 
 
 def python(folder):
-    place = fresh(folder, "python")
+    place = folder / "python"
+    place.mkdir()
+    [files] = blocks("scripting.md", "sh")
+    run(place, "sh", "-c", files)
     (place / "script.py").write_text("\n".join(blocks("scripting.md", "python")))
     out = run(place, sys.executable, "script.py")
     assert "the force grows with the speed to the power 1." in out, out
