@@ -310,7 +310,11 @@ fn open(path: &Path, name: &str) -> Result<File, ReadError> {
         ErrorKind::NotFound => ReadError::NotFound(name.to_owned()),
         _ => ReadError::Unreadable(name.to_owned(), error),
     };
-    if !fs::metadata(path).map_err(failed)?.is_file() {
+    let kind = fs::metadata(path).map_err(failed)?;
+    if kind.is_dir() {
+        return Err(ReadError::IsAFolder(name.to_owned()));
+    }
+    if !kind.is_file() {
         return Err(ReadError::NotAFile(name.to_owned()));
     }
     File::open(path).map_err(failed)
@@ -408,16 +412,19 @@ fn place(text: &str, at: usize) -> (usize, usize) {
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// The file does not exist.
-    #[error("{0}: file not found: check the path, or `tipstrike new` writes a case")]
+    #[error("{0}: {}", not_found(.0))]
     NotFound(String),
-    /// The path is a folder, a pipe or a device.
-    #[error("{0}: this is not a regular file")]
+    /// The path is a folder.
+    #[error("{0}: this is a folder: name a case in it, such as {0}/case.toml")]
+    IsAFolder(String),
+    /// The path is a pipe or a device.
+    #[error("{0}: this is not a regular file: copy the content to a file")]
     NotAFile(String),
     /// The file is longer than the limit in KiB.
     #[error("{0}: the file is longer than {1} KiB, the limit for a case")]
     TooLarge(String, usize),
     /// The system refuses to read the file.
-    #[error("{0}: cannot be read: {1}")]
+    #[error("{0}: {}", unread(.1))]
     Unreadable(String, io::Error),
     /// The text is not a valid case.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
@@ -493,6 +500,33 @@ pub enum SaveError {
 /// A path as messages show it.
 fn shown(path: &Path) -> String {
     sanitize(&path.display().to_string())
+}
+
+/// The fix for a file that does not exist, which `tipstrike new` writes if it is a case.
+fn not_found(name: &str) -> String {
+    let new = if name.ends_with(".toml") { ", or `tipstrike new` writes a case" } else { "" };
+    format!("file not found: check the path{new}")
+}
+
+/// Why the system refuses to read a file, and the fix.
+pub(crate) fn unread(error: &io::Error) -> String {
+    match error.kind() {
+        ErrorKind::NotFound => not_found(""),
+        ErrorKind::NotADirectory => {
+            "cannot be read: a part of the path is a file: check the path".to_owned()
+        }
+        ErrorKind::PermissionDenied => {
+            "cannot be read: permission denied: make the file readable (chmod u+r)".to_owned()
+        }
+        _ => format!("cannot be read: {}: copy the file to another folder", brief(error)),
+    }
+}
+
+/// The error text of the system without the error number.
+pub(crate) fn brief(error: &io::Error) -> String {
+    let words = error.to_string();
+    let end = words.find(" (os error").unwrap_or(words.len());
+    words[..end].to_owned()
 }
 
 /// The fix for a file that the system refuses to write.

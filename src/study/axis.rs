@@ -239,7 +239,24 @@ fn assignment(text: &str) -> Result<(usize, &str), Problem> {
         let fix = "vary a field with a value; `tipstrike fields` lists every key";
         return Err(Problem::new(key, cause, fix));
     }
-    Ok((field, values.trim()))
+    let values = values.trim();
+    match with_other_sign(values) {
+        Some((from, to)) => {
+            let cause = format!("the ends of a range have `{TO}` between them");
+            Err(Problem::new(key, cause, format!("write {key}={from}{TO}{to}")))
+        }
+        None => Ok((field, values)),
+    }
+}
+
+/// The ends of a range with another sign, such as `50-250 N m` or `50...250 N m`.
+fn with_other_sign(values: &str) -> Option<(&str, &str)> {
+    let ends = ["...", "…", " to ", "–", "-"].iter().find_map(|sign| values.split_once(sign));
+    let (from, to) = ends.map(|(from, to)| (from.trim(), to.trim()))?;
+    let is_number = |end: &str| end.starts_with(|first: char| first.is_ascii_digit());
+    let is_exponent = from.ends_with(['e', 'E']);
+    let is_whole = !from.contains(TO) && !to.contains(TO);
+    (is_number(from) && is_number(to) && !is_exponent && is_whole).then_some((from, to))
 }
 
 /// The first unit among the values, which applies to values without a unit.

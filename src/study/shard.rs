@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use super::axis::Grid;
 use super::batch::{Batch, Points, Row};
 use super::tolerance::{Size, Tolerance};
+use crate::case::file::unread;
 use crate::case::sanitize::quoted;
 use crate::case::{Case, Document, Problem, unknown_quantity};
 use crate::model::{Inputs, Quantity};
@@ -289,7 +290,7 @@ impl Complete {
             || wrong(format!("{name}: this is not a shard: name files that --shard wrote"));
         let unreadable = |error: io::Error| match error.kind() {
             ErrorKind::InvalidData => no_shard(),
-            kind => io::Error::new(kind, format!("{name}: cannot be read: {error}")),
+            kind => io::Error::new(kind, format!("{name}: {}", unread(&error))),
         };
         // Opening a pipe waits for a writer.
         if !fs::metadata(path).map_err(unreadable)?.is_file() {

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::case::changes::{self, Change};
 use crate::case::file::{MOST_BYTES, ReadError, SaveError, Saved, followed, read_bytes};
-use crate::case::file::{Stamp, hash};
+use crate::case::file::{Stamp, brief, hash};
 use crate::case::sanitize::sanitize;
 use crate::case::{Case, Document};
 use crate::system::sharing;
@@ -678,13 +678,6 @@ fn unlocked(path: &Path, place: &Path, error: &io::Error) -> String {
     };
     let name = name_of(path);
     format!("{name} is not locked, so other sessions may save it too: {cause}: {fix}")
-}
-
-/// The error text of the system without the error number.
-fn brief(error: &io::Error) -> String {
-    let words = error.to_string();
-    let end = words.find(" (os error").unwrap_or(words.len());
-    words[..end].to_owned()
 }
 
 fn name_of(path: &Path) -> String {
