@@ -27,7 +27,9 @@ use crate::system::files::is_same;
 use crate::system::interrupt::Interrupt;
 use clap::{CommandFactory, FromArgMatches, Parser};
 pub use commands::Command;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{
+    HumanDuration, HumanFloatCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle,
+};
 use options::{CaseFile, Edits, Setting};
 use questions::Misuse;
 
@@ -495,9 +497,16 @@ fn follow<T>(
 /// A hidden bar; `what` is the name of its parts.
 fn bar(what: &'static str) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-    let template = "{bar:30} {human_pos}/{human_len} {msg}, {per_sec}, {eta} left";
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style.progress_chars("=> "));
+    // Before the first part is complete, there is no rate and no estimate.
+    let rate = |state: &ProgressState, out: &mut dyn fmt::Write| {
+        let (rate, left) = (HumanFloatCount(state.per_sec()), HumanDuration(state.eta()));
+        if state.pos() > 0 {
+            let _ = write!(out, ", {rate}/s, {left:#} left");
+        }
+    };
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {human_pos}/{human_len} {msg}{rate}")
+    {
+        bar.set_style(style.progress_chars("=> ").with_key("rate", rate));
     }
     bar.set_message(what);
     bar

@@ -120,6 +120,9 @@ pub enum Command {
     /// gears over the roll angle, and contact_pattern the line load over the face width. The
     /// picture follows the light or dark setting of the browser. A sweep is drawn over the field
     /// with the most values, with a curve for each combination of the others.
+    #[command(
+        override_usage = "tipstrike plot [OPTIONS] <CASE>\n       tipstrike plot [OPTIONS] --sweep <FILE.csv>"
+    )]
     Plot(results::Plot),
     /// Write cases side by side as one page or as data: .html, .md, .csv or .json
     ///

@@ -46,7 +46,7 @@ impl Only {
 #[derive(Debug, Clone, Copy, Args)]
 pub struct Threads {
     /// Number of threads (default: one per core); does not change the output
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = jobs)]
     pub jobs: Option<u16>,
 }
 
@@ -69,6 +69,12 @@ pub(super) struct StudyOptions {
     /// The file
     #[command(flatten)]
     pub destination: Destination,
+}
+
+/// Parses a number of threads.
+fn jobs(text: &str) -> Result<u16, String> {
+    let count = text.trim().parse().ok().filter(|count| (1..=1024).contains(count));
+    count.ok_or_else(|| "write a whole number from 1 to 1024".to_owned())
 }
 
 /// Parses a number of points or samples.

@@ -7,12 +7,9 @@ use crate::case::units::Dimension;
 use crate::model::inputs::Method;
 use crate::model::{Outcome, QUANTITIES, Quantity, Stage};
 use crate::report::stations::COLUMNS;
-use crate::report::table::{Cell, Column, Table, json, write_line};
+use crate::report::table::{Cell, Column, Table, WIDTH, item, json, write_line};
 use serde_json::{Map, Value};
 use std::io::{self, Write};
-
-/// Greatest width of a line of a list.
-const WIDTH: usize = 100;
 
 /// Last line of the list of quantities.
 const TO_EXPLAIN: &str =
@@ -20,14 +17,25 @@ const TO_EXPLAIN: &str =
 
 /// Every field, for a reader.
 fn field_table() -> Table {
-    let columns = ["key", "symbol", "unit", "range", "default", "meaning"];
     let rows = FIELDS.iter().map(|field| {
-        let (range, meaning) = (range_text(field), meaning(field));
-        [field.key, field.symbol, unit(field), &range, default(field), &meaning]
+        let range = field.range().map_or(String::new(), |range| {
+            format!("{}..{} {}", end(range.from), end(range.to), range.unit).trim_end().to_owned()
+        });
+        [field.key, field.symbol, &joined([&meaning(field), &range, &absence(field)])]
             .map(Cell::from)
             .to_vec()
     });
-    Table::new("", columns.map(|key| Column::text(key, key)).to_vec()).with(rows)
+    list().with(rows)
+}
+
+/// A list of keys for a reader.
+fn list() -> Table {
+    let columns = ["key", "symbol", "meaning"].map(|key| Column::text(key, key));
+    Table::new("", columns.to_vec())
+}
+
+fn joined(parts: [&str; 3]) -> String {
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ")
 }
 
 /// Every quantity; the stage is for scripts alone.
@@ -76,10 +84,13 @@ pub fn write_quantities(is_json: bool, out: &mut dyn Write) -> io::Result<()> {
     if is_json {
         return quantity_table().objects().iter().try_for_each(|line| write_line(line, out));
     }
-    let mut table = quantity_table().of(&[0, 1, 3, 4, 2]);
-    table.columns[4].title = "meaning".into();
-    write_list(table, out)?;
-    writeln!(out, "\n{TO_EXPLAIN}")
+    let rows = QUANTITIES.iter().map(|Quantity { key, symbol, label, unit, equation, .. }| {
+        let unit = if *unit == "1" { "" } else { *unit };
+        [*key, *symbol, &joined([label.trim_start(), unit, equation])].map(Cell::from).to_vec()
+    });
+    write_list(list().with(rows), out)?;
+    writeln!(out)?;
+    item("", TO_EXPLAIN).iter().try_for_each(|line| writeln!(out, "{line}"))
 }
 
 fn write_list(mut table: Table, out: &mut dyn Write) -> io::Result<()> {
@@ -93,10 +104,6 @@ fn unit(field: &Field) -> &'static str {
 
 fn range(field: &Field) -> Option<(f64, f64)> {
     field.range().map(|range| (range.from, range.to))
-}
-
-fn range_text(field: &Field) -> String {
-    range(field).map(|(from, to)| format!("{}..{}", end(from), end(to))).unwrap_or_default()
 }
 
 fn meaning(field: &Field) -> String {
@@ -114,11 +121,14 @@ fn end(value: f64) -> String {
     }
 }
 
-fn default(field: &Field) -> &'static str {
+/// What applies without a value.
+fn absence(field: &Field) -> String {
     match field.absent {
-        Absent::Refused => "required",
-        Absent::Default(text) | Absent::Without(text) => text,
-        Absent::Either => "or its alternative",
+        Absent::Refused => "required".to_owned(),
+        Absent::Either => "this or its alternative is required".to_owned(),
+        Absent::Default("") => String::new(),
+        Absent::Default(text) => format!("default {text}"),
+        Absent::Without(text) => format!("left out: {text}"),
     }
 }
 

@@ -542,7 +542,7 @@ impl askama::filters::Escaper for Markdown {
 }
 
 /// Wraps a sentence behind a mark; further lines are indented by the width of the mark.
-pub(super) fn item(mark: &str, sentence: &str) -> Vec<String> {
+pub fn item(mark: &str, sentence: &str) -> Vec<String> {
     let indent = count(mark);
     let width = WIDTH.saturating_sub(indent);
     let sentence = sentence.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -73,7 +73,7 @@ fn pages_for_a_person() {
         ("explain impact_force cases/tip-relief-enough.toml", &["No value: no corner contact"]),
         ("explain impact_force TABLE_1 --method dynamic", &["This is the free impact; "]),
         ("trade TABLE_1", &[" Within 5.0 %: dynamic with"]),
-        ("fields", &["pair.module m mm 0.05..50 "]),
+        ("fields", &["pair.module m module; 0.05..50 mm; "]),
         ("fields --results", &["impact_force "]),
         ("man", &[".SH NAME tipstrike", ".SH \"EXIT STATUS\""]),
         ("man solve", &["stations"]),

@@ -23,6 +23,7 @@ use crate::report::digest::{Digest, STAGES, sentence};
 use crate::report::explain::{explain, render, write_json};
 use crate::report::page::{ENDINGS, format_of, is_picture, render as render_report};
 use crate::report::solve::{self, compared, comparison};
+use crate::report::table::item;
 use crate::report::verdict::{self, Standing, refused, stages, verdicts};
 use crate::report::{self, Selection, data, fields, page, studies, svg};
 use crate::study::shard::Format;
@@ -434,10 +435,12 @@ fn list(out: &mut dyn Write) -> io::Result<()> {
     for example in EXAMPLES {
         let digest = digest(example);
         writeln!(out, "{:width$}  {}", example.name, digest.title)?;
-        writeln!(out, "{:width$}  {}; {}", "", digest.pair, digest.load)?;
-        writeln!(out, "{:width$}  {}", "", digest.outcome)?;
-        for (standing, limit) in &digest.limits {
-            writeln!(out, "{:width$}  {} {limit}", "", standing.word())?;
+        let limits = digest.limits.iter();
+        let limits = limits.map(|(standing, limit)| format!("{} {limit}", standing.word()));
+        let sentences = [format!("{}; {}", digest.pair, digest.load), digest.outcome.clone()];
+        let mark = format!("{:width$}  ", "");
+        for line in sentences.into_iter().chain(limits).flat_map(|text| item(&mark, &text)) {
+            writeln!(out, "{line}")?;
         }
     }
     Ok(())
