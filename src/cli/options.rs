@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use super::{Done, Failure, Opened, Streams, check_out, each, open};
+use super::{Done, Failure, Opened, Streams, check_out, each, file_of, open};
 use crate::case::{Case, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
@@ -291,23 +291,57 @@ impl Destination {
         check_out(self.out.as_deref(), &[input])
     }
 
-    /// Whether the extension of the file is that of a picture.
-    pub(super) fn is_picture(&self) -> bool {
-        self.out.as_deref().is_some_and(is_picture)
-    }
-
-    /// Refuses a file whose extension names another format; a picture, unless the results can be drawn.
-    pub(super) fn fits(&self, format: Format, is_drawable: bool) -> Result<(), Failure> {
-        let Some(out) = &self.out else { return Ok(()) };
-        let is_other = format_of(out).is_some_and(|of_file| of_file != format);
-        if !is_other && (is_drawable || !self.is_picture()) {
-            return Ok(());
+    /// The format of the output: that of `--format`, otherwise that of the extension of the file,
+    /// otherwise the first of `formats`. `None` is a picture.
+    pub(super) fn format(
+        &self,
+        given: Option<Format>,
+        formats: &[Format],
+        is_drawn: bool,
+    ) -> Result<Option<Format>, Failure> {
+        let (formats, is_drawn) = match &given {
+            Some(given) => (std::slice::from_ref(given), false),
+            None => (formats, is_drawn),
+        };
+        let file = file_of(self.out.as_deref());
+        let Some(file) = file.filter(|file| file.extension().is_some()) else {
+            return Ok(formats.first().copied());
+        };
+        if is_drawn && is_picture(file) {
+            return Ok(None);
         }
-        let name = format.to_possible_value().map_or(String::new(), |name| name.get_name().into());
-        let out = out.display();
-        Err(Failure::usage(format!(
-            "--out {out}: the output is {name}: use another extension, or --format"
-        )))
+        let is_text = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("txt"));
+        let named = format_of(file).or(is_text.then_some(Format::Text));
+        if named.is_some_and(|named| formats.contains(&named)) {
+            return Ok(named);
+        }
+        let picture = is_drawn.then_some(".svg");
+        let endings = formats.iter().map(|format| format.extension()).chain(picture);
+        let (file, endings) = (file.display(), endings.collect::<Vec<_>>().join(", "));
+        Err(Failure::usage(match given {
+            Some(_) => format!(
+                "--out {file}: --format selects another format: use the extension {endings}, or \
+                 leave --format out"
+            ),
+            None => format!(
+                "--out {file}: the command does not write this format: use the extension {endings}"
+            ),
+        }))
+    }
+}
+
+impl StudyOptions {
+    /// The format of the results. The file of a shard has any extension.
+    pub(super) fn format(
+        &self,
+        given: Option<Format>,
+        formats: &[Format],
+        is_drawn: bool,
+    ) -> Result<Option<Format>, Failure> {
+        match self.shard {
+            Some(_) => Ok(given.or(formats.first().copied())),
+            None => self.destination.format(given, formats, is_drawn),
+        }
     }
 }
 

@@ -34,6 +34,19 @@ pub enum Format {
     Html,
 }
 
+impl Format {
+    /// The usual extension of a file.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Format::Text => ".txt",
+            Format::Json => ".json",
+            Format::Csv => ".csv",
+            Format::Md => ".md",
+            Format::Html => ".html",
+        }
+    }
+}
+
 /// A case and the study of that case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Request {

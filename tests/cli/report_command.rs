@@ -250,9 +250,47 @@ fn a_sweep_is_drawn_at_once_or_from_its_file() {
     let drawn = fs::read_to_string(&picture).unwrap();
     assert!(Document::parse(&drawn).is_ok() && drawn.contains(">speed, rpm<"), "{drawn}");
     assert_eq!(stdout_of(&["plot", "--sweep", &csv]), drawn);
-    let (code, _, words) = sweep(&file("sweep.json"));
-    assert!(code == 2 && words.contains("the output is csv"), "{words}");
     assert_eq!(run(&["plot", "--sweep", TABLE_1]).0, 3);
+}
+
+#[test]
+fn the_extension_selects_the_format_unless_the_command_or_the_option_has_another_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let vary = ["--vary", "operation.speed=500,900 rpm"];
+    let sweep = [&["sweep", TABLE_1][..], &vary].concat();
+    let until = [&["seek", TABLE_1, "--until", "outcome=no-corner-contact"][..], &vary].concat();
+    let ran = |command: &[&str], name: &str, format: &[&str]| {
+        let out = folder.path().join(name);
+        let (code, ..) = run(&[command, &["--out", out.to_str().unwrap()], format].concat());
+        (code, fs::read_to_string(out).unwrap_or_default())
+    };
+    for (command, name, format) in [
+        (&sweep[..], "a.pdf", &[][..]),
+        (&sweep, "a.txt", &[]),
+        (&sweep, "a.svg", &["--format", "csv"]),
+        (&sweep, "a.csv", &["--format", "json"]),
+        (&until, "a.csv", &[]),
+        (&["relief", TABLE_1], "a.pdf", &[]),
+        (&["excitation", TABLE_1], "a.svg", &[]),
+        (&["tolerance", TABLE_1], "a.svg", &[]),
+        (&["plot", TABLE_1], "a.png", &[]),
+        (&["report", TABLE_1], "a.pdf", &[]),
+        (&["report", TABLE_1], "a.txt", &[]),
+    ] {
+        assert_eq!(ran(command, name, format), (2, String::new()), "{command:?} {name} {format:?}");
+    }
+    for (command, name, format, start) in [
+        (&sweep[..], "a.json", &[][..], "{"),
+        (&sweep, "a.svg", &[], "<svg"),
+        (&sweep, "a", &["--format", "json"], "{"),
+        (&["excitation", TABLE_1], "b.csv", &[], "part,"),
+        (&["report", TABLE_1], "b.md", &[], "# Zhou"),
+    ] {
+        let (code, text) = ran(command, name, format);
+        assert!(code == 0 && text.starts_with(start), "{command:?} {name} {text}");
+    }
+    assert!(stdout_of(&["report", TABLE_1, "--out", "-", "--format", "md"]).starts_with("# Zhou"));
+    assert!(stdout_of(&["report", TABLE_1, "--out", "-"]).starts_with("<!"));
 }
 
 #[test]
@@ -272,11 +310,9 @@ fn texts_of_a_case_are_harmless_in_a_page_and_in_a_picture() {
 }
 
 #[test]
-fn an_unknown_extension_is_refused_and_an_invalid_case_is_omitted() {
+fn an_invalid_case_is_omitted() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let (code, _, words) = run(&["report", TABLE_1, "--out", &path("a.pdf")]);
-    assert!(code == 2 && words.contains("use .html, .md, .csv or .json"), "{words}");
     fs::write(path("bad.toml"), "format = 1\n").unwrap();
     let (code, ..) = run(&["report", &path("bad.toml"), TABLE_1, "--out", &path("a.md")]);
     assert_eq!(code, 3);

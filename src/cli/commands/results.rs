@@ -21,7 +21,7 @@ use crate::report::charts::{NoPicture, Picture, find, pictures};
 use crate::report::compare::ComparedCase;
 use crate::report::digest::{Digest, STAGES, sentence};
 use crate::report::explain::{explain, render, write_json};
-use crate::report::page::{ENDINGS, format_of, is_picture, render as render_report};
+use crate::report::page::render as render_report;
 use crate::report::solve::{self, compared, comparison};
 use crate::report::table::item;
 use crate::report::verdict::{self, Standing, refused, stages, verdicts};
@@ -317,12 +317,7 @@ impl Plot {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let Plot { chart, destination, .. } = self;
         let out = destination.out.as_deref();
-        if let Some(out) = out.filter(|out| out.extension().is_some() && !is_picture(out)) {
-            let out = out.display();
-            return Err(Failure::usage(format!(
-                "--out {out}: a picture is SVG: use the extension .svg"
-            )));
-        }
+        destination.format(None, &[], true)?;
         let source = self.sweep.as_deref().or(self.case.as_deref()).unwrap_or(Path::new("-"));
         destination.check(source)?;
         let text = if self.sweep.is_some() {
@@ -356,21 +351,22 @@ pub struct Report {
     /// What the page shows
     #[command(flatten)]
     settings: page::Settings,
-    /// File to write; the extension selects the format; replaces an existing file
+    /// File to write, or - for standard output; replaces an existing file
     #[arg(long, required = true, value_name = "FILE")]
     out: PathBuf,
+    /// Format of the output (default: html, or that of the extension of --out)
+    #[arg(long, value_parser = formats(PAGES))]
+    format: Option<Format>,
 }
+
+/// Formats of a report.
+const PAGES: &[Format] = &[Format::Html, Format::Md, Format::Csv, Format::Json];
 
 impl Report {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let Report { input, settings, out } = self;
-        let Some(format) = format_of(out) else {
-            return Err(Failure::usage(format!(
-                "--out {}: the file extension selects the format: use {}",
-                out.display(),
-                ENDINGS
-            )));
-        };
+        let Report { input, settings, out, format } = self;
+        let destination = Destination { out: Some(out.clone()) };
+        let format = destination.format(*format, PAGES, false)?.unwrap_or(Format::Html);
         check_out(Some(out), &input.cases.iter().map(AsRef::as_ref).collect::<Vec<_>>())?;
         let mut subjects = Vec::new();
         let worst = input.each(None, streams, |opened, _| {

@@ -21,6 +21,9 @@ use crate::study::shard::{
 use crate::study::tolerance::{self, MOST_SAMPLES, Size, USUAL_SAMPLES};
 use clap::Args;
 
+/// Formats of a sweep.
+const SWEPT: &[Format] = &[Format::Csv, Format::Json];
+
 /// The options of the command.
 #[derive(Debug, Args)]
 pub struct Sweep {
@@ -41,9 +44,9 @@ pub struct Sweep {
     /// The quantities
     #[command(flatten)]
     only: Only,
-    /// Format of the output
-    #[arg(long, default_value = "csv", value_parser = formats(&[Format::Csv, Format::Json]))]
-    format: Format,
+    /// Format of the output (default: csv, or that of the extension of --out)
+    #[arg(long, value_parser = formats(SWEPT))]
+    format: Option<Format>,
     /// How the study runs
     #[command(flatten)]
     running: StudyOptions,
@@ -55,8 +58,7 @@ impl Sweep {
         let grid = Grid::parse(vary, points, *log)
             .map_err(|(text, problem)| Failure::of_option("--vary", text, &problem))?;
         self.running.destination.check(&self.input.case)?;
-        let is_drawn = self.running.destination.is_picture();
-        self.running.destination.fits(self.format, self.format == Format::Csv)?;
+        let format = self.running.format(self.format, SWEPT, true)?.unwrap_or(Format::Csv);
         let first = grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0)));
         let mut opened = self.input.open(&first.collect::<Vec<_>>(), streams)?;
         let mut quantities = self.only.quantities();
@@ -67,7 +69,6 @@ impl Sweep {
         }
         streams.say_all(absent(&quantities, &grid, &opened));
         let points = PointsRequest::Sweep { vary: vary.clone(), points: points.clone(), log: *log };
-        let format = if is_drawn { Format::Csv } else { self.format };
         let study = of_case(opened, quantities, (format, points), Kind::Sweep(grid));
         run_study(&study, &self.running, streams)
     }
@@ -116,9 +117,9 @@ pub struct Tolerance {
     /// The quantities
     #[command(flatten)]
     only: Only,
-    /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats(TABLES))]
-    format: Format,
+    /// Format of the output (default: text, or that of the extension of --out)
+    #[arg(long, value_parser = formats(TABLES))]
+    format: Option<Format>,
     /// How the study runs
     #[command(flatten)]
     running: StudyOptions,
@@ -130,7 +131,7 @@ impl Tolerance {
         let size = within("samples", samples, 2, MOST_SAMPLES);
         size.map_err(|misuse| Failure::misused(&misuse))?;
         self.running.destination.check(&self.input.case)?;
-        self.running.destination.fits(self.format, false)?;
+        let format = self.running.format(self.format, TABLES, false)?.unwrap_or(Format::Text);
         let mut opened = self.input.open(&[], streams)?;
         let only = self.only.quantities();
         opened.need(only.iter().copied());
@@ -141,7 +142,7 @@ impl Tolerance {
             streams.say_all(opened.without_effect(spread.field, &opened.inputs));
         }
         let points = PointsRequest::Tolerance { samples, seed, ranked: study.design.ranked };
-        let (request, quantities) = ((self.format, points), study.quantities.clone());
+        let (request, quantities) = ((format, points), study.quantities.clone());
         let study = of_case(opened, quantities, request, Kind::Tolerance(study));
         run_study(&study, &self.running, streams)
     }
@@ -172,7 +173,7 @@ impl Gather {
         let study = Study::restore(request)
             .map_err(|problem| Failure::new(Exit::BadCase, format!("shard {shard}: {problem}")))?;
         let format = study.request.format;
-        self.destination.fits(format, format == Format::Csv)?;
+        self.destination.format(None, &[format], format == Format::Csv)?;
         let count = study.points().count();
         write_study(&study, out, streams, |take| {
             shards
@@ -266,9 +267,9 @@ pub struct Asked<Q: Args + Question> {
     /// The case
     #[command(flatten)]
     input: CaseFile,
-    /// Format of the output
-    #[arg(long, default_value = "text", value_parser = formats(Q::FORMATS))]
-    format: Format,
+    /// Format of the output (default: text, or that of the extension of --out)
+    #[arg(long, value_parser = formats(Q::FORMATS))]
+    format: Option<Format>,
     /// The file
     #[command(flatten)]
     destination: Destination,
@@ -279,7 +280,7 @@ impl<Q: Args + Question> Asked<Q> {
         let Asked { question, input, format, destination } = self;
         let varied = question.varied().map_err(|misuse| Failure::misused(&misuse))?;
         destination.check(&input.case)?;
-        destination.fits(*format, Q::IS_DRAWN)?;
+        let format = destination.format(*format, Q::FORMATS, Q::IS_DRAWN)?;
         let opened = input.open(&varied, streams)?;
         let inputs = &opened.inputs;
         streams
@@ -291,12 +292,12 @@ impl<Q: Args + Question> Asked<Q> {
             NoAnswer::Failed(reason) => opened.failed(&reason),
         })?;
         let out = destination.out.as_deref();
-        if let Some(chart) = found.picture(inputs).filter(|_| destination.is_picture()) {
+        if let Some(chart) = found.picture(inputs).filter(|_| format.is_none()) {
             let chart = chart.map_err(|reason| opened.failed(&reason))?;
             return write_text(out, streams, &draw(&chart));
         }
-        opened.write(&*found, *format, out, streams)?;
-        if *format == Format::Csv {
+        opened.write(&*found, format.unwrap_or(Format::Text), out, streams)?;
+        if format == Some(Format::Csv) {
             let remarks = found.remarks().into_iter();
             streams.say_all(remarks.map(|remark| format!("{}: {remark}", opened.name)));
         }
