@@ -37,6 +37,7 @@ use crate::report::solve::{Unsolved, compared, comparison};
 use crate::report::studies::table;
 use crate::report::table::{Cell as TableCell, Column as TableColumn, Named, Results, Table};
 use crate::report::tolerance::ToleranceReport;
+use crate::report::verdict::Absence;
 use crate::report::{Report, Selection, page};
 use crate::study::axis::Grid;
 use crate::study::batch::{Batch, Refusals, Row, solve_all};
@@ -552,6 +553,18 @@ impl Solved {
         Some((value, quantity.unit))
     }
 
+    /// Why a name has no value.
+    fn absence(&self, name: &str) -> String {
+        let Some(quantity) = Quantity::named(name) else {
+            let Problem { cause, fix, .. } = unknown_quantity("", name);
+            return format!("{cause}: {fix}");
+        };
+        if self.selection.quantities().all(|known| known.key != quantity.key) {
+            return "not computed: name the quantity in `only`".to_owned();
+        }
+        format!("no value: {}", Absence::of(quantity, &self.solution))
+    }
+
     fn keys(&self) -> Vec<&'static str> {
         self.selection.values(&self.solution).map(|(quantity, _)| quantity.key).collect()
     }
@@ -668,7 +681,16 @@ fn units() -> Vec<(&'static str, &'static str)> {
 /// The text of a built-in example.
 #[pyfunction]
 fn example(name: &str) -> PyResult<&'static str> {
-    Example::find(name).map(|example| example.text).map_err(wrong)
+    let found = Example::find(name);
+    found
+        .map(|example| example.text)
+        .map_err(|fix| wrong(format!("{name}: no such example: {fix}")))
+}
+
+/// The version of the program.
+#[pyfunction]
+fn version() -> &'static str {
+    env!("CARGO_PKG_VERSION")
 }
 
 /// The names of the built-in examples.
@@ -695,5 +717,5 @@ fn main(arguments: Vec<OsString>) -> u8 {
 #[pymodule]
 mod _tipstrike {
     #[pymodule_export]
-    use super::{Case, Solved, compare, example, examples, main, report, units};
+    use super::{Case, Solved, compare, example, examples, main, report, units, version};
 }

@@ -175,8 +175,10 @@ def test_studies_are_those_of_their_commands(folder):
         assert study.to_json() == command(*arguments, "--format", "json")
         assert dict(study)
 
-    same(tipstrike.seek(path, "deviations.base_pitch=0..40 um", "impact_force<=2500 N"), "seek", path, "--vary",
-         "deviations.base_pitch=0..40 um", "--until", "impact_force<=2500 N")
+    for vary in ("deviations.base_pitch=0..40 um", {"deviations.base_pitch": "0..40 um"},
+                 {"deviations.base_pitch": ([0, 40], "um")}):
+        same(tipstrike.seek(path, vary, "impact_force<=2500 N"), "seek", path, "--vary",
+             "deviations.base_pitch=0..40 um", "--until", "impact_force<=2500 N")
     same(tipstrike.stiffness(path, points=5), "stiffness", path, "--points", 5)
     same(tipstrike.relief(path, load="80..100%"), "relief", path, "--load", "80..100%")
     spread = folder / "spread.toml"

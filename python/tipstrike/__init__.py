@@ -83,6 +83,7 @@ except ImportError as error:
     ) from error
 
 Case = _tipstrike.Case
+__version__ = _tipstrike.version()
 _UNITS = dict(_tipstrike.units())
 
 
@@ -137,7 +138,7 @@ class Result(_Mapping):
     def __getitem__(self, name):
         found = self._solved.get(name)
         if found is None:
-            raise KeyError(f"{name}: no value: see notes, or `tipstrike fields --results` for the names")
+            raise KeyError(f"{name}: {self._solved.absence(name)}")
         return Quantity(*found)
 
     def __iter__(self):
@@ -395,10 +396,23 @@ def _study(kind, found):
     return kind(columns, text, notes, json)
 
 
+def _range(vary):
+    if isinstance(vary, str):
+        return vary
+    if len(vary) != 1:
+        raise ValueError(f"vary: a search varies one field, and not {len(vary)}: give one field with its range")
+    [text] = [_varied(key, values) for key, values in vary.items()]
+    first, *rest = text.split(",")
+    return f"{first}..{rest[-1]}" if rest else text
+
+
 def seek(case, vary, until, *, points=201, method=None, variant=None, jobs=None, progress=None, **changes):
-    """Where a condition changes: seek(case, "deviations.base_pitch=0..40 um", "impact_force<=2500 N")."""
+    """Where a condition changes: seek(case, {"deviations.base_pitch": "0..40 um"}, "impact_force<=2500 N").
+
+    `vary` has one field with its range as in `sweep`, from the first to the last value of an array, or the
+    text of the command, such as "deviations.base_pitch=0..40 um"."""
     opened = _opened(case, changes, variant, method)
-    return _study(Study, opened.seek(vary, until, points, jobs, _progress(progress)))
+    return _study(Study, opened.seek(_range(vary), until, points, jobs, _progress(progress)))
 
 
 def relief(case, *, load="25..110%", spectrum=None, tolerance="5 um", tolerance_length=None,

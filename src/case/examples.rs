@@ -39,9 +39,10 @@ impl Example {
     pub fn find(name: &str) -> Result<&'static Example, String> {
         let name = name.strip_suffix(".toml").unwrap_or(name);
         let found = EXAMPLES.iter().find(|example| example.name == name);
+        let names = EXAMPLES.iter().map(|example| example.name);
         found.ok_or_else(|| {
-            suggestion(name, EXAMPLES.iter().map(|example| example.name), || {
-                "use one of the list".to_owned()
+            suggestion(name, names.clone(), || {
+                format!("use one of {}", names.collect::<Vec<_>>().join(", "))
             })
         })
     }

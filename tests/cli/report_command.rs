@@ -258,7 +258,7 @@ fn the_extension_selects_the_format_unless_the_command_or_the_option_has_another
     let folder = tempfile::tempdir().unwrap();
     let vary = ["--vary", "operation.speed=500,900 rpm"];
     let sweep = [&["sweep", TABLE_1][..], &vary].concat();
-    let until = [&["seek", TABLE_1, "--until", "outcome=no-corner-contact"][..], &vary].concat();
+    let until = ["seek", TABLE_1, "--until", "F_S<=1 kN", "--vary", "operation.speed=1..9 rpm"];
     let ran = |command: &[&str], name: &str, format: &[&str]| {
         let out = folder.path().join(name);
         let (code, ..) = run(&[command, &["--out", out.to_str().unwrap()], format].concat());
