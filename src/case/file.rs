@@ -412,7 +412,7 @@ fn place(text: &str, at: usize) -> (usize, usize) {
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// The file does not exist.
-    #[error("{0}: {}", not_found(.0))]
+    #[error("{0}: {why}", why = not_found(.0))]
     NotFound(String),
     /// The path is a folder.
     #[error("{0}: this is a folder: name a case in it, such as {0}/case.toml")]
@@ -424,7 +424,7 @@ pub enum ReadError {
     #[error("{0}: the file is longer than {1} KiB, the limit for a case")]
     TooLarge(String, usize),
     /// The system refuses to read the file.
-    #[error("{0}: {}", unread(.1))]
+    #[error("{0}: {why}", why = unread(.1))]
     Unreadable(String, io::Error),
     /// The text is not a valid case.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]

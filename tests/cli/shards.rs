@@ -115,7 +115,7 @@ fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
     let message = refusal(&[PathBuf::from("cases/zhou-chen-2014.toml")]);
     assert!(message.contains("this is not a shard"), "{message}");
     let (code, _, errors) = gather(&[folder.path().join("missing.shard")]);
-    assert!(code == 5 && errors.contains("cannot be read"), "{errors}");
+    assert!(code == 5 && errors.contains("file not found"), "{errors}");
     let (code, _, errors) = ran(&format!("{SWEEP} --shard 4/3"));
     assert!(code == 2 && errors.contains("write 1/3 to 3/3"), "{errors}");
 }
