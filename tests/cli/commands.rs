@@ -43,10 +43,7 @@ fn pages_for_a_person() {
         // A selected quantity without a value gives the reason.
         (
             "solve TABLE_1 --only F_d,max,F_S",
-            &[
-                "impact force 2191.0 N",
-                "dynamic_peak_force has no value: method exact does not",
-            ],
+            &["impact force 2191.0 N", "dynamic_peak_force has no value: method exact does not"],
         ),
         (
             "solve TABLE_1 --only F_S --set 'driven.tip_relief=80 um'",
