@@ -1,11 +1,12 @@
 //! Changes every field in every case and compares the bits of the results.
 
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 use std::thread;
 
 use super::{fields_of, is_read, stages_of, value_of};
 use crate::case::fields::{Kind, index_of};
-use crate::case::{Case, EXAMPLES, FIELDS};
+use crate::case::{Case, EXAMPLES, Example, FIELDS};
 use crate::model::Earlier;
 use crate::model::inputs::{ContactCompliance, Method, ToothCompliance};
 use crate::model::solve::solve_after;
@@ -120,8 +121,13 @@ fn resolved(before: &Solved, inputs: &Inputs) -> Solution {
     solve_after(&few_stations(inputs), wanted(inputs), Some(earlier), &|_| true).unwrap()
 }
 
-fn solved_cases() -> Vec<Solved> {
-    EXAMPLES.iter().flat_map(|example| variants(&example.document().case, example.name)).collect()
+/// Every case with its variants, solved once for all tests.
+fn solved_cases() -> &'static [Solved] {
+    static CASES: LazyLock<Vec<Solved>> = LazyLock::new(|| {
+        let of = |example: &Example| variants(&example.document().case, example.name);
+        EXAMPLES.iter().flat_map(of).collect()
+    });
+    &CASES
 }
 
 fn variants(case: &Case, name: &str) -> Vec<Solved> {
@@ -273,8 +279,8 @@ const LISTED: [&str; 4] = ["as it is", "static, relieved, with friction", "dynam
 fn a_quantity_lists_every_field_whose_change_alters_it() {
     let mut missing: BTreeSet<String> = BTreeSet::new();
     let is_listed =
-        |solved: &Solved| LISTED.contains(&solved.variant) && solved.name.contains("zhou");
-    for solved in solved_cases().into_iter().filter(is_listed) {
+        |solved: &&Solved| LISTED.contains(&solved.variant) && solved.name.contains("zhou");
+    for solved in solved_cases().iter().filter(is_listed) {
         let few = few_stations(&solved.inputs);
         // The peaks over the speed move from one computed speed to another, so that the pages of
         // `explain` list no fields for them.
@@ -291,7 +297,7 @@ fn a_quantity_lists_every_field_whose_change_alters_it() {
             let is_missing =
                 |field: &usize| !listed.contains(field) && !solved.case.is_replaced(*field);
             for field in (0..FIELDS.len()).filter(is_missing) {
-                let moved = changed(&solved, field)
+                let moved = changed(solved, field)
                     .iter()
                     .filter_map(|inputs| value_of(quantity, &few_stations(inputs)))
                     .any(|found| (found - own).abs() > ROUNDING * own.abs());
