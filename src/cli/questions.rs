@@ -11,7 +11,7 @@ use crate::report::studies::{SeekReport, StiffnessReport};
 use crate::report::table::Results;
 use crate::study::axis::{AxisRange, Sampling};
 use crate::study::batch::with_unit;
-use crate::study::excitation;
+use crate::study::excitation::{self, POINTS};
 use crate::study::relief::{Demand, NoRelief, specify};
 use crate::study::seek::{Condition, USUAL_SCAN, seek};
 use crate::study::shard::Format;
@@ -94,6 +94,12 @@ pub fn within(option: &'static str, count: usize, least: usize, most: usize) -> 
     Err((option, count.to_string(), Problem::new(option, cause, fix)))
 }
 
+/// Parses a number of points between two limits.
+fn count_within<const LEAST: usize, const MOST: usize>(text: &str) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| (LEAST..=MOST).contains(count));
+    count.ok_or_else(|| format!("write a number from {LEAST} to {MOST}"))
+}
+
 /// Where a condition changes.
 #[derive(Debug, Clone, Args)]
 pub struct Seek {
@@ -162,7 +168,7 @@ impl Question for Demand {
 #[derive(Debug, Clone, Copy, Args)]
 pub struct Stiffness {
     /// Number of radii on each flank, from the form circle to the tip
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = count)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = count_within::<LEAST_POINTS, MOST_POINTS>)]
     pub points: usize,
 }
 
@@ -180,7 +186,7 @@ impl Question for Stiffness {
 #[derive(Debug, Clone, Copy, Args)]
 pub struct Excitation {
     /// Number of places in a base pitch
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = excitation::POINTS[1], value_parser = count)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = POINTS[1], value_parser = count_within::<{ POINTS[0] }, { POINTS[2] }>)]
     pub points: usize,
 }
 
@@ -188,8 +194,7 @@ impl Question for Excitation {
     const PARTS: &'static str = "places";
 
     fn answer(&self, inputs: &Inputs, go_on: &dyn Fn(usize, usize) -> bool) -> Answer {
-        let [least, _, most] = excitation::POINTS;
-        within("points", self.points, least, most)?;
+        within("points", self.points, POINTS[0], POINTS[2])?;
         Ok(Box::new(excitation::Excitation::of(inputs, self.points, go_on)?))
     }
 }

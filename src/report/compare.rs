@@ -86,7 +86,6 @@ impl ComparedCase {
 /// Columns before those of the cases: name and SI unit for scripts; symbol, label and unit for
 /// readers. The differences from the first case follow the values.
 const NAMES: usize = 5;
-const LABEL: usize = 3;
 
 impl Comparison {
     fn columns(&self) -> Vec<Column> {
@@ -99,7 +98,7 @@ impl Comparison {
             Column::text(key, letter(at) + " - A").to_the_right().wide(2, 5)
         });
         let mut columns: Vec<Column> = names.into_iter().chain(values).chain(differences).collect();
-        columns[LABEL].gap = 2;
+        columns[2].gap = 2;
         columns
     }
 
@@ -217,13 +216,29 @@ impl Comparison {
             return Ok(());
         }
         let others: Vec<usize> = (1..self.cases.len()).collect();
-        let (names, widths) = ([LABEL, NAMES - 1, NAMES], widths(&tables));
-        let room = |columns: &[usize]| -> usize {
-            columns.iter().map(|&at| widths[at] + tables[0].columns[at].gap).sum()
+        // The number of further cases that fit a line behind these columns.
+        let fitting = |tables: &[Table], names: &[usize]| {
+            let widths = widths(tables);
+            let room = |columns: &[usize]| -> usize {
+                columns.iter().map(|&at| widths[at] + tables[0].columns[at].gap).sum()
+            };
+            let widest = others.iter().map(|&at| room(&self.pair(at))).max().unwrap_or(WIDTH);
+            WIDTH.saturating_sub(room(names)) / widest.max(1)
         };
-        // The number of further cases that fit a line behind the names.
-        let widest = others.iter().map(|&at| room(&self.pair(at))).max().unwrap_or(WIDTH);
-        let in_a_line = (WIDTH.saturating_sub(room(&names)) / widest.max(1)).max(1);
+        let (with_labels, without) = ([2, 3, 4, NAMES], [2, 4, NAMES]);
+        let all = fitting(&tables, &with_labels);
+        let mut short = tables.clone();
+        for row in short.iter_mut().flat_map(|table| &mut table.rows) {
+            if row[2] == Cell::from("") {
+                row[2] = row[3].clone();
+            }
+        }
+        let fewer = fitting(&short, &without).max(1);
+        // The labels are shown if they take no more lines.
+        let has_labels = all > 0 && others.len().div_ceil(all) <= others.len().div_ceil(fewer);
+        let (names, in_a_line) =
+            if has_labels { (&with_labels[..], all) } else { (&without[..], fewer) };
+        let tables = if has_labels { tables } else { short };
         for others in others.chunks(in_a_line) {
             let columns = names.iter().copied().chain(others.iter().flat_map(|&at| self.pair(at)));
             let columns: Vec<usize> = columns.collect();
