@@ -96,6 +96,7 @@ impl<const ROW: usize, T: Entry> Banded<ROW, T> {
 
 /// Calls `run` with the length of a row with so many rows on one side, which is known to the compiler for
 /// most rows.
+#[expect(clippy::inline_always, reason = "loops unroll only where their length is a constant")]
 #[inline(always)]
 fn within_reach<const ROW: usize>(rows: usize, mut run: impl FnMut(usize)) {
     if rows >= ROW { run(ROW) } else { run(rows + 1) }
