@@ -333,7 +333,7 @@ impl Inputs {
                 let (module, angle) = (self.transverse_module(), self.transverse_pressure_angle());
                 let diameter = module * f64::from(gear.teeth);
                 let allowed = base_pitch_tolerance(grade, self.module, diameter, angle);
-                (allowed, Origin::Grade)
+                (gear.sampled_pitch.unwrap_or(allowed), Origin::Grade)
             }
             (None, None) => (self.base_pitch_deviation, Origin::Common),
         }

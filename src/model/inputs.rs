@@ -81,6 +81,9 @@ pub struct Gear {
     /// Base pitch deviation f_pb of this gear, in m. `None` to use its flank tolerance class or the
     /// common value.
     pub base_pitch: Option<f64>,
+    /// Sample of the base pitch deviation of a gear with a flank tolerance class, in m, in place of the
+    /// value of the class, which keeps its other tolerances.
+    pub sampled_pitch: Option<f64>,
     /// Flank tolerance class of ISO 1328-1:2013.
     pub grade: Option<u32>,
     /// Helix slope deviation f_Hβ over the face width, in m; above 0 the helix angle is larger than
@@ -125,6 +128,7 @@ impl Default for Gear {
             tip_chamfer: 0.0,
             tip_radius: None,
             base_pitch: None,
+            sampled_pitch: None,
             grade: None,
             helix_slope: 0.0,
             crowning: 0.0,

@@ -481,7 +481,13 @@ impl Distribution {
 
     /// Writes a value into the inputs of a model.
     pub fn put(&self, value: f64, inputs: &mut Inputs) {
-        FIELDS[self.field].put(Value::Number(value), inputs);
+        let is_graded =
+            [&inputs.driver, &inputs.driven].map(|gear| inputs.class_of(gear).is_some());
+        match self.key() {
+            "driver.base_pitch" if is_graded[0] => inputs.driver.sampled_pitch = Some(value),
+            "driven.base_pitch" if is_graded[1] => inputs.driven.sampled_pitch = Some(value),
+            _ => FIELDS[self.field].put(Value::Number(value), inputs),
+        }
     }
 
     /// The SI unit of the field; empty for a bare number.
@@ -526,7 +532,8 @@ pub fn centre(field: usize, case: &Case, inputs: &Inputs) -> Option<f64> {
 fn allowed_deviation(spread: &Spread, inputs: &Inputs) -> f64 {
     let allowed = |gear: &Gear| {
         let grade = Some(spread.width as u32);
-        inputs.base_pitch_of(&Gear { base_pitch: None, grade, ..gear.clone() }).0
+        let bare = Gear { base_pitch: None, sampled_pitch: None, grade, ..gear.clone() };
+        inputs.base_pitch_of(&bare).0
     };
     match spread.field {
         "driver.base_pitch" => allowed(&inputs.driver),
@@ -626,7 +633,7 @@ mod tests {
                 found.put(nominal, &mut sample);
             }
         }
-        assert!(sample.driver.base_pitch.is_some() && sample.driven.base_pitch.is_some());
+        assert!(sample.driver.sampled_pitch.is_some() && sample.driven.sampled_pitch.is_some());
         let [found, nominal] = [&sample, &inputs].map(|inputs| solve(inputs, Stages::EVERY));
         assert_eq!(found.unwrap(), nominal.unwrap());
     }
