@@ -15,7 +15,7 @@ use std::sync::LazyLock;
 
 use oracle::number::{Big, big, decimal, rounded};
 use rows::Row;
-use tipstrike::model::{Inputs, Quantity, Solution, Stages, solve};
+use tipstrike::model::{Inputs, Quantity, Refusal, Solution, Stages, solve};
 use tipstrike::numeric::Real;
 use twofloat::TwoFloat;
 
@@ -144,6 +144,10 @@ fn fresh_pairs_within_their_bounds() {
         let mut left = pairs_per_corner;
         while left > 0 {
             let inputs = envelope::pair(&mut random, corner);
+            // The oracle knows no tooth that its relief takes away.
+            if matches!(solve(&inputs, Stages::CLOSED_FORM), Err(Refusal::ReliefTooLarge { .. })) {
+                continue;
+            }
             let Some(row) = Row::of(corner, inputs.clone()) else {
                 let position =
                     solve(&inputs, Stages::CLOSED_FORM).ok().and_then(|solution| solution.position);

@@ -237,15 +237,16 @@ fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> 
     let (of_symbol, end) = (SYMBOL.max(width(symbol)), verdict.width() as u16);
     let least = if field.is_some() { VALUE } else { 0 };
     let of_value = if is_typed { VALUE } else { least.max(width(&value)) };
-    let of_value = of_value.min(line.width.saturating_sub(MARKS + of_symbol + end));
-    let [marks, of_symbol, of_label, area, end] = Layout::horizontal([
-        Constraint::Length(MARKS),
-        Constraint::Length(of_symbol),
-        Constraint::Max(of_label),
-        Constraint::Min(of_value),
-        Constraint::Length(end),
-    ])
-    .areas(line);
+    // The solver of layouts would take longer for these rows than all else in the first frame.
+    let rest = line.width.saturating_sub(MARKS + of_symbol + end);
+    let of_label = of_label.min(rest.saturating_sub(of_value));
+    let mut x = line.x;
+    let [marks, of_symbol, of_label, area, end] =
+        [MARKS, of_symbol, of_label, rest - of_label, end].map(|width| {
+            let part = Rect { x, width, ..line }.intersection(line);
+            x += width;
+            part
+        });
     let unsaved = if rows::differs(case, pane.saved, index) { "*" } else { "" };
     let spans = vec![Span::styled(mark, of_mark), Span::styled(unsaved, theme.note)];
     Line::from(spans).render(marks, buffer);
