@@ -62,9 +62,9 @@ impl ToleranceReport<'_> {
             let rule = if is_sum {
                 "f_pb1 + f_pb2, each with its sign"
             } else {
-                "root of the sum of squares (deviations.combination = independent)"
+                "sqrt(f_pb1^2 + f_pb2^2), independent"
             };
-            lines.extend(item("  ", &format!("Base pitch deviation of a sample: {rule}")));
+            lines.push(format!("  Base pitch deviation of a sample: {rule}"));
         }
         lines
     }
