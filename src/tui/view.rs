@@ -224,10 +224,14 @@ fn about_limit(app: &App, limit: &Limit) -> String {
 }
 
 fn about_spread(app: &App, spread: &Spread) -> String {
-    let case = &app.tab.case;
+    let (case, inputs) = (&app.tab.case, &app.tab.inputs_so_far);
     let (_, name) = rows::names_of(case, app.tab.form.focus);
     let field = index_of(spread.field);
-    let value = field.and_then(|field| case.effective(field));
+    let value = field.and_then(|field| match (case.text(field), case.derived(field, inputs)) {
+        // The deviations of a graded gear are drawn around 0, those that the form shows are limits.
+        (None, Some(_)) if spread.field.ends_with("base_pitch") => Some("0 um"),
+        _ => case.effective(field),
+    });
     let value = value.map_or(", which has no value".to_owned(), |value| format!(" around {value}"));
     let unit = field.map_or("", |field| FIELDS[field].usual_unit());
     let grade = if spread.field.ends_with("base_pitch") { ", grade 7" } else { "" };

@@ -320,8 +320,7 @@ fn of_several_ended_sessions_the_latest_edits_are_offered_first() {
     next.end_by("TERM");
     assert_eq!((journals(tty.folder.path()).len(), journal.changes.len()), (2, 1));
     let mut last = again(&tty);
-    last.wait_for(OFFER);
-    last.assert(last.shows("5 mm -> 7 mm"));
+    last.wait_for("5 mm -> 7 mm");
     last.type_for("d", "5 mm -> 6 mm");
     last.type_in("d");
     last.quit();

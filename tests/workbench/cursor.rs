@@ -23,7 +23,7 @@ fn an_angle_in_any_unit_and_a_time_mean_the_same_place() {
     ] {
         let angle = at(&mut desk, typed).to_degrees();
         assert!((angle - 0.6).abs() < 1e-9, "{typed}: {angle}");
-        desk.assert_at(typed, desk.shows("cursor at 0.6000 deg of the driver before E: F_S "));
+        desk.assert_at(typed, desk.shows("cursor: 0.6000 deg of the driver before E: F_S "));
     }
     desk.keys(&["3", "t"]);
     assert!(

@@ -365,7 +365,7 @@ const NONE: &str = "–";
 const LONGEST_NAME: usize = 18;
 /// The width of all but a few symbols, and of all but a few numbers.
 const SYMBOL: usize = 8;
-const NUMBER: usize = 9;
+const NUMBER: usize = 8;
 
 /// A column with a cell for each quantity. In a narrow pane, the columns of the highest rank are
 /// removed first, and those of rank 0 remain; a column is cut to its least width before.
