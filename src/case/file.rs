@@ -504,7 +504,8 @@ fn shown(path: &Path) -> String {
 
 /// The fix for a file that does not exist, which `tipstrike new` writes if it is a case.
 fn not_found(name: &str) -> String {
-    let new = if name.ends_with(".toml") { ", or `tipstrike new` writes a case" } else { "" };
+    let is_case = Path::new(name).extension().is_some_and(|ending| ending == "toml");
+    let new = if is_case { ", or `tipstrike new` writes a case" } else { "" };
     format!("file not found: check the path{new}")
 }
 

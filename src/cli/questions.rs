@@ -48,7 +48,7 @@ pub trait Question: Sync {
 pub type Answer = Result<Box<dyn Results + Send>, NoAnswer>;
 
 /// An option, its value and the problem of the value.
-pub type Misuse = (&'static str, String, Problem);
+pub type Misuse = (&'static str, String, Box<Problem>);
 
 /// Why a question has no answer.
 #[derive(Debug)]
@@ -91,7 +91,7 @@ pub fn within(option: &'static str, count: usize, least: usize, most: usize) -> 
         return Ok(());
     }
     let (cause, fix) = ("out of range", format!("write a number from {least} to {most}"));
-    Err((option, count.to_string(), Problem::new(option, cause, fix)))
+    Err((option, count.to_string(), Box::new(Problem::new(option, cause, fix))))
 }
 
 /// Parses a number of points between two limits.
@@ -120,11 +120,11 @@ pub struct Seek {
 
 impl Seek {
     fn wrong_range(&self, problem: Problem) -> Misuse {
-        ("vary", self.vary.clone(), problem)
+        ("vary", self.vary.clone(), Box::new(problem))
     }
 
     fn wrong_condition(&self, problem: Problem) -> Misuse {
-        ("until", self.until.clone(), problem)
+        ("until", self.until.clone(), Box::new(problem))
     }
 
     fn parsed(&self) -> Result<(AxisRange, Condition), Misuse> {

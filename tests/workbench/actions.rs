@@ -43,6 +43,8 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 6 l", "Enter", "", "; Ctrl-Z undoes"),
     ("Esc 6 l l", "h", "", "m = 5.05 mm:"),
     ("Esc 6", "l", "", "m = 5.05 mm:"),
+    ("Esc 6", "G", "", "m = 7.5 mm:"),
+    ("Esc 6 G", "g", "", "m = 2.5 mm:"),
     ("Esc 6", "Shift-Left", "", "m = 4.5 mm:"),
     ("Esc 6", "Shift-Right", "", "m = 5.5 mm:"),
     ("Esc 6 s driven.tip_relief Enter", "k", "", "Ca2 = 10 um:"),

@@ -502,7 +502,9 @@ pub(crate) fn compared(pane: &Results<'_>, quantity: &'static Quantity) -> Optio
 fn fitting(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
     let mut columns = columns(pane, answer, rows);
     if pane.variants.is_some() {
-        columns.iter_mut().for_each(|column| column.room = 0);
+        for column in &mut columns {
+            column.room = 0;
+        }
     }
     loop {
         let taken: usize = columns.iter().map(|column| column.width() + 1).sum();
