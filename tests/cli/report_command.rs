@@ -75,8 +75,8 @@ fn a_curve_is_drawn_to_the_scale_of_its_axes() {
     let picture = stdout_of(&["plot", TABLE_1, "--chart", "force", "--method", "exact"]);
     let xml = Document::parse(&picture).unwrap();
     let is_curve = |node: &roxmltree::Node| node.attribute("class") == Some("curve s0");
-    let curves = xml.descendants().filter(is_curve);
-    let points = curves.filter_map(|node| node.attribute("points")).next().unwrap();
+    let mut curves = xml.descendants().filter(is_curve);
+    let points = curves.find_map(|node| node.attribute("points")).unwrap();
     let points = points.split(' ').map(|point| point.split_once(',').unwrap());
     let points: Vec<[f64; 2]> = points.map(|(x, y)| [x, y].map(|at| at.parse().unwrap())).collect();
     // From 2191 N at D, 1.366 deg before E, to 0 N at E.

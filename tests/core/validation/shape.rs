@@ -121,7 +121,7 @@ pub(super) fn section() -> String {
                 place(number)
             )
             .unwrap();
-            head = " | | ".to_owned();
+            " | | ".clone_into(&mut head);
         }
     }
     text + FAIR
