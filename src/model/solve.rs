@@ -126,7 +126,8 @@ pub(crate) fn solve_by_method(
     run.share(&mut solution)?;
     solution.clearing =
         run.stage(Stage::Clearing, |s| s.clearing, || clearing(inputs, &solution, go_on))?;
-    Ok(Solution { stages: run.done, ran: run.ran, ..solution })
+    (solution.stages, solution.ran) = (run.done, run.ran);
+    Ok(solution)
 }
 
 /// The state of a solve.
@@ -215,8 +216,9 @@ impl<'a> Run<'a> {
         let deviation = || deviation(inputs, by_load);
         let deviation = self.result(Stage::Deviation, |s| Some(s.kept.deviation), deviation)?;
         let kept = Kept { masses, deviation, hertz: Hertz::of(inputs) };
-        let solution = Solution::new(inputs.method, geometry, mesh_force, kept);
-        Ok(Solution { helix: inputs.helix(&geometry, mesh_force), ..solution })
+        let mut solution = Solution::new(inputs.method, geometry, mesh_force, kept);
+        solution.helix = inputs.helix(&geometry, mesh_force);
+        Ok(solution)
     }
 
     /// D and all later stages of the impact.

@@ -215,10 +215,9 @@ fn pairs_over_face(inputs: &Inputs) -> Option<f64> {
 }
 
 /// What the line loads of a tooth add up to over its passage, each with z and the path of its place:
-/// ∫ ds ∫ dz over the base pitch. The line loads jump at the ends of the contact: with 64 stations the part
-/// on the tip edges is off by a tenth.
+/// ∫ ds ∫ dz over the base pitch.
 fn over_passage(inputs: &Inputs, of: fn(f64, f64, &Geometry) -> f64) -> Option<f64> {
-    let solution = solved(&Inputs { stations: Some(1024), ..inputs.clone() }, Method::Static)?;
+    let solution = solved(inputs, Method::Static)?;
     let (load, face, geometry) = (solution.face_load?, inputs.face()?, solution.geometry);
     let rows = load.paths.iter().zip(&load.pattern);
     let row = |(path, line_loads): (&f64, &Vec<f64>)| {
