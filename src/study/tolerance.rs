@@ -481,12 +481,14 @@ impl Distribution {
 
     /// Writes a value into the inputs of a model.
     pub fn put(&self, value: f64, inputs: &mut Inputs) {
-        let is_graded =
-            [&inputs.driver, &inputs.driven].map(|gear| inputs.class_of(gear).is_some());
-        match self.key() {
-            "driver.base_pitch" if is_graded[0] => inputs.driver.sampled_pitch = Some(value),
-            "driven.base_pitch" if is_graded[1] => inputs.driven.sampled_pitch = Some(value),
-            _ => FIELDS[self.field].put(Value::Number(value), inputs),
+        let gear = match self.key() {
+            "driver.base_pitch" => Some(&mut inputs.driver),
+            "driven.base_pitch" => Some(&mut inputs.driven),
+            _ => None,
+        };
+        match gear.filter(|gear| gear.base_pitch.is_none() && gear.grade.is_some()) {
+            Some(graded) => graded.sampled_pitch = Some(value),
+            None => FIELDS[self.field].put(Value::Number(value), inputs),
         }
     }
 

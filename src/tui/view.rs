@@ -26,6 +26,7 @@ use crate::case::fields::{Absent, Field, Kind, index_of};
 use crate::case::{Acting, FIELDS, Limit, Spread, partial_relevance, relevance};
 use crate::model::inputs::Method;
 use crate::report::verdict::verdicts;
+use crate::study::tolerance::centre;
 use crate::study::trade::Trade;
 
 /// Draws the whole screen. Returns the position of the text cursor, if any.
@@ -227,11 +228,8 @@ fn about_spread(app: &App, spread: &Spread) -> String {
     let (case, inputs) = (&app.tab.case, &app.tab.inputs_so_far);
     let (_, name) = rows::names_of(case, app.tab.form.focus);
     let field = index_of(spread.field);
-    let value = field.and_then(|field| match (case.text(field), case.derived(field, inputs)) {
-        // The deviations of a graded gear are drawn around 0, those that the form shows are limits.
-        (None, Some(_)) if spread.field.ends_with("base_pitch") => Some("0 um"),
-        _ => case.effective(field),
-    });
+    let centre = |field: usize| Some(FIELDS[field].in_usual_unit(centre(field, case, inputs)?));
+    let value = field.and_then(centre);
     let value = value.map_or(", which has no value".to_owned(), |value| format!(" around {value}"));
     let unit = field.map_or("", |field| FIELDS[field].usual_unit());
     let grade = if spread.field.ends_with("base_pitch") { ", grade 7" } else { "" };

@@ -260,8 +260,8 @@ impl Context {
     }
 }
 
-/// Penalty of fields without effect and of results without a value: they follow similar fields, but a typed symbol still finds
-/// them first.
+/// Penalty of fields without effect and of results without a value: they follow similar fields, but a
+/// typed symbol still finds them first.
 const IDLE: u32 = 9;
 /// The most frequent choice among fields with equal scores.
 const FOREMOST: &str = "driven.tip_relief";
@@ -402,7 +402,7 @@ pub static BINDINGS: &[Binding] = &[
         "Move the cursor of the study right or left.").shown(),
     pair(Place::STUDY, "Shift-Right/Shift-Left", "", |app, by| studies::move_cursor(app, 10 * by, 0),
         "Move the cursor of the study ten points right or left."),
-    pair(Place::STUDY, "G/g End/Home", "", |app, by| studies::move_cursor(app, 100_000 * by, 0),
+    pair(Place::STUDY, "G/g End/Home", "", |app, by| studies::move_cursor(app, isize::MAX * by, 0),
         "Move the cursor of the study to the last or first point."),
     pair(Place::STUDY, "k/j Up/Down", "", |app, by| studies::move_cursor(app, 0, by),
         "Move the cursor of the map up or down."),
