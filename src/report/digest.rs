@@ -103,7 +103,9 @@ pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> St
     if solution.outcome == Outcome::NoCornerContact {
         let why = without_contact_in_full(solution, system);
         let most = most.map(|most| format!("; up to {most}")).unwrap_or_default();
-        return format!("No corner contact: {why}{most}{}.", at_exit(solution, 0.0, system));
+        let exit = at_exit(solution, 0.0, system);
+        let place = if exit.is_empty() { "" } else { " at the entry" };
+        return format!("No corner contact{place}: {why}{most}{exit}.");
     }
     let angle = own("approach_angle_driver", solution);
     let angle = angle.and_then(|own| printed(own.key, solution, system));
@@ -122,14 +124,22 @@ pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> St
     format!("Corner contact{angle}{forces}{}{exit}.", relief.unwrap_or_default())
 }
 
-/// The force of the corner contact at the exit, if it is clearly larger than the force at the entry.
+/// The corner contact at the exit, if its force is clearly larger than the force at the entry; with
+/// its end and its remedy if there is none at the entry.
 fn at_exit(solution: &Solution, entry: f64, system: System) -> String {
     const LARGER: f64 = 1.05;
-    let of_contact = of("static_last_contact_angle", solution);
-    let force = of_contact.and_then(|_| of("static_force_at_end", solution));
-    let is_larger = force.is_some_and(|force| force > LARGER * entry);
-    let shown = printed("static_force_at_end", solution, system).filter(|_| is_larger);
-    shown.map_or_else(String::new, |force| format!("; at the exit {force}"))
+    let shown = |key| printed(key, solution, system);
+    let is_larger = of("static_force_at_end", solution).is_some_and(|it| it > LARGER * entry);
+    let found = shown("static_last_contact_angle").zip(shown("static_force_at_end"));
+    let Some((angle, force)) = found.filter(|_| is_larger) else { return String::new() };
+    if solution.outcome == Outcome::CornerContact {
+        return format!("; at the exit {force}");
+    }
+    let at_rest = if solution.method == Method::Dynamic { ", at rest," } else { "" };
+    format!(
+        "; at the exit{at_rest} the driver's tip strikes until {angle} after B, with {force}: more tip \
+            relief on the driver prevents it"
+    )
 }
 
 /// A quantity of the free impact, or its counterpart in the method.
@@ -336,6 +346,20 @@ mod tests {
         let at_rest = of("static").outcome;
         assert!(at_rest.starts_with("Corner contact "), "{at_rest}");
         assert!(at_rest.contains(" um more tip relief on the driven gear, "), "{at_rest}");
+    }
+
+    #[test]
+    fn a_contact_at_the_exit_alone_is_named_in_the_verdict() {
+        let of = |relief| {
+            let reliefs = [("driven.tip_relief", "80 um"), ("driver.tip_relief", relief)];
+            digest(&[reliefs[0], reliefs[1], ("model.method", "static")]).outcome
+        };
+        let at_exit = of("0 um");
+        assert!(at_exit.starts_with("No corner contact at the entry: "), "{at_exit}");
+        assert!(at_exit.contains("at the exit the driver's tip strikes until "), "{at_exit}");
+        let relieved = of("80 um");
+        assert!(relieved.starts_with("No corner contact: "), "{relieved}");
+        assert!(!relieved.contains("exit"), "{relieved}");
     }
 
     #[test]
