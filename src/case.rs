@@ -19,9 +19,7 @@ use crate::model::{Inputs, QUANTITIES, Quantity};
 pub use changes::Change;
 pub use changes::{Override, Variant};
 pub use check::{Fix, NEWER_FORMAT, Problem};
-pub use check::{
-    field_range, field_value, put as put_field, unknown_key, unknown_quantity, violated_rule,
-};
+pub use check::{field_range, field_value, put as put_field, quantity, unknown_key, violated_rule};
 pub use dependencies::{Acting, partial_relevance, relevance};
 pub use evaluate::Evaluator;
 pub use examples::{EXAMPLES, Example};
@@ -69,17 +67,14 @@ impl Limit {
     /// # Errors
     /// If the quantity does not exist, or the text is neither a value of the quantity nor a multiple
     /// of a result in the same unit.
-    pub fn new(quantity: &str, text: &str) -> Result<Limit, Problem> {
-        let field = format!("limits.{quantity}");
-        let Some(known) = Quantity::find(quantity) else {
-            return Err(check::unknown_quantity(&field, quantity));
-        };
+    pub fn new(key: &str, text: &str) -> Result<Limit, Problem> {
+        let field = format!("limits.{key}");
+        let known = Quantity::find(key).ok_or_else(|| check::unknown_quantity(&field, key))?;
         let (key, owned) = (known.key, text.to_owned());
         if let Some((factor, other)) = relative(text) {
             let nominal = if known.unit == "N" { "mesh_force" } else { other };
             let other = if other == "nominal" { nominal } else { other };
-            let of =
-                Quantity::named(other).ok_or_else(|| check::unknown_quantity(&field, other))?;
+            let of = quantity(&field, other)?;
             if of.unit != known.unit || of.is_flag() {
                 let cause = format!("{} has another unit than {key}", of.key);
                 return Err(Problem::new(&field, cause, "name a result in the same unit"));

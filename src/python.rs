@@ -22,7 +22,7 @@ use pyo3::types::{PyBool, PyByteArray, PyFloat, PyList};
 use crate::case::fields::{FIELDS, Kind, index_of};
 use crate::case::file::{Document, MOST_MODEL_BYTES, ReadError, read_bytes};
 use crate::case::{
-    Case as Fields, EXAMPLES, Example, Problem, put_field, rexs, unknown_quantity, violated_rule,
+    Case as Fields, EXAMPLES, Example, Problem, put_field, quantity, rexs, violated_rule,
 };
 use crate::cli::options::Threads;
 use crate::cli::questions::{Excitation, Misuse, NoAnswer, Question, Seek, Stiffness, within};
@@ -136,9 +136,8 @@ fn unread(error: ReadError) -> PyErr {
 }
 
 fn quantities(names: &[String]) -> PyResult<Vec<&'static Quantity>> {
-    let named = names.iter().map(|name| {
-        Quantity::named(name).ok_or_else(|| misused("only", &unknown_quantity("", name)))
-    });
+    let named =
+        names.iter().map(|name| quantity("", name).map_err(|problem| misused("only", &problem)));
     Ok(distinct(named.collect::<PyResult<Vec<_>>>()?))
 }
 
@@ -542,7 +541,7 @@ impl Solved {
 impl Solved {
     /// The value of a quantity, by name or symbol, and its unit.
     fn get<'py>(&self, py: Python<'py>, name: &str) -> Option<(Bound<'py, PyAny>, &'static str)> {
-        let quantity = Quantity::named(name)?;
+        let quantity = quantity("", name).ok()?;
         let mut values = self.selection.values(&self.solution);
         let (_, value) = values.find(|(known, _)| known.key == quantity.key)?;
         let value = if quantity.is_flag() {
@@ -555,9 +554,9 @@ impl Solved {
 
     /// Why a name has no value.
     fn absence(&self, name: &str) -> String {
-        let Some(quantity) = Quantity::named(name) else {
-            let Problem { cause, fix, .. } = unknown_quantity("", name);
-            return format!("{cause}: {fix}");
+        let quantity = match quantity("", name) {
+            Ok(quantity) => quantity,
+            Err(Problem { cause, fix, .. }) => return format!("{cause}: {fix}"),
         };
         if self.selection.quantities().all(|known| known.key != quantity.key) {
             return "not computed: name the quantity in `only`".to_owned();

@@ -163,6 +163,11 @@ fn case_notes(notes: &[Note]) -> impl Iterator<Item = &Note> {
     notes.iter().filter(|note| !is_general(note))
 }
 
+/// Label and symbol of a quantity.
+pub fn name_of(quantity: &Quantity) -> String {
+    format!("{} {}", quantity.label.trim_start(), quantity.symbol)
+}
+
 /// Formats a value in SI with its usual metric unit.
 pub fn shown(quantity: &Quantity, value: f64) -> Shown {
     shown_in(quantity, value, System::Metric)

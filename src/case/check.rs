@@ -4,7 +4,7 @@ use super::{Case, Limit, Spread};
 use crate::case::fields::{
     AUTO, Absent, FIELDS, Field, Kind, List, Range, Value, index_of, key_of,
 };
-use crate::case::sanitize::{cut, quoted, sanitize, suggestion};
+use crate::case::sanitize::{cut, quoted, sanitize, spelled, suggestion};
 use crate::case::units::{self, Dimension};
 use crate::model::inputs::{Gear, Method, ToothCompliance};
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
@@ -582,11 +582,29 @@ pub fn unknown_key(key: &str) -> Problem {
     Problem::new(key, format!("unknown key {}", quoted(key)), fix)
 }
 
+/// The quantity of a key or symbol. A symbol may be in ASCII, as in `K_Hbeta`, `K_Hb` or `Fst,max`.
+///
+/// # Errors
+/// The refusal of an unknown name.
+pub fn quantity(field: &str, name: &str) -> Result<&'static Quantity, Problem> {
+    let plain = |text: &str| text.trim().replace('_', "").replace("epsilon", "eps");
+    let initial = |letter: char| spelled(&letter.to_string()).chars().next();
+    let is_spelled = |known: &&Quantity| {
+        let initials = known.symbol.chars().filter_map(initial).collect::<String>();
+        [spelled(known.symbol), initials].iter().any(|symbol| plain(symbol) == plain(name))
+    };
+    let mut spelled = QUANTITIES.iter().filter(is_spelled);
+    Quantity::named(name.trim())
+        .or_else(|| spelled.next().filter(|_| spelled.next().is_none()))
+        .ok_or_else(|| unknown_quantity(field, name))
+}
+
 /// The refusal of a limit on a quantity that does not exist.
-pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
+pub(super) fn unknown_quantity(field: &str, quantity: &str) -> Problem {
     let name = quantity.trim();
     let unknown =
         |fix: String| Problem::new(field, format!("unknown quantity {}", quoted(quantity)), fix);
+    let is_field = |known: &&Field| [known.key, known.name(), known.symbol].contains(&name);
     let is_symbol = |known: &&Quantity| !name.is_empty() && known.symbol.eq_ignore_ascii_case(name);
     match QUANTITIES.iter().find(is_symbol) {
         Some(known) if known.symbol == name => {
@@ -600,6 +618,10 @@ pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
             "write names with commas between them, such as impact_force,contact_ratio",
         ),
         None if name.contains(' ') => unknown("put commas between names".to_owned()),
+        None if let Some(known) = FIELDS.iter().find(is_field) => {
+            let cause = format!("{} is the field {}", quoted(quantity), known.key);
+            Problem::new(field, cause, "name a result; `tipstrike fields --results` lists them")
+        }
         None => unknown(suggestion(quantity, QUANTITIES.iter().map(|known| known.key), || {
             "`tipstrike fields --results` lists every quantity".to_owned()
         })),

@@ -62,6 +62,49 @@ const HIDDEN: [(char, char); 18] = [
     ('\u{e0000}', '\u{e0fff}'), // tags and selectors
 ];
 
+/// Symbols and their spelling in ASCII.
+const WRITTEN_OUT: [(&str, &str); 34] = [
+    ("ΔV_", "dV_"),
+    ("Δf", "Df"),
+    ("Δ", "Delta"),
+    ("δ", "delta"),
+    ("α", "alpha"),
+    ("θ", "theta"),
+    ("ρ", "rho"),
+    ("τ", "tau"),
+    ("ε", "eps"),
+    ("ν", "nu"),
+    ("κ", "kappa"),
+    ("μ", "mu"),
+    ("µ", "mu"),
+    ("π", "pi"),
+    ("ω", "omega"),
+    ("Σ", "Sum"),
+    ("η", "eta"),
+    ("ζ", "zeta"),
+    ("χ", "chi"),
+    ("γ", "gamma"),
+    ("ψ", "psi"),
+    ("β", "beta"),
+    ("√", "sqrt"),
+    ("∫", "integral"),
+    ("²", "^2"),
+    ("³", "^3"),
+    ("⁴", "^4"),
+    ("·", "*"),
+    ("×", "x"),
+    ("−", "-"),
+    ("Ö", "Oe"),
+    ("ü", "ue"),
+    ("ä", "ae"),
+    ("ö", "oe"),
+];
+
+/// A symbol in ASCII.
+pub fn spelled(text: &str) -> String {
+    WRITTEN_OUT.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to))
+}
+
 /// Length limit of a mistyped name, because a comparison of long texts is slow.
 const LONGEST: usize = 64;
 

@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use super::{Done, Failure, Opened, Streams, check_out, each, file_of, open};
-use crate::case::{Case, Problem, unknown_quantity};
+use crate::case::{Case, Problem, quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
 use crate::report::page::{format_of, is_picture};
@@ -200,10 +200,8 @@ impl TypedValueParser for Quantities {
         let option = argument.and_then(Arg::get_long);
         let option = option.map_or("QUANTITY".to_owned(), |long| format!("--{long}"));
         let known = |name: String| {
-            Quantity::named(&name).ok_or_else(|| {
-                let Problem { cause, fix, .. } = unknown_quantity("", &name);
-                misused(format!("{option}: {cause}: {fix}"))
-            })
+            quantity("", &name)
+                .map_err(|Problem { cause, fix, .. }| misused(format!("{option}: {cause}: {fix}")))
         };
         names(&value.to_string_lossy()).into_iter().map(known).collect()
     }
@@ -225,7 +223,7 @@ pub(in crate::cli) fn one_quantity() -> impl TypedValueParser<Value = &'static Q
 fn names(list: &str) -> Vec<String> {
     let is_symbol = |name: &str| {
         let mut symbols = QUANTITIES.iter().map(|quantity| quantity.symbol);
-        symbols.any(|symbol| symbol.eq_ignore_ascii_case(name))
+        symbols.any(|symbol| symbol.eq_ignore_ascii_case(name)) || quantity("", name).is_ok()
     };
     let mut names: Vec<String> = Vec::new();
     for part in list.split(',').map(str::trim) {

@@ -434,6 +434,9 @@ fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples) -> Table {
     columns.push(Column::text("unit", "unit"));
     let rows = summary.quantities.iter().filter_map(|of| {
         let (quantity, found) = (of.quantity, of.figures.as_ref()?);
+        if found.is_constant() {
+            return None;
+        }
         let ends = [found.range.0, found.range.1].into_iter();
         let unit = common_unit(quantity, ends, System::Metric);
         let shown = |value: f64| shown_with(quantity, value, unit);

@@ -6,7 +6,7 @@ use super::table::{
     Cell, Column, Json, Named, Results, Table, item, json, measured, object, reason, sorted,
     write_line,
 };
-use super::{common_unit, number, shown};
+use super::{common_unit, name_of, number, shown};
 use crate::case::changes::label;
 use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::sanitize;
@@ -192,17 +192,21 @@ pub fn write(
 }
 
 /// The rows of a study from an index on: the columns of the points, the quantities in SI units, the
-/// outcome.
+/// outcome, the method.
 pub fn table(points: &dyn Points, quantities: &[&Quantity], first: usize, rows: &[Row]) -> Table {
     let columns = points.columns().into_iter();
     let columns =
         columns.map(|(key, unit)| Column { unit: unit.to_owned().into(), ..Column::text(key, "") });
     let computed = quantities.iter().map(|known| Column::si(known.key, known.unit));
-    let columns = columns.chain(computed).chain([Column::text("outcome", "")]).collect();
+    let names = ["outcome", "method"].map(|key| Column::text(key, ""));
+    let columns = columns.chain(computed).chain(names).collect();
     let cells = (first..).zip(rows).map(|(index, row)| {
         let point = points.cells(index).into_iter().map(Cell::Text);
         let computed = row.values.iter().map(|&value| Cell::number(value, ""));
-        point.chain(computed).chain([row.outcome.name().into()]).collect()
+        point
+            .chain(computed)
+            .chain([row.outcome.name(), row.method.name()].map(Cell::from))
+            .collect()
     });
     Table::new("", columns).with(cells)
 }
@@ -224,6 +228,7 @@ fn line(grid: &Grid, quantities: &[&Quantity], index: usize, row: &Row) -> Json 
     json!({
         "varied": object(varied),
         "outcome": row.outcome.name(),
+        "method": row.method.name(),
         "quantities": row.refusal.is_none().then(|| object(values)),
         "refusal": row.refusal.as_deref().map(reason),
     })
@@ -289,8 +294,7 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
             let fixed = others.iter().zip(&combination).map(|(&at, text)| {
                 format!("{} {text} {}", label(names[at].0), names[at].1).trim_end().to_owned()
             });
-            let own = (known.len() > 1 || others.is_empty())
-                .then(|| format!("{} {}", quantity.label.trim_start(), quantity.symbol));
+            let own = (known.len() > 1 || others.is_empty()).then(|| name_of(quantity));
             let name = own.into_iter().chain(fixed).collect::<Vec<_>>().join(", ");
             let pieces = pieces(points, f64::INFINITY);
             series.push(Series { name, pieces, kind: chart::Kind::Curve });
@@ -306,7 +310,7 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
     let dimension = units::Dimension::of_unit(unit).map_or("", units::Dimension::name);
     let common = dimension.trim_start_matches("an ").trim_start_matches("a ");
     let (name, up) = match known.len() {
-        1 => (first.label.trim_start(), format!("{} {}", first.label.trim_start(), first.symbol)),
+        1 => (first.label.trim_start(), name_of(first)),
         _ => (common, common.to_owned()),
     };
     Ok(Chart {

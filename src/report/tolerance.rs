@@ -4,7 +4,7 @@ use super::table::{Json, json, sorted};
 use super::table::{Named, Results};
 use super::table::{count, item};
 use super::verdict::Absence;
-use super::{common_unit, shown_with};
+use super::{common_unit, name_of, shown_with};
 use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::sanitize;
 use crate::case::units::{self, System};
@@ -83,7 +83,7 @@ impl ToleranceReport<'_> {
 
     fn quantity_lines(&self, of: &OfQuantity, bar: &str) -> Vec<String> {
         let OfQuantity { quantity, figures, .. } = of;
-        let title = format!("{} {} ({})", quantity.label, quantity.symbol, quantity.key);
+        let title = format!("{} ({})", name_of(quantity), quantity.key);
         let Some(figures) = figures else {
             let reason = self.why_absent(quantity);
             let reason = reason.as_deref().unwrap_or("no sample has a value");
@@ -92,6 +92,10 @@ impl ToleranceReport<'_> {
         let (from, to) = figures.range;
         let unit = common_unit(quantity, [from, to].into_iter(), System::Metric);
         let printed = |value: f64| shown_with(quantity, value, unit).to_string();
+        if figures.is_constant() {
+            let value = printed(figures.mean.value);
+            return vec![String::new(), format!("{title}: constant, {value}")];
+        }
         let line = |name: &str, Figure { value, interval }: &Figure, least: usize| {
             let interval = match interval {
                 Some((from, to)) => format!("{} to {}", printed(*from), printed(*to)),
@@ -276,7 +280,7 @@ pub(super) fn distributions(case: &Case) -> Vec<(&'static str, String)> {
 /// The probabilities of corner contact and of a value above each limit, with their intervals.
 pub(super) fn probabilities(summary: &Summary) -> Vec<(String, String)> {
     let limits = summary.limits.iter().map(|Exceedance { limit, probability, .. }| {
-        (format!("{} > {}", limit.quantity.key, sanitize(&limit.text)), probability.as_ref())
+        (format!("{} > {}", name_of(limit.quantity), sanitize(&limit.text)), probability.as_ref())
     });
     let all = [("corner contact".to_owned(), summary.contact.as_ref())].into_iter().chain(limits);
     let unknown = || "unknown: no sample has a value".to_owned();

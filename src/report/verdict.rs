@@ -1,6 +1,6 @@
 //! The limits of a case compared with its results, and why a quantity has no value.
 
-use super::{shown_in, value};
+use super::{name_of, shown_in, value};
 use crate::case::sanitize::sanitize;
 use crate::case::units::{self, System};
 use crate::case::{Case, Limit};
@@ -87,9 +87,9 @@ impl Beside {
         match self.own {
             Some((own, Some(value))) => {
                 let value = shown_in(own, value, system);
-                format!("the free impact. Method {method}: {} {value}", own.key)
+                format!("the free impact; {} {value}", name_of(own))
             }
-            Some((own, None)) => format!("the free impact; {method} has {} instead", own.key),
+            Some((own, None)) => format!("the free impact; {} has no value", name_of(own)),
             None => format!("the free impact; {method} has no such quantity"),
         }
     }
@@ -174,7 +174,7 @@ impl Verdict<'_> {
     }
 
     fn statement(&self, system: System) -> String {
-        let (key, mut limit) = (self.limit.quantity.key, sanitize(&self.limit.text));
+        let (name, mut limit) = (name_of(self.limit.quantity), sanitize(&self.limit.text));
         if let Some(bound) = self.bound.filter(|_| self.limit.of.is_some()) {
             limit = format!("{limit} = {}", shown_in(self.limit.quantity, bound, system));
         }
@@ -183,21 +183,21 @@ impl Verdict<'_> {
                 let value = shown_in(self.limit.quantity, value, system);
                 let sign = if self.standing == Standing::Exceeded { ">" } else { "<=" };
                 let part = self.part().map(|part| format!(" ({:.0} %)", 100.0 * part));
-                format!("{key} {value} {sign} {limit}{}", part.unwrap_or_default())
+                format!("{name} {value} {sign} {limit}{}", part.unwrap_or_default())
             }
             (None, Some(Absence::Withheld(refusal))) => {
-                format!("{key} cannot be computed: {refusal} (limit {limit})")
+                format!("{name} cannot be computed: {refusal} (limit {limit})")
             }
             (None, Some(absence)) if self.bound.is_none() => {
-                format!("{key} cannot be compared with {limit}: {absence}")
+                format!("{name} cannot be compared with {limit}: {absence}")
             }
             (None, Some(absence)) if self.standing == Standing::Unknown => {
-                format!("{key} has no value (limit {limit}): {absence}")
+                format!("{name} has no value (limit {limit}): {absence}")
             }
             (_, Some(Absence::NoExit)) => {
-                format!("{key} does not occur: {} (limit {limit})", Absence::NoExit)
+                format!("{name} does not occur: {} (limit {limit})", Absence::NoExit)
             }
-            _ => format!("{key} does not occur: no corner contact (limit {limit})"),
+            _ => format!("{name} does not occur: no corner contact (limit {limit})"),
         }
     }
 }
@@ -459,7 +459,7 @@ mod tests {
         };
         assert_eq!(
             verdicts("exact", "2500 N"),
-            [(Standing::Within, "impact_force 2191.0 N <= 2500 N (88 %)".to_owned())]
+            [(Standing::Within, "impact force F_S 2191.0 N <= 2500 N (88 %)".to_owned())]
         );
         let [(standing, sentence)] = &verdicts("dynamic", "2100 N")[..] else {
             panic!("one limit")
@@ -467,7 +467,7 @@ mod tests {
         assert_eq!(*standing, Standing::Within);
         assert!(
             sentence.ends_with(
-                " for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this \
+                " for the free impact; dynamic: peak before E F_d,DE 1410.8 N; this \
                     quantity has no limit"
             ),
             "{sentence}"
@@ -476,7 +476,7 @@ mod tests {
         assert_eq!(*standing, Standing::Exceeded);
         assert!(
             sentence.ends_with(
-                " for the free impact. Method static: static_force_at_start 1466.2 N > 1 kN; this \
+                " for the free impact; static: force before E F_st,E 1466.2 N > 1 kN; this \
                     quantity has no limit"
             ),
             "{sentence}"
@@ -499,7 +499,7 @@ mod tests {
         assert_eq!(standing, Standing::Unknown);
         assert_eq!(
             sentence,
-            "dynamic_peak_force has no value (limit 2 kN): method exact does not compute this \
+            "dynamic: peak force F_d,max has no value (limit 2 kN): method exact does not compute this \
                 quantity; dynamic and auto do"
         );
         // The closed form has no result for the motion.
@@ -526,7 +526,7 @@ mod tests {
         case.set_limit("static_force_at_start", "1 kN").unwrap();
         let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
         let sentence = verdicts(&case, &solution)[0].to_string();
-        assert!(sentence.ends_with("Method static: static_force_at_start 1466.2 N"), "{sentence}");
+        assert!(sentence.ends_with("static: force before E F_st,E 1466.2 N"), "{sentence}");
     }
 
     #[test]
@@ -535,13 +535,13 @@ mod tests {
         assert_eq!(
             sentences(&limits, System::Metric),
             [
-                "ok impact_force 2191.0 N <= 500 lbf (99 %)",
-                "EXCEEDED contact_ratio 1.5568 > 1.5 (104 %)"
+                "ok impact force F_S 2191.0 N <= 500 lbf (99 %)",
+                "EXCEEDED contact ratio ε 1.5568 > 1.5 (104 %)"
             ]
         );
         assert_eq!(
             sentences(&limits, System::Inch)[0],
-            "ok impact_force 492.56 lbf <= 500 lbf (99 %)"
+            "ok impact force F_S 492.56 lbf <= 500 lbf (99 %)"
         );
     }
 
@@ -588,7 +588,7 @@ mod tests {
         assert!(
             verdicts[0]
                 .to_string()
-                .starts_with("impact_force cannot be computed: the contact ratio is 0.9000")
+                .starts_with("impact force F_S cannot be computed: the contact ratio is 0.9000")
         );
     }
 }

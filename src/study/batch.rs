@@ -8,6 +8,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 
 use crate::case::{Evaluator, Problem, violated_rule};
+use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity, Stages};
 use serde::{Deserialize, Serialize};
 
@@ -95,6 +96,16 @@ enum SolvedOutcome {
     NoCornerContact,
 }
 
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Method")]
+enum SolvedMethod {
+    Paper,
+    Exact,
+    Static,
+    Dynamic,
+    Auto,
+}
+
 impl PointOutcome {
     /// The name in a report.
     pub fn name(self) -> &'static str {
@@ -110,6 +121,9 @@ impl PointOutcome {
 pub struct Row {
     /// How the point ended.
     pub outcome: PointOutcome,
+    /// The method that solved the point, or the requested method of a refused point.
+    #[serde(with = "SolvedMethod")]
+    pub method: Method,
     /// The quantities in SI, in their order; none of a refused point has a value.
     pub values: Vec<Option<f64>>,
     /// Why the point is refused.
@@ -213,24 +227,26 @@ impl<'a> PointSolver<'a> {
     fn solve(&mut self, index: usize, goes_on: &dyn Fn() -> bool) -> Result<Row, Stopped> {
         match self.values(index, goes_on) {
             _ if !goes_on() => Err(Stopped),
-            Ok((outcome, values)) => {
-                Ok(Row { outcome: PointOutcome::Solved(outcome), values, refusal: None })
+            Ok((outcome, method, values)) => {
+                let outcome = PointOutcome::Solved(outcome);
+                Ok(Row { outcome, method, values, refusal: None })
             }
             Err(problem) => Ok(Row {
                 outcome: PointOutcome::Refused,
+                method: self.inputs.method,
                 values: vec![None; self.batch.quantities.len()],
                 refusal: Some(Box::new(problem.at_given_diameter(&self.inputs))),
             }),
         }
     }
 
-    /// Outcome and values of a point. A quantity that is absent refuses the point as it refuses a
+    /// Outcome, method and values of a point. A quantity that is absent refuses the point as it refuses a
     /// plain solve.
     fn values(
         &mut self,
         index: usize,
         goes_on: &dyn Fn() -> bool,
-    ) -> Result<(Outcome, Vec<Option<f64>>), Problem> {
+    ) -> Result<(Outcome, Method, Vec<Option<f64>>), Problem> {
         let Batch { points, quantities, .. } = *self.batch;
         let inputs = &mut self.inputs;
         points.put(index, inputs)?;
@@ -245,7 +261,7 @@ impl<'a> PointSolver<'a> {
             quantities.iter().map(|quantity| quantity.finite_value(solved)).collect();
         match solved.withheld.filter(|_| values.contains(&None)) {
             Some(refusal) => Err(Problem::from(&refusal)),
-            None => Ok((solved.outcome, values)),
+            None => Ok((solved.outcome, solved.method, values)),
         }
     }
 }

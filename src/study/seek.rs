@@ -1,7 +1,7 @@
 //! Conditions on results, such as `impact_force<=2500 N`, and the values of a field at which one changes.
 
 use crate::case::sanitize::quoted;
-use crate::case::{Case, Limit, Problem, unknown_quantity};
+use crate::case::{self, Case, Limit, Problem};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity};
 use crate::study::axis::{Axis, AxisRange, Grid};
@@ -152,7 +152,7 @@ impl Condition {
 
 /// A quantity compared with a limit, or a flag with its value.
 fn compared(name: &str, relation: Option<Relation>, value: &str) -> Result<Kind, Problem> {
-    let quantity = Quantity::named(name.trim()).ok_or_else(|| unknown_quantity(name, name))?;
+    let quantity = case::quantity(name, name)?;
     let key = quantity.key;
     let flags = format!("write {key}=true or {key}=false");
     let (cause, fix) = match (quantity.is_flag(), relation) {

@@ -12,7 +12,7 @@ use super::batch::{Batch, Points, Row};
 use super::tolerance::{Size, Tolerance};
 use crate::case::file::unread;
 use crate::case::sanitize::quoted;
-use crate::case::{Case, Document, Problem, unknown_quantity};
+use crate::case::{Case, Document, Problem, quantity};
 use crate::model::{Inputs, Quantity};
 use serde::{Deserialize, Serialize};
 use siphasher::sip::SipHasher24;
@@ -133,8 +133,7 @@ impl Study {
         })?;
         let case = document.case;
         let inputs = case.inputs().map_err(|mut problems| problems.swap_remove(0))?;
-        let known =
-            |key: &String| Quantity::find(key).ok_or_else(|| unknown_quantity("quantities", key));
+        let known = |key: &String| quantity("quantities", key);
         let quantities = request.quantities.iter().map(known).collect::<Result<Vec<_>, _>>()?;
         let kind = match &request.points {
             PointsRequest::Sweep { vary, points, log } => {

@@ -49,6 +49,15 @@ pub struct Figures {
     pub histogram: Vec<usize>,
 }
 
+impl Figures {
+    /// Whether the values differ by rounding alone.
+    pub fn is_constant(&self) -> bool {
+        const ROUNDING: f64 = 1e-12;
+        let (from, to) = self.range;
+        to - from <= ROUNDING * from.abs().max(to.abs())
+    }
+}
+
 /// The figures of values; `None` without values.
 ///
 /// A percentile is interpolated between two values (type 7 of Hyndman & Fan 1996). The ends of its

@@ -12,7 +12,7 @@ use ratatui::widgets::{Scrollbar, ScrollbarOrientation, ScrollbarState, Stateful
 use tui_input::{Input, InputRequest, StateChanged};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
-use crate::case::sanitize::is_hidden;
+use crate::case::sanitize::{is_hidden, spelled};
 use crate::report::with_units;
 use crate::tui::theme::Theme;
 
@@ -350,44 +350,6 @@ const VEILED: char = '\u{FFFD}';
 /// Greatest number of combining marks per cell.
 const MOST_MARKS: usize = 8;
 
-/// Symbols and their spelling in ASCII.
-const WRITTEN_OUT: [(&str, &str); 34] = [
-    ("ΔV_", "dV_"),
-    ("Δf", "Df"),
-    ("Δ", "Delta"),
-    ("δ", "delta"),
-    ("α", "alpha"),
-    ("θ", "theta"),
-    ("ρ", "rho"),
-    ("τ", "tau"),
-    ("ε", "eps"),
-    ("ν", "nu"),
-    ("κ", "kappa"),
-    ("μ", "mu"),
-    ("µ", "mu"),
-    ("π", "pi"),
-    ("ω", "omega"),
-    ("Σ", "Sum"),
-    ("η", "eta"),
-    ("ζ", "zeta"),
-    ("χ", "chi"),
-    ("γ", "gamma"),
-    ("ψ", "psi"),
-    ("β", "beta"),
-    ("√", "sqrt"),
-    ("∫", "integral"),
-    ("²", "^2"),
-    ("³", "^3"),
-    ("⁴", "^4"),
-    ("·", "*"),
-    ("×", "x"),
-    ("−", "-"),
-    ("Ö", "Oe"),
-    ("ü", "ue"),
-    ("ä", "ae"),
-    ("ö", "oe"),
-];
-
 /// ASCII replacements of single cells.
 const ONE_CELL: [(&str, char); 31] = [
     ("─━╌┄", '-'),
@@ -443,7 +405,7 @@ pub(crate) fn symbol(text: &str, ascii: bool) -> Cow<'_, str> {
     if !ascii || text.is_ascii() {
         return Cow::Borrowed(text);
     }
-    Cow::Owned(WRITTEN_OUT.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to)))
+    Cow::Owned(spelled(text))
 }
 
 /// A line of a page in ASCII. Its columns keep their positions if the gaps before them have room.

@@ -276,13 +276,13 @@ fn each_limit_has_its_line_whether_or_not_another_can_be_computed() {
     let lines: Vec<&str> = text.lines().skip(1).collect();
     assert_eq!((code, lines.len()), (3, 3), "{lines:?}");
     for (line, start, part) in [
-        (lines[0], format!("EXCEEDED {path}: contact_ratio 1."), "> 1.5"),
+        (lines[0], format!("EXCEEDED {path}: contact ratio ε 1."), "> 1.5"),
         (
             lines[1],
             format!("unknown {path}: impact_force cannot be computed: tooth number outside"),
             "(limit 2500 N)",
         ),
-        (lines[2], format!("ok {path}: normal_velocity "), "m/s"),
+        (lines[2], format!("ok {path}: approach velocity at D ΔV_n "), "m/s"),
     ] {
         assert!(line.starts_with(&start) && line.contains(part), "{line}");
     }
@@ -293,14 +293,14 @@ fn each_limit_has_its_line_whether_or_not_another_can_be_computed() {
 #[test]
 fn a_check_is_a_verdict_a_line() {
     let checked = page("check TABLE_1");
-    let line = format!("ok {TABLE_1}: impact_force 2191.0 N <= 2500 N (88 %)\n");
+    let line = format!("ok {TABLE_1}: impact force F_S 2191.0 N <= 2500 N (88 %)\n");
     assert!(checked.lines().count() == 2 && checked.ends_with(&line), "{checked}");
     let (_folder, strict) =
         changed("impact_force = \"2500 N\"", "impact_force = \"2 kN\"\ncontact_ratio = 1.7");
     let (code, text, errors) = run(&["check", &strict, TABLE_1]);
     assert_eq!((code, errors.as_str()), (1, ""));
     let lines: Vec<&str> = text.lines().collect();
-    assert_eq!(lines[1], format!("EXCEEDED {strict}: impact_force 2191.0 N > 2 kN (110 %)"));
+    assert_eq!(lines[1], format!("EXCEEDED {strict}: impact force F_S 2191.0 N > 2 kN (110 %)"));
     assert!(lines[2].starts_with("ok "), "{}", lines[2]);
     let (_folder, free) = changed("[limits]\nimpact_force = \"2500 N\"", "");
     assert!(page(&format!("check {free}")).ends_with(&format!("\nok {free}: no limits\n")));
@@ -389,7 +389,7 @@ fn a_new_case_starts_from_an_example_in_every_folder_and_overwrites_nothing() {
         assert_eq!(elsewhere(&["new", "--from", example.name]).1, text, "the very file");
         assert!(listed.contains(example.name));
     }
-    has(&listed, &["impact force 2191.0 N", "ok impact_force"]);
+    has(&listed, &["impact force 2191.0 N", "ok impact force F_S"]);
     assert_eq!(elsewhere(&["new", "--from", "fzg-type-c", path]).0, 0);
     for (arguments, exit, says) in [
         (&["new", "--from", "zhou-chen-2014", path][..], 5, "the file exists"),

@@ -74,7 +74,7 @@ fn a_limit_on_an_absent_value_is_not_met_and_has_a_reason() {
     has(
         &page,
         &[
-            "unknown cases/zhou-chen-2014.toml: dynamic_peak_force has no value (limit 2 kN): ",
+            "unknown cases/zhou-chen-2014.toml: dynamic: peak force F_d,max has no value (limit 2 kN): ",
             "method exact does not compute this quantity; dynamic and auto do",
         ],
     );
@@ -87,7 +87,7 @@ fn a_limit_on_an_absent_value_is_not_met_and_has_a_reason() {
 fn a_verdict_names_what_to_limit_for_the_force_of_the_method() {
     let limit = "check TABLE_1 --method dynamic --set 'limits.impact_force=2.1 kN'";
     let (_, page, _) = ran(limit);
-    let own = " for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this quantity \
+    let own = " for the free impact; dynamic: peak before E F_d,DE 1410.8 N; this quantity \
             has no limit\n";
     assert!(page.ends_with(own), "{page}");
     let line = json(&format!("{limit} --format json"));
@@ -97,7 +97,7 @@ fn a_verdict_names_what_to_limit_for_the_force_of_the_method() {
     let (_, both, _) = ran(&format!("{limit} --set 'limits.dynamic_peak_approach_force=1400 N'"));
     has(
         &both,
-        &["EXCEEDED cases/zhou-chen-2014.toml: dynamic_peak_approach_force 1410.8 N > 1400 N"],
+        &["EXCEEDED cases/zhou-chen-2014.toml: dynamic: peak before E F_d,DE 1410.8 N > 1400 N"],
     );
     assert!(!both.contains("has no limit"), "{both}");
 }
@@ -290,7 +290,7 @@ fn auto_computes_what_a_limit_or_a_selected_quantity_needs_besides_its_choice() 
         assert!(report["quantities"][quantity]["value"].is_number(), "{report}");
     }
     let (_, text, _) = ran(&format!("check {mill} --set 'limits.dynamic_peak_force=1 MN'"));
-    has(&text, &["ok cases/mill-coarse-slow.toml: dynamic_peak_force"]);
+    has(&text, &["ok cases/mill-coarse-slow.toml: dynamic: peak force F_d,max"]);
     let (_, rows, _) = ran(&format!(
         "sweep {mill} --vary 'driven.tip_relief=0..10 um' --points 2 --only dynamic_peak_force"
     ));

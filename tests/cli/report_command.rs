@@ -160,7 +160,7 @@ fn a_page_needs_no_other_file_and_has_every_part() {
             "<td class=\"label\">power</td><td class=\"symbol\">P</td><td class=\"number\">15 kW</td>",
             "<td class=\"label\">tip diameter</td><td class=\"symbol\">da1 / da2</td><td class=\"number soft\">110 mm</td>",
             "<td class=\"number\">2123</td><td class=\"unit\">N</td>",
-            "impact_force 2191.0 N &#60;= 2500 N",
+            "impact force F_S 2191.0 N &#60;= 2500 N",
             "the deflection of 24.70 um is given",
             "Chin. J. Mech. Eng.",
             "base_pitch = &#34;16 um&#34;",

@@ -78,18 +78,18 @@ fn a_sweep_is_a_table_with_the_varied_fields_in_their_own_units() {
         "sweep TABLE_1 --vary 'operation.speed=1000..2000 rpm' --points 3 --only F_S,contact_ratio",
     );
     let rows: Vec<&str> = text.lines().collect();
-    assert_eq!(rows[0], "operation.speed [rpm],impact_force [N],contact_ratio [1],outcome");
+    assert_eq!(rows[0], "operation.speed [rpm],impact_force [N],contact_ratio [1],outcome,method");
     assert_eq!(rows.len(), 4);
     for (row, start) in rows[1..].iter().zip(["1000,", "1500,", "2000,2191.0161533226"]) {
         assert!(row.starts_with(start) && row.contains(",1.55"), "{row}");
-        assert!(row.ends_with(",corner-contact"), "{row}");
+        assert!(row.ends_with(",corner-contact,exact"), "{row}");
     }
 }
 
 #[test]
 fn a_sweep_shows_the_gap_of_no_contact_as_empty_cells() {
     let command = "sweep TABLE_1 --vary 'driven.tip_relief=0,60 um'";
-    assert_eq!(page(command).lines().nth(2), Some("60,,no-corner-contact"));
+    assert_eq!(page(command).lines().nth(2), Some("60,,no-corner-contact,exact"));
     let json = objects(&format!("{command} --format json"));
     assert_eq!(json[1]["outcome"], "no-corner-contact");
     assert_eq!(json[1]["quantities"], serde_json::json!({}));
@@ -101,7 +101,7 @@ fn a_sweep_shows_the_gap_of_no_contact_as_empty_cells() {
 fn refused_points_are_counted_and_named_with_those_of_one_reason_in_one_line() {
     let command = "sweep TABLE_1 --vary 'driver.bore_radius=40,50,60 mm'";
     let (code, text, errors) = ran(command);
-    assert_eq!((code, text.lines().nth(2)), (0, Some("50,,refused")));
+    assert_eq!((code, text.lines().nth(2)), (0, Some("50,,refused,exact")));
     let start = "cases/zhou-chen-2014.toml: 2 of 3 points refused, the first at driver.bore_radius = 50 \
         mm: driver.bore_radius: the bore radius 50 mm is not below";
     assert!(errors.starts_with(start), "{errors}");
@@ -169,7 +169,7 @@ fn a_varied_field_may_be_missing_in_the_case() {
     let text = page(&format!("sweep {} --vary 'operation.speed=2000 rpm'", path.display()));
     let row = text.lines().last().unwrap();
     assert!(row.starts_with("2000,2191.0161533226"), "{text}");
-    assert!(row.ends_with(",corner-contact"), "{text}");
+    assert!(row.ends_with(",corner-contact,exact"), "{text}");
 }
 
 #[test]
@@ -234,7 +234,7 @@ fn a_tolerance_study_prints_percentiles_probabilities_and_the_ranking() {
     assert!((total - 1.0).abs() < 0.05, "{total}");
     let rows = page(&format!("{command} --format csv --ranking 100"));
     let header = "sample,set,deviations.base_pitch [m],operation.speed [rad/s],driven.tip_relief [m],\
-        impact_force [N],outcome";
+        impact_force [N],outcome,method";
     assert_eq!((rows.lines().next(), rows.lines().count()), (Some(header), 1 + 2000 + 400));
 }
 

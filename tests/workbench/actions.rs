@@ -24,7 +24,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     // In the results.
     ("Esc 2", "Enter", "", "impact force, F_S (Eq. 57)"),
     ("Esc 2", "n", "", "Outcome, limits, notes"),
-    ("Esc 2", "Alt-L", "", "ok impact_force 2191.0 N <= 2500 N (88 %)"),
+    ("Esc 2", "Alt-L", "", "ok impact force F_S 2191.0 N <= 2500 N (88 %)"),
     ("Esc 2", "l", "", "O2D driven radius at D, rounding"),
     ("Esc 2 l", "h", "", "2 Results 1-21/6"),
     ("Esc 2", "j", "", "T_S impact duration, by the method"),

@@ -77,15 +77,15 @@ fn the_case_under_the_cursor_shows_its_verdict() {
             "a-str",
             &[
                 "Corner contact 1.366 deg before E: impact force 2191.0 N",
-                "ok impact_force 2191.0 N <= 2500 N",
+                "ok impact force F_S 2191.0 N <= 2500 N",
             ],
         ),
-        ("b-exc", &["EXCEEDED impact_force 2191.0 N > 2000 N (110 %)"]),
+        ("b-exc", &["EXCEEDED impact force F_S 2191.0 N > 2000 N (110 %)"]),
         (
             "c-rel",
             &[
                 "No corner contact: the tip clears the flank before E, Δ = ",
-                "ok impact_force does not occur: no corner contact",
+                "ok impact force F_S does not occur: no corner contact",
             ],
         ),
         ("d-bad", &["It cannot be opened:", "11:10: pair.module", "teth"]),

@@ -118,7 +118,7 @@ fn a_limit_that_is_not_met_is_in_the_verdict_and_every_limit_is_on_the_page() {
     for size in [TINY, SMALL, LARGE] {
         let mut desk = Desk::on(size, "case.toml", &strict);
         desk.assert_shows("! Limit EXCEEDED:");
-        desk.keys(&["Esc", "n"]).assert_shows("Limit EXCEEDED: impact_force");
+        desk.keys(&["Esc", "n"]).assert_shows("Limit EXCEEDED: impact force F_S");
         let desk = Desk::on(size, "case.toml", TABLE_1);
         desk.lacks(&[" > 2500 N"]);
     }

@@ -8,6 +8,7 @@ use crate::cli::options::{CaseFile, Destination, Only, StudyOptions, TABLES, cou
 use crate::cli::questions::{NoAnswer, Question, within};
 use crate::cli::{Done, Exit, Failure, Opened, Streams, check_out, follow, write_text, write_to};
 use crate::model::Quantity;
+use crate::model::inputs::Method;
 use crate::report::page::is_picture;
 use crate::report::studies::{self, Take};
 use crate::report::svg::draw;
@@ -65,7 +66,14 @@ impl Sweep {
         opened.need(quantities.iter().copied());
         streams.say_all(idle(&grid, &opened));
         if quantities.is_empty() {
-            quantities = headline(&opened.document.case, &grid.methods(&opened.inputs));
+            let methods = grid.methods(&opened.inputs);
+            quantities = headline(&opened.document.case, &methods);
+            if methods.contains(&Method::Auto) {
+                streams.say(
+                    "auto selects the method of each point (last column); the quantities of the \
+                     other methods are empty there",
+                );
+            }
         }
         streams.say_all(absent(&quantities, &grid, &opened));
         let points = PointsRequest::Sweep { vary: vary.clone(), points: points.clone(), log: *log };

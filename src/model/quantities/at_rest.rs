@@ -90,7 +90,7 @@ pub(super) const TABLE: &[Quantity] = &[
         .checks(&[checks::teeth]),
     AT_REST
         .row(
-            ["static_first_contact_angle_driver", "θ_st", "static: driver angle"],
+            ["static_first_contact_angle_driver", "θ_st", "static: driver angle before E"],
             ("rad", "deg", 4),
             |s| Some(of_driver(s, s.static_load.as_ref()?.first_contact_angle?)),
             "The angle of the driver before E at which the incoming tooth begins to \
@@ -100,7 +100,7 @@ pub(super) const TABLE: &[Quantity] = &[
         .corrections(&["Eqs. 7-20"]),
     AT_REST
         .row(
-            ["static_first_contact_angle", "u_st", "static: driven angle"],
+            ["static_first_contact_angle", "u_st", "static: driven angle before E"],
             ("rad", "deg", 4),
             |s| s.static_load.as_ref()?.first_contact_angle,
             "The angle of the driven gear before E at which the incoming tooth begins \

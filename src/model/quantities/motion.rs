@@ -65,7 +65,7 @@ const RESONANCE: Quantity = Quantity {
 pub(super) const TABLE: &[Quantity] = &[
     IN_MOTION
         .row(
-            ["dynamic_first_contact_angle_driver", "θ_d", "dynamic: driver angle"],
+            ["dynamic_first_contact_angle_driver", "θ_d", "dynamic: driver angle before E"],
             ("rad", "deg", 4),
             |s| Some(of_driver(s, s.dynamic.as_ref()?.first_contact_angle?)),
             "The angle of the driver before E at which the incoming tooth first touches \
@@ -75,7 +75,7 @@ pub(super) const TABLE: &[Quantity] = &[
         .corrections(&["Eqs. 7-20"]),
     IN_MOTION
         .row(
-            ["dynamic_first_contact_angle", "u_d", "dynamic: driven angle"],
+            ["dynamic_first_contact_angle", "u_d", "dynamic: driven angle before E"],
             ("rad", "deg", 4),
             |s| s.dynamic.as_ref()?.first_contact_angle,
             "The angle of the driven gear before E at which the incoming tooth first \
@@ -140,7 +140,6 @@ pub(super) const TABLE: &[Quantity] = &[
             again.",
             BY_MOTION,
         )
-        .equation("no pair touches")
         .source(
             "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988: no pair \
             touches at some moment from one base pitch before E to the last contact of \

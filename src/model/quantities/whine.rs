@@ -185,7 +185,6 @@ pub(super) const TABLE: &[Quantity] = &[
             without deviations.",
             Found("from the steady motion", STEADY),
         )
-        .equation("no pair touches")
         .checks(&[checks::teeth]),
     STEADY_MOTION
         .row(
