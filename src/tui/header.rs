@@ -5,7 +5,6 @@ use std::ops::Range;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::app::App;
@@ -26,7 +25,7 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     } else {
         spans.extend(tabs(app, area.width));
     }
-    Line::from(spans).render(area, buffer);
+    text::draw_lines(&[Line::from(spans)], area, buffer);
 }
 
 fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {

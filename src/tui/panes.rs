@@ -12,8 +12,7 @@ pub(crate) mod trade;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
-use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Borders, Widget};
+use ratatui::text::Line;
 use unicode_width::UnicodeWidthStr;
 
 use super::layout::Pane;
@@ -59,23 +58,23 @@ pub(crate) struct Title {
 impl Title {
     /// Draws the line and returns the area below it.
     pub(crate) fn draw(&self, words: &str, area: Rect, buffer: &mut Buffer) -> Rect {
-        let (theme, names) = (self.theme, self.names(area.width));
-        let room = usize::from(area.width).saturating_sub(names.width() + 4);
-        let title = format!(" {} ", text::cut(&format!("{}{words}", self.key()), room));
-        let [mark, title] = if self.has_focus {
-            [Span::styled("▸", theme.title), Span::styled(title, theme.key)]
-        } else {
-            [Span::styled("─", theme.rule), Span::styled(title, theme.title)]
-        };
-        let mut block = Block::new().borders(Borders::TOP).border_style(theme.rule);
-        if !names.is_empty() {
-            let end = Span::styled("─", theme.rule);
-            block = block.title(Line::from(vec![Span::raw(names), end]).right_aligned());
+        let (theme, names, width) = (self.theme, self.names(area.width), usize::from(area.width));
+        let [line, below] = text::split(area, 1);
+        if line.is_empty() {
+            return below;
         }
-        let block = block.title(Line::from(vec![mark, title]));
-        let inner = block.inner(area);
-        block.render(Rect { height: area.height.min(1), ..area }, buffer);
-        inner
+        text::put(&"─".repeat(width), line, width, theme.rule, buffer);
+        let room = width.saturating_sub(text::width(&names) + 4);
+        let title = format!(" {} ", text::cut(&format!("{}{words}", self.key()), room));
+        let (mark, of_mark, style) = match self.has_focus {
+            true => ("▸", theme.title, theme.key),
+            false => ("─", theme.rule, theme.title),
+        };
+        let x = text::put(mark, line, width, of_mark, buffer);
+        text::put(&title, (x, line.y), width.saturating_sub(1), style, buffer);
+        let start = line.right().saturating_sub(text::width(&names) as u16 + 1).max(line.x);
+        text::put(&names, (start, line.y), width, Style::new(), buffer);
+        below
     }
 
     /// The hidden pane whose name or key is at a cell.

@@ -21,8 +21,9 @@ use crossterm::terminal::{
     Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
 };
 use ratatui::backend::{Backend, CrosstermBackend};
-use ratatui::layout::Size;
-use ratatui::{Terminal, TerminalOptions, Viewport};
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::{Position, Size};
+use unicode_width::UnicodeWidthStr;
 
 use super::app::App;
 use super::input::Event;
@@ -52,8 +53,11 @@ const LARGEST: Size = Size { width: 1000, height: 500 };
 
 /// The screen of the terminal. Dropping it restores the terminal.
 pub(super) struct Screen {
-    terminal: Terminal<CrosstermBackend<BufWriter<Stdout>>>,
-    drawn: Size,
+    backend: CrosstermBackend<BufWriter<Stdout>>,
+    /// The shown frame, and the next one.
+    frames: [Buffer; 2],
+    /// The shown text cursor.
+    cursor: Option<Position>,
     /// The signal of our own suspension has not arrived yet.
     is_back: bool,
     /// Whether mouse reports are on.
@@ -95,14 +99,8 @@ impl Screen {
         // Otherwise NO_COLOR would also remove bold and reverse; our own theme has no colour then.
         force_color_output(true);
         let backend = CrosstermBackend::new(BufWriter::with_capacity(FRAME, io::stdout()));
-        let drawn = capped(backend.size()?);
-        let viewport = Viewport::Fixed(drawn.into());
-        Ok(Screen {
-            terminal: Terminal::with_options(backend, TerminalOptions { viewport })?,
-            drawn,
-            is_back: false,
-            has_mouse: false,
-        })
+        let frames = blank(capped(backend.size()?));
+        Ok(Screen { backend, frames, cursor: None, is_back: false, has_mouse: false })
     }
 
     /// The size of the drawn part of the terminal.
@@ -110,7 +108,7 @@ impl Screen {
     /// # Errors
     /// Returns an error if the terminal does not report its size.
     pub(super) fn size(&self) -> io::Result<Size> {
-        Ok(capped(self.terminal.size()?))
+        Ok(capped(self.backend.size()?))
     }
 
     /// Draws the state.
@@ -121,14 +119,21 @@ impl Screen {
         if !IS_TAKEN.load(Ordering::Relaxed) {
             return Ok(());
         }
-        if self.size()? != self.drawn {
-            self.clear()?;
+        let [shown, next] = &mut self.frames;
+        next.reset();
+        let cursor = view::draw(app, next.area, next);
+        self.backend.draw(changed(shown, next).into_iter())?;
+        if let Some(cursor) = cursor {
+            self.backend.set_cursor_position(cursor)?;
         }
-        self.terminal.draw(|frame| {
-            if let Some(cursor) = view::draw(app, frame.area(), frame.buffer_mut()) {
-                frame.set_cursor_position(cursor);
-            }
-        })?;
+        match (self.cursor, cursor) {
+            (None, Some(_)) => self.backend.show_cursor()?,
+            (Some(_), None) => self.backend.hide_cursor()?,
+            _ => (),
+        }
+        Backend::flush(&mut self.backend)?;
+        self.frames.swap(0, 1);
+        self.cursor = cursor;
         Ok(())
     }
 
@@ -137,9 +142,8 @@ impl Screen {
     /// # Errors
     /// Returns an error if the terminal is closed.
     pub(super) fn clear(&mut self) -> io::Result<()> {
-        // `Terminal::clear` would request the cursor position and wait for the reply.
-        self.drawn = self.size()?;
-        self.terminal.resize(self.drawn.into())
+        self.frames = blank(self.size()?);
+        self.backend.clear()
     }
 
     /// Restores the terminal and stops the process until the shell continues it.
@@ -153,8 +157,7 @@ impl Screen {
         if ends_in_background() {
             return Ok(());
         }
-        self.enter()?;
-        self.clear()
+        self.enter()
     }
 
     /// Enters the terminal again after a stop without a signal, whatever modes the shell has set.
@@ -171,8 +174,7 @@ impl Screen {
             return Ok(());
         }
         disable_raw_mode()?;
-        self.enter()?;
-        self.clear()
+        self.enter()
     }
 
     /// Turns mouse reports on or off.
@@ -207,6 +209,7 @@ impl Screen {
     pub(super) fn enter(&mut self) -> io::Result<()> {
         enable_raw_mode()?;
         IS_TAKEN.store(true, Ordering::Relaxed);
+        (self.frames, self.cursor) = (blank(self.size()?), None);
         // A terminal that is still in the alternate screen, such as after a lost connection, shows
         // its old content there, and erases with its last colour.
         execute!(
@@ -230,7 +233,7 @@ impl Screen {
     }
 
     fn output(&mut self) -> &mut impl Write {
-        self.terminal.backend_mut()
+        &mut self.backend
     }
 }
 
@@ -324,9 +327,66 @@ fn capped(size: Size) -> Size {
     Size { width: size.width.min(LARGEST.width), height: size.height.min(LARGEST.height) }
 }
 
+fn blank(size: Size) -> [Buffer; 2] {
+    [Buffer::empty(size.into()), Buffer::empty(size.into())]
+}
+
+/// The cells that a frame changes. Of a changed row with wide characters every cell is drawn, so that
+/// no half of a character remains.
+fn changed<'n>(shown: &Buffer, next: &'n Buffer) -> Vec<(u16, u16, &'n Cell)> {
+    let width = usize::from(next.area.width).max(1);
+    let rows = shown.content.chunks(width).zip(next.content.chunks(width));
+    let mut changes = Vec::new();
+    for (y, (before, now)) in (0..).zip(rows) {
+        if before.iter().zip(now).all(|(before, now)| is_same(before, now)) {
+            continue;
+        }
+        let is_wide = |cell: &Cell| cell.symbol().len() > 1 && cell.symbol().width() != 1;
+        let is_whole = before.iter().chain(now).any(is_wide);
+        let mut end = 0;
+        for (x, (before, now)) in (0..).zip(before.iter().zip(now)) {
+            if x >= end && (is_whole || !is_same(before, now)) {
+                changes.push((x, y, now));
+                end = x + if is_whole { now.symbol().width() as u16 } else { 1 };
+            }
+        }
+    }
+    changes
+}
+
+/// Whether two cells look the same; `Cell::eq` takes five times as long.
+fn is_same(one: &Cell, other: &Cell) -> bool {
+    let is_same_text = match (one.symbol().as_bytes(), other.symbol().as_bytes()) {
+        ([one], [other]) => one == other,
+        (one, other) => one == other,
+    };
+    is_same_text && (one.fg, one.bg, one.modifier) == (other.fg, other.bg, other.modifier)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_frame_writes_its_changed_cells_and_whole_rows_of_wide_characters() {
+        let changes = |shown: [&str; 2], next: [&str; 2]| {
+            let next = Buffer::with_lines(next);
+            let changes = changed(&Buffer::with_lines(shown), &next);
+            changes
+                .iter()
+                .map(|(x, y, cell)| (*x, *y, cell.symbol().to_owned()))
+                .collect::<Vec<_>>()
+        };
+        let cells = |cells: &[(u16, u16, &str)]| {
+            cells.iter().map(|&(x, y, text)| (x, y, text.to_owned())).collect::<Vec<_>>()
+        };
+        assert_eq!(changes(["5 mm", "ΔV"], ["5 um", "ΔV"]), cells(&[(2, 0, "u")]));
+        assert_eq!(
+            changes(["歯a ", "b  "], ["xya", "b  "]),
+            cells(&[(0, 0, "x"), (1, 0, "y"), (2, 0, "a")])
+        );
+        assert_eq!(changes(["xya", "b  "], ["歯a", "b  "]), cells(&[(0, 0, "歯"), (2, 0, "a")]));
+    }
 
     #[test]
     fn a_dumb_or_unnamed_terminal_is_none() {

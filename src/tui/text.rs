@@ -8,7 +8,7 @@ use std::ops::{Deref, Range};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
-use ratatui::widgets::{Scrollbar, ScrollbarOrientation, ScrollbarState, StatefulWidget, Widget};
+use ratatui::widgets::{Scrollbar, ScrollbarOrientation, ScrollbarState, StatefulWidget};
 use tui_input::{Input, InputRequest, StateChanged};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
@@ -16,10 +16,37 @@ use crate::case::sanitize::{is_hidden, spelled};
 use crate::report::with_units;
 use crate::tui::theme::Theme;
 
+/// The width of a text in columns.
+pub(super) fn width(text: &str) -> usize {
+    if text.is_ascii() { text.len() } else { text.width() }
+}
+
+/// Writes a text into at most `room` cells of a row. Returns the column after it.
+pub(super) fn put(
+    text: &str,
+    at: impl Into<Position>,
+    room: usize,
+    style: Style,
+    buffer: &mut Buffer,
+) -> u16 {
+    let Position { x, y } = at.into();
+    let room = room.min(buffer.area.right().saturating_sub(x).into());
+    // The search for letters of several characters takes longer than all else.
+    if !text.chars().all(|letter| width_of(letter) == 1) {
+        return buffer.set_stringn(x, y, text, room, style).0;
+    }
+    let (mut end, start) = (x, if room > 0 { buffer.index_of(x, y) } else { 0 });
+    for (letter, cell) in text.chars().zip(buffer.content[start..].iter_mut().take(room)) {
+        cell.set_char(letter).set_style(style);
+        end += 1;
+    }
+    end
+}
+
 /// The text cut to the width, with a mark at a cut end.
 pub(super) fn cut(text: &str, width: usize) -> String {
     let text = printable(text);
-    if text.width() <= width {
+    if self::width(&text) <= width {
         return text.into_owned();
     }
     let mut kept = take(&text, width.saturating_sub(1)).to_owned();
@@ -32,7 +59,7 @@ pub(super) fn cut(text: &str, width: usize) -> String {
 /// The text cut to the width at its start, with a mark: the end of a path identifies the path.
 pub(super) fn cut_front(text: &str, width: usize) -> String {
     let text = printable(text);
-    let over = text.width().saturating_sub(width);
+    let over = self::width(&text).saturating_sub(width);
     if over == 0 {
         return text.into_owned();
     }
@@ -42,7 +69,7 @@ pub(super) fn cut_front(text: &str, width: usize) -> String {
 /// The text cut or padded to the width.
 pub(super) fn padded(text: &str, width: usize) -> String {
     let text = cut(text, width);
-    let gap = width - text.width().min(width);
+    let gap = width - self::width(&text).min(width);
     text + &" ".repeat(gap)
 }
 
@@ -53,7 +80,7 @@ pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     let text = printable(text);
     let mut lines = vec![String::new()];
     for word in with_units(&text, width) {
-        put(&mut lines, &word, width);
+        append(&mut lines, &word, width);
     }
     lines
 }
@@ -70,16 +97,21 @@ pub(super) fn fitted(text: &str, width: usize, rows: usize) -> Vec<String> {
 
 /// Draws a rule with a title on the top line of an area. Returns the area below it.
 pub(super) fn titled(title: &str, area: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
-    if area.is_empty() {
-        return Rect::ZERO;
-    }
     let width = usize::from(area.width);
-    buffer.set_stringn(area.x, area.y, "─".repeat(width), width, theme.rule);
-    let title = format!(" {} ", cut(title, width.saturating_sub(4)));
-    if width > 4 {
-        buffer.set_stringn(area.x + 1, area.y, title, width - 1, theme.title);
+    let [line, below] = split(area, 1);
+    if !line.is_empty() {
+        put(&"─".repeat(width), line, width, theme.rule, buffer);
+        let title = format!(" {} ", cut(title, width.saturating_sub(4)));
+        put(&title, (area.x + 1, area.y), width.saturating_sub(1), theme.title, buffer);
     }
-    Rect { y: area.y + 1, height: area.height - 1, ..area }
+    below
+}
+
+/// The top rows of an area, and the rest.
+pub(super) fn split(area: Rect, rows: u16) -> [Rect; 2] {
+    let height = rows.min(area.height);
+    let rest = Rect { y: area.y + height, height: area.height - height, ..area };
+    [Rect { height, ..area }, rest]
 }
 
 /// Draws an edited line of text, scrolled so that the cursor is visible. Returns the position of
@@ -103,7 +135,7 @@ pub(super) fn edited(
     } else {
         skip(&shown, hidden).to_owned()
     };
-    buffer.set_stringn(area.x, area.y, seen, width, style);
+    put(&seen, area, width, style, buffer);
     if let Some(part) = input.selected() {
         let width_to = |at| shown.chars().take(at).map(width_of).sum::<usize>();
         let cell = |at| width_to(at).saturating_sub(hidden).min(width) as u16;
@@ -124,25 +156,22 @@ pub(super) fn ending(
     let width = usize::from(area.width);
     if let Some(ending) = ending.filter(|_| typed < width && !area.is_empty()) {
         let style = theme.faint.remove_modifier(Modifier::BOLD | Modifier::UNDERLINED);
-        buffer.set_stringn(area.x + typed as u16, area.y, ending, width - typed, style);
+        put(ending, (area.x + typed as u16, area.y), width - typed, style, buffer);
     }
 }
 
-fn put(lines: &mut Vec<String>, word: &str, width: usize) {
-    let Some(line) = lines.last_mut() else { return };
+fn append(lines: &mut Vec<String>, word: &str, width: usize) {
+    let (Some(line), of_word) = (lines.last_mut(), self::width(word)) else { return };
     let space = usize::from(!line.is_empty());
-    if line.width() + space + word.width() <= width {
+    if self::width(line) + space + of_word <= width {
         line.extend((space == 1).then_some(' '));
         line.push_str(word);
-    } else if word.width() <= width {
-        lines.push(word.to_owned());
-    } else {
-        put_piecewise(lines, word, width);
+        return;
     }
-}
-
-fn put_piecewise(lines: &mut Vec<String>, word: &str, width: usize) {
     let mut rest = word;
+    if of_word <= width {
+        lines.push(std::mem::take(&mut rest).to_owned());
+    }
     while !rest.is_empty() {
         let piece = take(rest, width);
         // A character wider than the line has a line of its own, so that the loop ends.
@@ -174,7 +203,7 @@ fn skip(text: &str, width: usize) -> &str {
 }
 
 fn width_of(letter: char) -> usize {
-    letter.width().unwrap_or(0)
+    if matches!(letter, ' '..='~') { 1 } else { letter.width().unwrap_or(0) }
 }
 
 /// Draws a scroll bar for the visible part of the lines.
@@ -199,7 +228,11 @@ pub(super) fn scroll_bar_beside(top: usize, lines: usize, area: Rect, buffer: &m
 /// Draws lines from the top of an area, as many as fit.
 pub(super) fn draw_lines(lines: &[ratatui::text::Line<'_>], area: Rect, buffer: &mut Buffer) {
     for (line, row) in lines.iter().zip(area.rows()) {
-        line.render(row, buffer);
+        let mut x = row.x;
+        for span in &line.spans {
+            let room = row.right().saturating_sub(x).into();
+            x = put(&span.content, (x, row.y), room, line.style.patch(span.style), buffer);
+        }
     }
 }
 
@@ -207,7 +240,7 @@ pub(super) fn draw_lines(lines: &[ratatui::text::Line<'_>], area: Rect, buffer: 
 pub(super) fn draw_words(words: &str, area: Rect, buffer: &mut Buffer) {
     let width = usize::from(area.width).saturating_sub(2);
     for (line, row) in wrap(words, width).iter().zip(area.rows()) {
-        buffer.set_stringn(row.x + 1, row.y, line, width, Style::new());
+        put(line, (row.x + 1, row.y), width, Style::new(), buffer);
     }
 }
 

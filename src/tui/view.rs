@@ -4,8 +4,6 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::Widget;
-use unicode_width::UnicodeWidthStr;
 
 use super::app::App;
 use super::app::actions::Binding;
@@ -80,7 +78,7 @@ fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     let is_here = |one: &&Binding| one.places.meets(place) && one.status.meets(place);
     for binding in BINDINGS.iter().filter(is_here) {
         let key = binding.first_key().replace("Ctrl-", "^").replace("Shift-Tab", "S-Tab");
-        let used = key.width() + binding.name.width() + 3;
+        let used = key.len() + binding.name.len() + 3;
         if used > left + 2 {
             break;
         }
@@ -91,7 +89,7 @@ fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
         left = left.saturating_sub(used);
         spans.extend([Span::styled(key, theme.key), Span::raw(format!(" {}  ", binding.name))]);
     }
-    Line::from(spans).render(area, buffer);
+    text::draw_lines(&[Line::from(spans)], area, buffer);
 }
 
 fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {

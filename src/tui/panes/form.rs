@@ -1,11 +1,8 @@
 //! The form: every field of the case in its group; below an invalid field the reason.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Constraint, Layout, Position, Rect};
+use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
-use ratatui::text::{Line, Span};
-use ratatui::widgets::Widget;
-use unicode_width::UnicodeWidthStr;
 
 use super::Title;
 use crate::case::fields::{GROUPS, Kind};
@@ -122,8 +119,8 @@ pub(crate) fn draw(pane: &Form<'_>, buffer: &mut Buffer) -> Option<Position> {
         return None;
     }
     let rows = pane.rows();
-    let [lines, bar] =
-        Layout::horizontal([Constraint::Fill(1), Constraint::Length(1)]).areas(inner);
+    let lines = Rect { width: inner.width - 1, ..inner };
+    let bar = Rect { x: lines.right(), width: 1, ..inner };
     text::scroll_bar(pane.state.top, rows.len(), bar, buffer);
     let theme = pane.look.theme;
     let mut cursor = None;
@@ -199,7 +196,7 @@ fn reasons(pane: &Form<'_>, row: usize) -> Vec<Row> {
 // Draws a text; the last column separates it from the next text.
 fn put(text: &str, area: Rect, style: Style, buffer: &mut Buffer) {
     let width = usize::from(area.width).saturating_sub(1);
-    buffer.set_stringn(area.x, area.y, text::cut(text, width), width, style);
+    text::put(&text::cut(text, width), area, width, style, buffer);
 }
 
 // Draws marks, symbol, label and value of a row, and the verdict on a limit. A label gives way to a
@@ -232,12 +229,11 @@ fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> 
     };
     let (is_edited, is_choice) = (pane.is_edited(index), matches!(kind, Some(Kind::Choice(..))));
     let is_typed = is_edited && written.is_some() && !is_choice;
-    let width = |text: &str| text.width() as u16 + 1;
+    let width = |text: &str| text::width(text) as u16 + 1;
     let of_label = if label.is_empty() { 0 } else { width(label).max(LABEL + 1) };
-    let (of_symbol, end) = (SYMBOL.max(width(symbol)), verdict.width() as u16);
+    let (of_symbol, end) = (SYMBOL.max(width(symbol)), text::width(&verdict) as u16);
     let least = if field.is_some() { VALUE } else { 0 };
     let of_value = if is_typed { VALUE } else { least.max(width(&value)) };
-    // The solver of layouts would take longer for these rows than all else in the first frame.
     let rest = line.width.saturating_sub(MARKS + of_symbol + end);
     let of_label = of_label.min(rest.saturating_sub(of_value));
     let mut x = line.x;
@@ -248,15 +244,15 @@ fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> 
             part
         });
     let unsaved = if rows::differs(case, pane.saved, index) { "*" } else { "" };
-    let spans = vec![Span::styled(mark, of_mark), Span::styled(unsaved, theme.note)];
-    Line::from(spans).render(marks, buffer);
-    Line::styled(verdict, of_verdict).render(end, buffer);
+    let x = text::put(mark, marks, marks.width.into(), of_mark, buffer);
+    text::put(unsaved, (x, line.y), 1, theme.note, buffer);
+    text::put(&verdict, end, end.width.into(), of_verdict, buffer);
     put(symbol, of_symbol, style, buffer);
     put(label, of_label, style, buffer);
     if is_typed {
         let (input, style) = (&pane.state.input, style.add_modifier(Modifier::UNDERLINED));
         let cursor = text::edited(input, area, style, buffer);
-        text::ending(pane.ending.as_deref(), input.value().width(), area, theme, buffer);
+        text::ending(pane.ending.as_deref(), text::width(input.value()), area, theme, buffer);
         return cursor;
     }
     let is_default = written.is_none() && !rows::lacks(case, index);

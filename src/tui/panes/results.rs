@@ -6,14 +6,12 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Alignment, Constraint, Layout, Position, Rect};
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
-use ratatui::text::{Line, Text};
-use ratatui::widgets::{HighlightSpacing, Row, StatefulWidget, Table, TableState, Widget};
-use unicode_width::UnicodeWidthStr;
+use ratatui::text::Line;
 
 use super::Title;
-use crate::case::units::System;
+use crate::case::units::{System, named};
 use crate::case::{Case, Problem, changes};
 use crate::model::inputs::Method;
 use crate::model::quantities::Need;
@@ -83,8 +81,8 @@ impl Results<'_> {
 
     /// The selected line among the quantities.
     fn row(&self) -> usize {
-        let is_selected = |quantity: &&Quantity| Some(quantity.key) == self.state.selected;
-        self.listed().iter().position(is_selected).unwrap_or(0)
+        let Some(selected) = self.state.selected else { return 0 };
+        self.listed().iter().position(|quantity| quantity.key == selected).unwrap_or(0)
     }
 
     /// The selected quantity.
@@ -117,7 +115,11 @@ impl Results<'_> {
 
     /// The first visible line such that the selected quantity is visible.
     pub(crate) fn top_for(&self) -> usize {
-        let (rows, row) = (self.page().max(1), self.row());
+        let row = self.row();
+        if row == 0 {
+            return 0;
+        }
+        let rows = self.page().max(1);
         let least = (row + 1).saturating_sub(rows);
         let last = self.listed().len().saturating_sub(rows);
         self.state.top.clamp(least, row.max(least)).min(last)
@@ -144,16 +146,40 @@ impl Results<'_> {
 
 pub(crate) fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
     let (head, rows) = parts(pane);
-    let inner = pane.title.draw(&title(pane, rows), pane.area, buffer);
-    let [above, body] =
-        Layout::vertical([Constraint::Length(head.len() as u16), Constraint::Fill(1)]).areas(inner);
+    let listed = pane.listed();
+    let inner = pane.title.draw(&title(pane, listed.len(), rows), pane.area, buffer);
+    let [above, body] = text::split(inner, head.len() as u16);
     // The first column has the mark of the selected row.
-    let [_, above] = Layout::horizontal([Constraint::Length(1), Constraint::Fill(1)]).areas(above);
-    Text::from(head).render(above, buffer);
+    text::draw_lines(
+        &head,
+        Rect { x: above.x + 1, width: above.width.saturating_sub(1), ..above },
+        buffer,
+    );
     let Some(answer) = pane.answer else { return };
+    let theme = pane.look.theme;
+    let is_outdated = pane.variants.is_some_and(|(variants, _)| variants.serial != answer.serial);
+    let base = if pane.is_stale || is_outdated { theme.faint } else { Style::new() };
+    let [header, body] = text::split(body, u16::from(pane.has_header()));
     let row = pane.row().checked_sub(pane.state.top).filter(|row| *row < rows);
-    let mut state = TableState::new().with_selected(row.filter(|_| pane.title.has_focus));
-    StatefulWidget::render(table(pane, answer, rows), body, buffer, &mut state);
+    if let Some(row) = row.filter(|_| pane.title.has_focus && !body.is_empty()) {
+        text::put("▸", (body.x, body.y + row as u16), 1, base.patch(theme.focus), buffer);
+    }
+    let mut x = body.x + 1;
+    for column in fitting(pane, answer, &listed, rows) {
+        let width = column.width();
+        let mut put = |text: &str, y: u16, style: Style| {
+            let gap = if column.is_number { width.saturating_sub(text::width(text)) } else { 0 };
+            let (x, style) = (x + gap as u16, base.patch(style));
+            text::put(text, (x, y), body.right().saturating_sub(x).into(), style, buffer);
+        };
+        if !header.is_empty() {
+            put(&column.heading, header.y, column.styles[0]);
+        }
+        for (y, text) in (body.y..body.bottom()).zip(&column.cells) {
+            put(text, y, column.styles[1]);
+        }
+        x += width as u16 + 1;
+    }
 }
 
 /// A sentence above the table.
@@ -318,9 +344,9 @@ fn differing(answer: &Answer, solution: &Solution) -> Option<String> {
     digest::differing(solution, &others)
 }
 
-fn title(pane: &Results<'_>, rows: usize) -> String {
+fn title(pane: &Results<'_>, count: usize, rows: usize) -> String {
     let name = if pane.shows_last_valid() { "Results: LAST VALID" } else { "Results" };
-    let (count, top) = (pane.listed().len(), pane.state.top);
+    let top = pane.state.top;
     let position = (0 < rows && rows < count)
         .then(|| format!(" {}-{}/{count}", top + 1, (top + rows).min(count)));
     let base = match (pane.variants, pane.baseline) {
@@ -376,7 +402,8 @@ struct Column {
     cells: Vec<String>,
     /// The width of a column that is wider than its cells.
     room: usize,
-    alignment: Alignment,
+    /// Whether the texts end at the right.
+    is_number: bool,
     /// The styles of the heading and of the cells.
     styles: [Style; 2],
 }
@@ -388,18 +415,17 @@ const UNITS: usize = 2;
 
 impl Column {
     fn words(rank: usize, least: usize, room: usize, cells: Vec<String>, style: Style) -> Column {
-        let (heading, alignment) = (String::new(), Alignment::Left);
-        Column { rank, least, heading, cells, room, alignment, styles: [style; 2] }
+        let heading = String::new();
+        Column { rank, least, heading, cells, room, is_number: false, styles: [style; 2] }
     }
 
     fn numbers(rank: usize, heading: String, cells: Vec<String>, styles: [Style; 2]) -> Column {
-        let (least, alignment) = (usize::MAX, Alignment::Right);
-        Column { rank, least, heading, cells, room: NUMBER, alignment, styles }
+        Column { rank, least: usize::MAX, heading, cells, room: NUMBER, is_number: true, styles }
     }
 
     fn width(&self) -> usize {
         let texts = self.cells.iter().chain([&self.heading]);
-        texts.map(|text| text.width()).max().unwrap_or(0).max(self.room)
+        texts.map(|text| text::width(text)).max().unwrap_or(0).max(self.room)
     }
 }
 
@@ -441,31 +467,9 @@ pub(crate) fn label(quantity: &Quantity, active: Method) -> Cow<'static, str> {
     }
 }
 
-/// The visible rows of the table in the width of the pane.
-fn table(pane: &Results<'_>, answer: &Answer, rows: usize) -> Table<'static> {
-    let theme = pane.look.theme;
-    let is_outdated = pane.variants.is_some_and(|(variants, _)| variants.serial != answer.serial);
-    let columns = fitting(pane, answer, rows);
-    let row = |text: fn(&Column, usize) -> &str, part: usize, at: usize| {
-        Row::new(columns.iter().map(|column| {
-            let text = text(column, at).to_owned();
-            Text::styled(text, column.styles[part]).alignment(column.alignment)
-        }))
-    };
-    let rows = 0..columns.first().map_or(0, |column| column.cells.len());
-    let widths = columns.iter().map(|column| Constraint::Length(column.width() as u16));
-    let table = Table::new(rows.map(|at| row(|column, at| &column.cells[at], 1, at)), widths);
-    let heading = row(|column, _| &column.heading, 0, 0);
-    let table = if pane.has_header() { table.header(heading) } else { table };
-    table
-        .style(if pane.is_stale || is_outdated { theme.faint } else { Style::new() })
-        .highlight_symbol(Text::styled("▸", theme.focus))
-        .highlight_spacing(HighlightSpacing::Always)
-}
-
 /// The number of variants that fit side by side.
 pub(crate) fn variants_page(pane: &Results<'_>) -> usize {
-    let shown = pane.answer.map(|answer| fitting(pane, answer, pane.page()));
+    let shown = pane.answer.map(|answer| fitting(pane, answer, &pane.listed(), pane.page()));
     let is_variant = |column: &&Column| !column.heading.is_empty() && column.rank != OF_CASE;
     shown.map_or(1, |shown| shown.iter().filter(is_variant).count().max(1))
 }
@@ -499,8 +503,13 @@ pub(crate) fn compared(pane: &Results<'_>, quantity: &'static Quantity) -> Optio
 
 /// The columns of the visible rows that fit, each after a blank. Texts have the room of all rows, so
 /// that columns do not move; variants need all the room.
-fn fitting(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
-    let mut columns = columns(pane, answer, rows);
+fn fitting(
+    pane: &Results<'_>,
+    answer: &Answer,
+    listed: &[&'static Quantity],
+    rows: usize,
+) -> Vec<Column> {
+    let mut columns = columns(pane, answer, listed, rows);
     if pane.variants.is_some() {
         for column in &mut columns {
             column.room = 0;
@@ -532,8 +541,13 @@ fn fitting(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
     }
 }
 
-fn columns(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
-    let (theme, active, all) = (pane.look.theme, answer.active, order(pane, answer));
+fn columns(
+    pane: &Results<'_>,
+    answer: &Answer,
+    all: &[&'static Quantity],
+    rows: usize,
+) -> Vec<Column> {
+    let (theme, active) = (pane.look.theme, answer.active);
     let known: Vec<_> = all.iter().copied().skip(pane.state.top).take(rows).collect();
     // Results of `static` are among the rows of `dynamic`.
     let shows_others = pane.shows_every_method && pane.variants.is_none();
@@ -559,7 +573,7 @@ fn columns(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
     };
     let cells = |cell: &dyn Fn(usize) -> String| (0..known.len()).map(cell).collect::<Vec<_>>();
     let words = |rank, least, style, text: &dyn Fn(&'static Quantity) -> Cow<'static, str>| {
-        let room = all.iter().map(|quantity| text(quantity).width()).max().unwrap_or(0);
+        let room = all.iter().map(|quantity| text::width(&text(quantity))).max().unwrap_or(0);
         Column::words(rank, least, room, cells(&|at| text(known[at]).into_owned()), style)
     };
     let symbols = |of: &'static Quantity| symbol(of.symbol_in(active), pane.look.ascii);
@@ -582,13 +596,15 @@ fn columns(pane: &Results<'_>, answer: &Answer, rows: usize) -> Vec<Column> {
     }
     let of_unit = |at: usize| {
         let has_value = methods.iter().any(|&method| value(answer, method, known[at]).is_some());
-        let unit = if has_value { report::shown_with(known[at], 0.0, units[at]).unit } else { "" };
-        let mark = if pane.variants.is_some() { "" } else { mark(pane, answer, known[at]) };
+        let has_unit = has_value && !known[at].is_flag();
+        let unit = if has_unit { named(units[at]) } else { "" };
+        let mark =
+            if pane.variants.is_some() { "" } else { mark(pane, answer, known[at], units[at]) };
         [unit, mark].join(" ").trim().to_owned()
     };
     let of_units = cells(&of_unit);
-    let widths = of_units.iter().map(|cell| cell.trim_end_matches([' ', '←', '!']).width());
-    let room = widths.max().unwrap_or(0) + 1 + CHANGED.width();
+    let widths = of_units.iter().map(|cell| text::width(cell.trim_end_matches([' ', '←', '!'])));
+    let room = widths.max().unwrap_or(0) + 2;
     columns.push(Column::words(UNITS, 5, room, of_units, Style::new()));
     if let Some((variants, first)) = pane.variants {
         let plain = [theme.other, Style::new()];
@@ -631,7 +647,12 @@ fn variant_cell(
 }
 
 // The mark of a quantity: above its limit, or changed.
-fn mark(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> &'static str {
+fn mark(
+    pane: &Results<'_>,
+    answer: &Answer,
+    quantity: &Quantity,
+    unit: &'static str,
+) -> &'static str {
     let Some(solution) = answer.of(answer.active).filter(|_| !pane.is_stale) else { return "" };
     let limit = pane.case.limits.iter().find(|limit| limit.quantity == quantity);
     let verdict = limit.map(|limit| verdict(limit, solution));
@@ -639,13 +660,12 @@ fn mark(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> &'static st
         return EXCEEDED;
     }
     // Whether the present visit of a field changed the printed value of the quantity.
-    let at = QUANTITIES.iter().position(|known| known.key == quantity.key);
-    let before = pane.earlier.zip(at).map(|(earlier, at)| earlier.get(at).copied().flatten());
+    let Some(earlier) = pane.earlier else { return "" };
+    let at = QUANTITIES.iter().position(|known| std::ptr::eq(known, quantity));
+    let (before, now) = (at.and_then(|at| *earlier.get(at)?), quantity.finite_value(solution));
     let printed =
-        |value: Option<f64>| value.map(|value| report::shown_in(quantity, value, pane.units));
-    let now = (quantity.value)(solution);
-    let is_changed = |before| before != now && printed(before) != printed(now);
-    if before.is_some_and(is_changed) { CHANGED } else { "" }
+        |value: Option<f64>| value.map(|value| report::shown_with(quantity, value, unit).number);
+    if before != now && printed(before) != printed(now) { CHANGED } else { "" }
 }
 
 fn value(answer: &Answer, method: Method, quantity: &Quantity) -> Option<f64> {

@@ -7,8 +7,6 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Position, Rect, Size};
 use ratatui::style::{Modifier, Style};
 use ratatui::symbols::Marker;
-use ratatui::text::Line;
-use ratatui::widgets::Widget;
 
 use super::plot::{Plot, bounds, put};
 use crate::case::units::{System, shown};
@@ -202,7 +200,13 @@ pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
             let text = symbol(&value.to_string(), picture.look.ascii).into_owned();
             text::padded(&text, usize::from(VALUE))
         });
-        Line::raw(format!(" {}", values.collect::<String>())).render(row, buffer);
+        text::put(
+            &values.collect::<String>(),
+            (row.x + 1, row.y),
+            row.width.saturating_sub(1).into(),
+            Style::new(),
+            buffer,
+        );
     }
     if plot.width >= SMALLEST.0 && plot.height >= SMALLEST.1 {
         Painter::new(picture, plot).draw(moment.as_ref(), buffer);
@@ -244,7 +248,7 @@ impl<'a> Painter<'a> {
         put(&self.plot().layer(&curves, self.marker), buffer);
         for (at, word, style) in self.words(&scene, moment.map(|_| factor)) {
             let room = self.area.right().saturating_sub(at.x).into();
-            buffer.set_stringn(at.x, at.y, word, room, Style::reset().patch(style));
+            text::put(&word, at, room, Style::reset().patch(style), buffer);
         }
     }
 
