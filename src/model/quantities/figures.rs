@@ -288,11 +288,16 @@ pub(super) const TABLE: &[Quantity] = &[
             ["hertz_pressure_pitch", "p_C", "Hertz pressure at P"],
             ("Pa", "MPa", 5),
             |s| Some(s.figures?.pitch_pressure),
-            "The Hertz pressure at the pitch point P if one pair, or with a helix angle the mean \
-            length of the contact lines, carries the mesh force: the contact stress of \
-            ISO 6336-2 without its factors.",
+            "The Hertz pressure at the pitch point P if one pair carries the mesh force: the contact \
+            stress of ISO 6336-2 without its factors. A helix angle lengthens the contact lines \
+            as in Z_ε of ISO 6336-2, up to their mean length at an overlap ratio of 1.",
             Cases(&[
-                (helical, Text("√(F_0 E' cos β_b/(π b ε ρ_C))")),
+                (
+                    helical,
+                    Text(
+                        "√(F_0 E' cos β_b (1 - min(ε_β, 1) + min(ε_β, 1)/ε)/(π b ρ_C))",
+                    ),
+                ),
                 (always, Text("√(F_0 E'/(π b ρ_C))")),
             ]),
         )
