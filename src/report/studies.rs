@@ -554,8 +554,13 @@ fn legend(flanks: &Flanks) -> Vec<String> {
 fn gear_section(flanks: &Flanks, gear: &GearComparison) -> Vec<String> {
     let [form, tip] =
         [gear.form_radius, gear.tip_radius].map(|metres| significant(metres / MILLIMETRE, 6));
-    let mut lines =
-        vec![format!("{}: z {}, form circle {form} mm, tip {tip} mm", gear.gear, gear.teeth)];
+    let section = gear.virtual_teeth.map_or_else(String::new, |teeth| {
+        format!(" (compliances of {teeth} virtual teeth at the same height)")
+    });
+    let mut lines = vec![format!(
+        "{}: z {}{section}, form circle {form} mm, tip {tip} mm",
+        gear.gear, gear.teeth
+    )];
     if !gear.points.is_empty() {
         let table = flank_table(flanks, std::slice::from_ref(gear));
         let has_title = |at: &usize| !table.columns[*at].title.is_empty();

@@ -2,7 +2,7 @@
 
 use crate::model::compliance::tooth::Tooth;
 use crate::model::compliance::{ContactPlace, ElasticGear, Elasticity, Teeth};
-use crate::model::field::Field;
+use crate::model::field::{Field, body_twist};
 use crate::model::geometry::{Circles, Geometry, geometry, mesh_force};
 use crate::model::inputs::{Gear, ToothCompliance};
 use crate::model::masses::Masses;
@@ -43,7 +43,9 @@ pub struct GearComparison {
     pub gear: &'static str,
     /// Number of teeth z.
     pub teeth: u32,
-    /// Radius of the form circle, in m.
+    /// Number of teeth of the virtual spur gear whose compliances these are; `None` for a spur gear.
+    pub virtual_teeth: Option<u32>,
+    /// Radius of the form circle, in m; of a helical gear, at the height of that of its virtual gear.
     pub form_radius: f64,
     /// Active tip radius, in m.
     pub tip_radius: f64,
@@ -115,7 +117,8 @@ pub struct FieldPoint {
     pub behind: f64,
 }
 
-/// Compares the models over both flanks, at `points` radii from the form circle to the tip.
+/// Compares the models over both flanks, at `points` radii from the form circle to the tip. A helical
+/// gear has the compliances of its [virtual spur gear](ElasticGear::of) at the same height.
 ///
 /// # Errors
 /// The refusals of the geometry, and [`Refusal::BoreTooLarge`].
@@ -128,7 +131,8 @@ pub fn compare_flanks(inputs: &Inputs, points: usize) -> Result<Flanks, Refusal>
     let models: Vec<_> =
         ToothCompliance::ALL.into_iter().filter(|model| model.name() != FIELD).collect();
     let flank = |name, gear: &Gear, elastic: &ElasticGear, circles: &Circles, pitch_radius| {
-        let form_radius = Profile::of(&elastic.rack, circles).form_radius();
+        let normal = elastic.circles(circles)?;
+        let form_radius = Profile::of(&elastic.rack, &normal).form_radius() - elastic.rise;
         // In equal steps from the form circle to the tip.
         let (form, tip, last) = (form_radius, circles.tip, points.max(LEAST_POINTS) - 1);
         let inner = (0..last).map(|step| form + (tip - form) * step as f64 / last as f64);
@@ -155,29 +159,32 @@ pub fn compare_flanks(inputs: &Inputs, points: usize) -> Result<Flanks, Refusal>
             columns.push(radii.iter().map(value).collect::<Vec<_>>());
             gaps.extend(reason.map(|reason| Gap { model, reason }));
         }
-        let (field, young) = (elastic.field(), elastic.young);
+        let field = elastic.field();
         let known = field.as_ref().ok();
         let points = radii.iter().enumerate().map(|(index, &radius)| Point {
             radius,
             models: columns.iter().map(|column| column[index]).collect(),
-            field: known.and_then(|field| field_point(field, radius, half_width, young)),
+            field: known.and_then(|field| field_point(field, elastic, radius, half_width)),
         });
-        GearComparison {
+        let bore = Some(gear.bore_radius).filter(|bore| *bore > 0.0 && known.is_some());
+        let twist = |bore| body_twist(circles.base, circles.root, bore, gear.poisson) / gear.young;
+        Ok(GearComparison {
             gear: name,
             teeth: gear.teeth,
+            virtual_teeth: (inputs.helix_angle > 0.0).then_some(elastic.rack.teeth),
             form_radius,
             tip_radius: tip,
             pitch_radius,
-            twist: known.and_then(|field| field.twist()).map(|twist| twist / young),
+            twist: bore.map(twist),
             refusal: field.as_ref().err().copied(),
             gaps,
             points: points.collect(),
-        }
+        })
     };
     let (Elasticity { driver, driven, .. }, of) = (&elasticity, &geometry);
     let gears = [
-        flank("driver", &inputs.driver, driver, &of.driver, place.radius_driver),
-        flank("driven", &inputs.driven, driven, &of.driven, place.radius_driven),
+        flank("driver", &inputs.driver, driver, &of.driver, place.radius_driver)?,
+        flank("driven", &inputs.driven, driven, &of.driven, place.radius_driven)?,
     ];
     Ok(Flanks { contact_half_width: half_width, models, gears })
 }
@@ -194,13 +201,21 @@ fn loaded(inputs: &Inputs) -> Result<(Geometry, f64), Refusal> {
 /// The distance from the form circle at which a model has a value, relative to the flank.
 const STEP: f64 = 1e-9;
 
-/// `None` if the contact under the mesh force is wider than the tooth.
-fn field_point(field: &Field, radius: f64, half_width: f64, young: f64) -> Option<FieldPoint> {
+/// The compliances of a gear at a radius. `None` if the contact under the mesh force is wider than the
+/// tooth.
+fn field_point(
+    field: &Field,
+    gear: &ElasticGear,
+    radius: f64,
+    half_width: f64,
+) -> Option<FieldPoint> {
+    let (radius, per_young) = (radius + gear.rise, gear.oblique / gear.young);
+    let outer = radius.min(field.last_radius(half_width));
     (half_width < field.centre_depth(radius)).then(|| FieldPoint {
-        depth: field.depth(radius, half_width) / young,
-        surface: field.surface(radius.min(field.last_radius(half_width)), half_width) / young,
-        ahead: field.cross(radius, radius, 1) / young,
-        behind: field.cross(radius, radius, -1) / young,
+        depth: field.depth(radius, half_width) * per_young,
+        surface: field.surface(outer, half_width) * per_young,
+        ahead: field.cross(radius, radius, 1) * per_young,
+        behind: field.cross(radius, radius, -1) * per_young,
     })
 }
 
@@ -395,6 +410,32 @@ mod tests {
             let twist = after.twist.unwrap() / before.twist.unwrap();
             assert!((twist / 3.0 - 1.0).abs() < 1e-9, "{twist}");
         }
+    }
+
+    /// The sum of both teeth and of both contacts is the compliance of the pair at the pitch point.
+    #[test]
+    fn the_flanks_of_a_helical_pair_have_the_compliances_of_its_path() {
+        let angle = 20_f64.to_radians();
+        let inputs = Inputs { helix_angle: angle, ..standard_pair(20, 35, 3e-3) };
+        let found = compare_flanks(&inputs, 401).unwrap();
+        for gear in &found.gears {
+            assert!(gear.gaps.iter().all(|gap| gap.reason.starts_with("covers")), "{gear:?}");
+            let depth = |point: &Point| point.field.unwrap().depth;
+            let last = gear.points.len() - 2;
+            assert!(depth(&gear.points[last]) > 2.0 * depth(&gear.points[0]));
+            for pair in gear.points[20..last].windows(2) {
+                assert!(depth(&pair[1]) > depth(&pair[0]), "{pair:?}");
+            }
+        }
+        let at_pitch = found.gears.each_ref().map(|gear| {
+            let nearest = |point: &&Point| (1e9 * (point.radius - gear.pitch_radius).abs()) as u64;
+            gear.points.iter().min_by_key(nearest).unwrap().field.unwrap().surface
+        });
+        let (geometry, force) = loaded(&inputs).unwrap();
+        let mesh = Mesh::of(&inputs.elasticity(), &geometry, force).unwrap();
+        let pair = 1.0 / mesh.pair(geometry.approach_length).unwrap();
+        let sum = at_pitch[0] + at_pitch[1];
+        assert!((sum / pair - 1.0).abs() < 5e-3, "{sum} {pair}");
     }
 
     #[test]
