@@ -126,6 +126,7 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
         }
     }
     let rules: Vec<Problem> = rules(&inputs)
+        .into_iter()
         .filter(|rule| {
             let wrong = wrong.iter().map(|&field| FIELDS[field].key);
             let mut keys = wrong.chain(problems.iter().map(|problem| &*problem.field));
@@ -352,15 +353,20 @@ fn choice(known: &Field, text: &str, names: &'static [&'static str]) -> Result<u
 
 /// The first rule between fields that these inputs violate.
 pub fn violated_rule(inputs: &Inputs) -> Option<Problem> {
-    rules(inputs).next()
+    rules(inputs).into_iter().next()
 }
 
 /// The violated rules between fields.
-fn rules(inputs: &Inputs) -> impl Iterator<Item = Problem> {
-    let heights = Height::all(inputs).filter_map(move |height| {
-        height.outside_range(inputs).or_else(|| height.bore_through_root(inputs))
-    });
-    heights.chain(ratio_beyond(inputs)).chain(face_rules(inputs)).chain(table_rule(inputs))
+fn rules(inputs: &Inputs) -> Vec<Problem> {
+    let mut violated = Vec::new();
+    for height in Height::all(inputs) {
+        let rule = height.outside_range(inputs).or_else(|| height.bore_through_root(inputs));
+        violated.extend(rule);
+    }
+    violated.extend(ratio_beyond(inputs));
+    violated.extend(face_rules(inputs));
+    violated.extend(table_rule(inputs));
+    violated
 }
 
 /// Whether a rule whose problem is at the field `rule` reads another field.
@@ -468,9 +474,15 @@ struct Height<'i> {
 
 impl Height<'_> {
     /// The heights of both gears: tip before root.
-    fn all(inputs: &Inputs) -> impl Iterator<Item = Height<'_>> {
-        let gears = [("driver", &inputs.driver), ("driven", &inputs.driven)].into_iter();
-        gears.flat_map(|(table, gear)| [true, false].map(|is_tip| Height { gear, table, is_tip }))
+    fn all(inputs: &Inputs) -> [Height<'_>; 4] {
+        let of = |table, gear, is_tip| Height { gear, table, is_tip };
+        let Inputs { driver, driven, .. } = inputs;
+        [
+            of("driver", driver, true),
+            of("driver", driver, false),
+            of("driven", driven, true),
+            of("driven", driven, false),
+        ]
     }
 
     fn field(&self, tip: &str, root: &str) -> usize {
@@ -546,7 +558,7 @@ impl Problem {
         let is_it = |height: &Height| {
             FIELDS[height.coefficient()].key == self.field && height.given_diameter().is_some()
         };
-        match Height::all(inputs).find(is_it) {
+        match Height::all(inputs).iter().find(|height| is_it(height)) {
             Some(height) => self.at(height.diameter()),
             None => self,
         }

@@ -261,7 +261,9 @@ impl Rack {
         let (shape, transverse) = (inputs.gear_shape(gear), inputs.transverse_pressure_angle());
         // The rounding has the height of that of the normal section.
         let height = |angle: f64| 1.0 - angle.sin();
-        let steeper = height(inputs.pressure_angle) / height(transverse);
+        let is_spur = inputs.helix_angle == 0.0;
+        let steeper =
+            if is_spur { 1.0 } else { height(inputs.pressure_angle) / height(transverse) };
         Rack {
             module: inputs.transverse_module(),
             pressure_angle: transverse,

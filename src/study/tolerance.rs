@@ -376,7 +376,7 @@ impl Points for Design {
             inputs.combination = Combination::Sum;
         }
         for (distribution, value) in self.distributions.iter().zip(self.values(index)) {
-            let (from, to) = field_range(distribution.field);
+            let (from, to) = distribution.range;
             if value < from || value > to {
                 let range = FIELDS[distribution.field].range_text();
                 let cause = format!("the sample is outside the range {range}");
@@ -401,6 +401,8 @@ const ALLOWED: f64 = 5.0;
 pub struct Distribution {
     /// Index in [`FIELDS`].
     pub field: usize,
+    /// The least and the greatest value of the field.
+    pub range: (f64, f64),
     /// The value of the field.
     pub centre: f64,
     /// Standard deviation of a normal distribution, otherwise half the span.
@@ -434,7 +436,8 @@ impl Distribution {
             Shape::Grade => (Shape::Truncated, allowed_deviation(spread, inputs)),
             shape => (shape, spread.width),
         };
-        let distribution = Distribution { field, centre, width, shape };
+        let range = field_range(field);
+        let distribution = Distribution { field, range, centre, width, shape };
         let Some(end) = distribution.beyond() else { return Ok(distribution) };
         let (words, range) = (&spread.text, FIELDS[field].range_text());
         refused(
@@ -451,7 +454,7 @@ impl Distribution {
             Shape::Normal => (ALLOWED * self.width, format!(" at {ALLOWED} standard deviations")),
             _ => (self.width, String::new()),
         };
-        let (from, to) = field_range(self.field);
+        let (from, to) = self.range;
         let slack = 1e-12 * from.abs().max(to.abs());
         let is_outside = |end: &f64| *end < from - slack || *end > to + slack;
         let end = [self.centre - reach, self.centre + reach].into_iter().find(is_outside)?;
@@ -552,6 +555,7 @@ mod tests {
     fn distribution(shape: Shape) -> Distribution {
         Distribution {
             field: index_of("deviations.base_pitch").unwrap(),
+            range: (0.0, 1e-3),
             centre: 16e-6,
             width: 4e-6,
             shape,

@@ -189,8 +189,13 @@ fn every_crossing_is_found_although_the_quantity_turns_back_between_points_of_th
 
 /// A design with uniform fields between -pi and pi, for the test functions of the literature.
 fn uniform_design(fields: usize, samples: usize) -> Design {
-    let distribution =
-        Distribution { field: 0, centre: 0.0, width: std::f64::consts::PI, shape: Shape::Uniform };
+    let distribution = Distribution {
+        field: 0,
+        range: (0.0, 0.0),
+        centre: 0.0,
+        width: std::f64::consts::PI,
+        shape: Shape::Uniform,
+    };
     Design { seed: 7, distributions: vec![distribution; fields], samples, ranked: samples }
 }
 
