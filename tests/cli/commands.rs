@@ -248,9 +248,8 @@ fn every_fault_of_a_bad_case_has_its_place_on_one_line() {
 #[test]
 fn a_refusal_of_the_model_has_the_place_of_its_field_and_leaves_limits_open() {
     let (_folder, path) = changed("addendum = 1.0", "addendum = 0.3");
-    let (code, text, errors) = ran(&format!(
-        "solve {path} --set driven.addendum=0.3 --set model.deflection= --format json"
-    ));
+    let settings = "--set driven.addendum=0.3 --set model.deflection=";
+    let (code, text, errors) = ran(&format!("solve {path} {settings} --format json"));
     assert_eq!((code, text.as_str()), (3, ""));
     has(&errors, &["--set driven.addendum=0.3: "]);
     let (_folder, path) =
@@ -431,10 +430,7 @@ fn fields_explanations_and_trades_are_data_for_scripts() {
     assert!(recommended["total"].as_f64().unwrap() <= 0.4, "{recommended}");
     let settings = traded["settings"].as_array().unwrap().iter();
     let own: Vec<&Value> = settings.filter(|one| one["current"] == true).collect();
-    assert_eq!(
-        (own.len(), &own[0]["method"], &own[0]["stations"]),
-        (1, &"exact".into(), &64.into())
-    );
+    assert!(own.len() == 1 && own[0]["method"] == "exact" && own[0]["stations"] == 64);
 }
 
 #[test]

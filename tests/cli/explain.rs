@@ -1,10 +1,8 @@
 //! Every quantity has an explanation, and the printed numbers of the explanation are correct.
 
-mod evaluate;
 mod formula;
 
-use evaluate::{evaluate, factor};
-use formula::formula_value;
+use formula::{evaluate, factor, formula_value};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 use tipstrike::case::{Case, EXAMPLES};
@@ -54,10 +52,8 @@ struct Explained {
 }
 
 fn cases() -> Vec<(String, Case)> {
-    EXAMPLES
-        .iter()
-        .map(|example| (format!("cases/{}.toml", example.name), example.document().case))
-        .collect()
+    let case = |name: &str| format!("cases/{name}.toml");
+    EXAMPLES.iter().map(|example| (case(example.name), example.document().case)).collect()
 }
 
 /// The pages of a case with settings, by `page`; none if the model refuses the case.
@@ -164,11 +160,7 @@ fn the_printed_numbers_make_the_printed_value() {
             // The terms of a difference of close numbers have ten digits.
             let lost = if work.formula.contains(" - ") { 1e-4 } else { 0.0 };
             let agree = (found - shown).abs() <= last_place(work).max(lost * shown.abs());
-            assert!(
-                agree,
-                "{name}, {}: {} = {:?} makes {found}, not {shown}",
-                page.quantity.key, work.symbol, work.numbers
-            );
+            assert!(agree, "{name} {} {} {:?}", page.quantity.key, work.symbol, work.numbers);
             checked += 1;
         }
     });
@@ -223,12 +215,8 @@ fn every_value_with_a_formula_is_shown_with_its_numbers() {
 fn every_quantity_is_explained_in_all_its_parts() {
     every_page(&WHOLE, |name, page| {
         let key = page.quantity.key;
-        assert!(
-            [page.meaning.as_str(), page.source, page.assumptions]
-                .iter()
-                .all(|part| part.ends_with('.')),
-            "{key}"
-        );
+        let parts = [page.meaning.as_str(), page.source, page.assumptions];
+        assert!(parts.iter().all(|part| part.ends_with('.')), "{key}");
         assert_eq!(page.derivation.first().map(|work| work.symbol), Some(page.symbol), "{key}");
         assert_eq!(page.value.is_some(), page.missing.is_none(), "{name}, {key}");
         assert_eq!(page.value.is_some(), !page.accuracy.is_empty(), "{name}, {key}");
@@ -301,14 +289,10 @@ fn no_line_is_wider_than_asked_for() {
 fn a_step_of_a_field_changes_the_result_as_a_solve_does() {
     let page = page("zhou", "impact_force", &[]);
     let of = |key: &str| page.effects.iter().find(|effect| effect.key == key).unwrap();
-    let more = explained(
-        "",
-        &Case::table_1(),
-        &[("deviations.base_pitch", "17 um")],
-        |quantity, case, inputs, solution| {
-            (quantity.key == "impact_force").then(|| derive(quantity, case, inputs, solution))
-        },
-    );
+    let settings = [("deviations.base_pitch", "17 um")];
+    let more = explained("", &Case::table_1(), &settings, |quantity, case, inputs, solution| {
+        (quantity.key == "impact_force").then(|| derive(quantity, case, inputs, solution))
+    });
     let force = more.unwrap().pages[0].value.unwrap();
     let share = 100.0 * (force / page.value.unwrap() - 1.0);
     assert_eq!(of("deviations.base_pitch").change, format!("+{share:.2} %"));
@@ -338,9 +322,7 @@ fn pages_read_as_they_did() {
     ];
     for (case, key, settings) in samples {
         let method = settings.first().map(|(_, method)| format!("_{method}")).unwrap_or_default();
-        insta::assert_snapshot!(
-            format!("{case}_{key}{method}"),
-            render(&page(case, key, settings), case)
-        );
+        let page = render(&page(case, key, settings), case);
+        insta::assert_snapshot!(format!("{case}_{key}{method}"), page);
     }
 }

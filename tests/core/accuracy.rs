@@ -13,9 +13,10 @@ mod table;
 
 use std::sync::LazyLock;
 
+use crate::support::value;
 use oracle::number::{Big, big, decimal, rounded};
 use rows::Row;
-use tipstrike::model::{Inputs, Quantity, Refusal, Solution, Stages, solve};
+use tipstrike::model::{Inputs, Refusal, Stages, solve};
 use tipstrike::numeric::Real;
 use twofloat::TwoFloat;
 
@@ -48,12 +49,7 @@ impl Worst {
     /// Fails with the quantities that exceed their allowed error, if any.
     fn assert_none_beyond(&self) {
         let first = &self.beyond[..self.beyond.len().min(8)];
-        assert!(
-            first.is_empty(),
-            "{} quantities out of bounds, such as\n{}",
-            self.beyond.len(),
-            first.join("\n")
-        );
+        assert!(first.is_empty(), "{} {}", self.beyond.len(), first.join("\n"));
     }
 
     fn meet(&mut self, off: f64, place: impl FnOnce() -> String) {
@@ -77,12 +73,8 @@ fn hold(row: &Row, accurate: bool, worst: &mut Worst) {
         let found = value(&solution, key)
             .unwrap_or_else(|| panic!("no {key}, {:?}: {inputs:?}", solution.withheld));
         let (off, condition) = (row.off(key, found), row.conditions[key]);
-        let place = || {
-            format!(
-                "{key}, condition {condition:e}, {:?}, Delta {:e} m",
-                row.corner, solution.deviation.total
-            )
-        };
+        let (corner, delta) = (row.corner, solution.deviation.total);
+        let place = || format!("{key}, condition {condition:e}, {corner:?}, Delta {delta:e} m");
         worst.meet(off, place);
         let promised = if accurate { ACCURATE } else { DEFAULT };
         let bound = promised.max(AMPLIFICATION * ROUNDING * condition);
@@ -90,11 +82,6 @@ fn hold(row: &Row, accurate: bool, worst: &mut Worst) {
             worst.beyond.push(format!("off by {off:e}, above {bound:e}: {}, {inputs:?}", place()));
         }
     }
-}
-
-fn value(solution: &Solution, key: &str) -> Option<f64> {
-    let quantity = Quantity::find(key).unwrap_or_else(|| panic!("no quantity {key}"));
-    (quantity.value)(solution)
 }
 
 #[test]
@@ -115,13 +102,8 @@ fn every_frozen_row_within_its_bound() {
 #[test]
 fn frozen_rows_cover_every_quantity_and_decade() {
     let rows = rows::frozen();
-    for key in [
-        "approach_angle_driven",
-        "sliding_velocity",
-        "impact_force",
-        "friction_ratio",
-        "impulse_ratio",
-    ] {
+    let keys = "approach_angle_driven sliding_velocity impact_force friction_ratio impulse_ratio";
+    for key in keys.split(' ') {
         let count = rows.iter().filter(|row| row.answers.contains_key(key)).count();
         assert!(count > 300, "{key} is in {count} rows");
     }
@@ -151,10 +133,7 @@ fn fresh_pairs_within_their_bounds() {
             let Some(row) = Row::of(corner, inputs.clone()) else {
                 let position =
                     solve(&inputs, Stages::CLOSED_FORM).ok().and_then(|solution| solution.position);
-                assert!(
-                    position.is_none(),
-                    "a contact that the oracle does not find, seed {seed}: {inputs:?}"
-                );
+                assert!(position.is_none(), "{seed} {inputs:?}");
                 continue;
             };
             hold(&row, false, &mut worst);

@@ -15,10 +15,7 @@ fn a_closed_form_solve_does_not_allocate() {
                 let count = allocation_counter::measure(|| {
                     black_box(solve(black_box(&inputs), Stages::CLOSED_FORM).is_ok());
                 });
-                assert_eq!(
-                    count.count_total, 0,
-                    "{method:?}, accurate {accurate}, deflection {deflection:?}"
-                );
+                assert_eq!(count.count_total, 0, "{method:?} {accurate} {deflection:?}");
             }
         }
     }

@@ -47,11 +47,7 @@ fn auto_chooses_the_method_that_a_trade_recommends_at_its_cost() {
         let chosen = solved(&inputs).expect("a solution");
         let name = format!("{name} within {within}");
         let place = |method| METHODS.iter().position(|&one| one == method);
-        assert!(
-            place(chosen.method) >= place(recommended),
-            "{name}: {:?} for {recommended:?}",
-            chosen.choice
-        );
+        assert!(place(chosen.method) >= place(recommended), "{name} {:?}", chosen.choice);
         // Without contact the closed form is right and has no force.
         if chosen.outcome == Outcome::NoCornerContact && recommended == Method::Exact {
             assert!(chosen.static_load.is_some() || chosen.dynamic.is_some(), "{name}");
@@ -67,10 +63,7 @@ fn auto_chooses_the_method_that_a_trade_recommends_at_its_cost() {
         // The choice itself runs closed forms, which take microseconds while the other methods take
         // milliseconds.
         let closed_form = Stages::CLOSED_FORM.iter().count() as f64;
-        assert!(
-            stages <= 1.5 * named_stages + closed_form + 1.0,
-            "{name}: {stages} for {named_stages}"
-        );
+        assert!(stages <= 1.5 * named_stages + closed_form + 1.0, "{name} {stages} {named_stages}");
         let evaluated = if named_evaluations > 0.0 { evaluations / named_evaluations } else { 1.0 };
         assert!(evaluated <= 1.5, "{name}: {evaluations} for {named_evaluations}");
     }
@@ -80,14 +73,10 @@ fn auto_chooses_the_method_that_a_trade_recommends_at_its_cost() {
 
 /// Greatest difference from `dynamic` at 1e-8.
 fn off(inputs: &Inputs, method: Method, truth: &Answer) -> Option<f64> {
-    let answer =
-        Answer::of(&solved(&Inputs { method, stations: Some(512), ..inputs.clone() }).ok()?);
-    Some(
-        Subject::ALL
-            .into_iter()
-            .filter_map(|subject| answer.off(truth, subject))
-            .fold(0.0, f64::max),
-    )
+    let inputs = Inputs { method, stations: Some(512), ..inputs.clone() };
+    let answer = Answer::of(&solved(&inputs).ok()?);
+    let all = Subject::ALL.into_iter().filter_map(|subject| answer.off(truth, subject));
+    Some(all.fold(0.0, f64::max))
 }
 
 #[test]
@@ -111,25 +100,18 @@ fn auto_is_never_wrong_on_other_pairs_and_seldom_too_expensive() {
         for (within, agreed) in WITHINS.into_iter().zip(&mut agreed) {
             let chosen = solved(&by_choice(&inputs, within)).expect("a solution");
             let is_within = |at: usize| errors[at].is_some_and(|off| off <= within);
-            let at = auto::METHODS
-                .iter()
-                .position(|&method| method == chosen.method)
-                .expect("one of them");
+            let at = auto::METHODS.iter().position(|&method| method == chosen.method);
+            let at = at.expect("one of them");
             if !is_within(at) {
-                wrong.push(format!(
-                    "{number} within {within}: {:?} is off by {:?}",
-                    chosen.choice, errors[at]
-                ));
+                let (choice, off) = (&chosen.choice, errors[at]);
+                wrong.push(format!("{number} within {within}: {choice:?} is off by {off:?}"));
             }
             // Without contact the closed form, the first method, has no force.
             let first = usize::from(chosen.outcome == Outcome::NoCornerContact);
             *agreed += usize::from((first..at).all(|cheaper| !is_within(cheaper)));
         }
     }
-    println!(
-        "the cheapest method within {WITHINS:?} for {agreed:?} of {looked_at} pairs; for the \
-            others a dearer one"
-    );
+    println!("the cheapest method within {WITHINS:?} for {agreed:?} of {looked_at} pairs");
     assert!(wrong.is_empty(), "not good enough: {wrong:#?}");
     assert!(agreed.iter().all(|&agreed| 5 * agreed >= 4 * looked_at), "{agreed:?} of {looked_at}");
 }

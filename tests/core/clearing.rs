@@ -60,10 +60,7 @@ fn assert_kept(name: &str, inputs: &Inputs, solution: &Solution) {
         return;
     }
     let relief = clearing.relief.unwrap_or_else(|| panic!("{name}: {:?}", clearing.withheld));
-    assert!(
-        !strikes(inputs, given + relief * (1.0 + 1e-9) + 1e-18),
-        "{name}: {relief:e} does not stop it"
-    );
+    assert!(!strikes(inputs, given + relief * (1.0 + 1e-9) + 1e-18), "{name} {relief:e}");
     let less = (relief * (1.0 - 1e-4)).min(relief - 2e-12).max(0.0);
     assert!(strikes(inputs, given + less), "{name}: less than {relief:e} stops it");
 }
@@ -87,11 +84,8 @@ fn the_required_relief_prevents_contact_and_less_does_not_for_any_shape_and_leng
                 let driven = Gear { tip_relief_length: length, ..inputs.driven.clone() };
                 let inputs = Inputs { method, relief_shape: shape, driven, ..inputs.clone() };
                 let solution = solved(&inputs).expect("a solution");
-                assert_kept(
-                    &format!("{name}, {}, {shape:?} over {length:?}", method.name()),
-                    &inputs,
-                    &solution,
-                );
+                let name = format!("{name}, {}, {shape:?} over {length:?}", method.name());
+                assert_kept(&name, &inputs, &solution);
                 *striking += u32::from(solution.outcome == Outcome::CornerContact);
             }
         }
@@ -140,19 +134,12 @@ fn the_required_relief_prevents_contact_when_it_is_typed_in() {
             };
             for system in System::ALL {
                 let Some(words) = relief_words(&solution, system, None) else { continue };
-                let read = |text: &str| {
-                    parse(text, Dimension::Length, "")
-                        .unwrap_or_else(|error| panic!("{words:?}: {error:?}"))
-                };
+                let read = |text: &str| parse(text, Dimension::Length, "").expect("a length");
                 let (more, total) = figures(&words);
                 let in_all = total.as_deref().map(read);
                 let sum = given + read(&more);
                 for relief in in_all.into_iter().chain([sum]) {
-                    assert!(
-                        !strikes(&inputs, relief),
-                        "pair {number}, {}, from {given:e}: {words:?}",
-                        method.name()
-                    );
+                    assert!(!strikes(&inputs, relief), "{number} {} {given:e}", method.name());
                     looked_at += 1;
                 }
             }
@@ -209,12 +196,9 @@ fn the_required_relief_in_full_digits_is_enough_in_every_unit() {
             }
             inputs.driven.tip_relief =
                 [0.0, 1e-6, 3.217e-6, 0.1e-3 * module][number as usize / 4 % 4];
-            let Some(solution) = solved(&inputs).filter(|solution| !rattles(solution)) else {
-                continue;
-            };
-            let Some(relief) = solution.clearing.and_then(|clearing| clearing.relief) else {
-                continue;
-            };
+            let solution = solved(&inputs).filter(|solution| !rattles(solution));
+            let relief = solution.as_ref().and_then(|solution| solution.clearing?.relief);
+            let Some((solution, relief)) = solution.zip(relief) else { continue };
             looked_at[at] += 1;
             for unit in ["m", "mm", "um", "in", "thou"] {
                 let relief = applied(&inputs, relief, unit);
@@ -236,10 +220,8 @@ fn the_required_relief_in_full_digits_is_enough_in_every_unit() {
             // A relief that reaches F also eases the pair ahead: less relief can then be enough.
             let is_long = inputs.driven.tip_relief_length.is_some();
             if !is_long && !strikes(&inputs, inputs.driven.tip_relief + less.max(0.0)) {
-                failed.push(format!(
-                    "pair {number}, {}: less than {relief:e} is enough",
-                    method.name()
-                ));
+                let name = method.name();
+                failed.push(format!("pair {number}, {name}: less than {relief:e} is enough"));
             }
         }
     }
@@ -275,11 +257,7 @@ fn it_is_sought_where_it_is_asked_for_and_nowhere_else() {
             assert!(!alone.ran.has(Stage::Friction) && !alone.ran.has(Stage::Stations), "{name}");
             let runs = alone.clearing.expect("the stage ran").runs;
             let most = if method == Method::Dynamic { 16 } else { 6 };
-            assert!(
-                runs == 0 || method.shares_load() && runs <= most,
-                "{name}, {}: {runs} tries",
-                method.name()
-            );
+            assert!(runs == 0 || method.shares_load() && runs <= most, "{name} {}", method.name());
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Properties of every pair of the envelope.
 //!
 //! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core properties::` checks a million pairs
-//! instead of 25,000.
+//! instead of 12,000.
 use crate::envelope::{Corner, Random, pair};
 use crate::scaling::{factor, scaled};
 use crate::support::{off, on_all_cores, pairs_or, value};
@@ -17,7 +17,7 @@ use tipstrike::model::{
 const WITHOUT_SPREAD: Stages = Stages::CLOSED_FORM.and(Stages::of(Stage::Stations));
 
 fn pairs() -> u64 {
-    pairs_or(25_000)
+    pairs_or(12_000)
 }
 
 /// One pair of a numbered sequence, the same on every machine and on every thread.
@@ -89,10 +89,7 @@ fn examine(inputs: &Inputs, solution: &Solution) {
         let radius = station.radius_driver().expect("an impact");
         let numbers = [station.normal_velocity, station.sliding_velocity, station.force, radius];
         let angles = [station.roll_angle_driver, station.roll_angle_driven];
-        assert!(
-            numbers.iter().chain(&angles).all(|one| one.is_finite()),
-            "{station:?}: {inputs:?}"
-        );
+        assert!(numbers.iter().chain(&angles).all(|one| one.is_finite()), "{station:?} {inputs:?}");
     }
     for note in notes(inputs, solution) {
         assert!(is_sound(&note.message), "{}: {inputs:?}", note.message);

@@ -24,27 +24,19 @@ fn samples() -> Vec<Case> {
         ("driver.tip_relief_length", "3 mm"),
         ("driven.tip_relief_length", "3 mm"),
     ];
-    found.push(changed(&[
-        ("model.deflection", ""),
-        ("model.tooth_compliance", ""),
-        ("operation.friction_coefficient", "0.06"),
-    ]));
-    found.push(changed(&[
-        ("model.tooth_compliance", "beam"),
-        ("model.contact_compliance", "weber"),
-        ("model.deflection", ""),
-    ]));
-    found.push(changed(&[
-        ("driven.tip_radius", "0.4 mm"),
-        ("driver.tip_radius", "0.4 mm"),
-        ("operation.torque", "70 N m"),
-    ]));
-    found.push(changed(&[&relieved[..], &[("pair.centre_distance", "100.2 mm")]].concat()));
-    found.push(changed(&[
-        ("model.stations", "auto"),
-        ("model.contact_compliance", "constant"),
-        ("driven.tip_radius", "0.4 mm"),
-    ]));
+    let (computed, radius) = (("model.deflection", ""), ("driven.tip_radius", "0.4 mm"));
+    let (free, friction) =
+        (("model.tooth_compliance", ""), ("operation.friction_coefficient", "0.06"));
+    let (beam, weber) = (("model.tooth_compliance", "beam"), ("model.contact_compliance", "weber"));
+    let (other, torque) = (("driver.tip_radius", "0.4 mm"), ("operation.torque", "70 N m"));
+    let (auto, constant) = (("model.stations", "auto"), ("model.contact_compliance", "constant"));
+    found.extend([
+        changed(&[computed, free, friction]),
+        changed(&[beam, weber, computed]),
+        changed(&[radius, other, torque]),
+        changed(&[&relieved[..], &[("pair.centre_distance", "100.2 mm")]].concat()),
+        changed(&[auto, constant, radius]),
+    ]);
     found
 }
 
@@ -127,11 +119,7 @@ fn hold(
                 }
                 found.insert(field.key);
                 let given = case.text(index).is_some();
-                assert!(
-                    acting == Acting::Yes || !given,
-                    "method {method}: {} is reported as {acting:?}; {text} changes a result",
-                    field.key
-                );
+                assert!(acting == Acting::Yes || !given, "{method} {} {acting:?}", field.key);
             }
         }
     }
@@ -143,10 +131,7 @@ fn the_relevant_fields_are_those_that_change_a_result() {
     for method in ["paper", "exact"] {
         let (said, found) = hold(method, &samples(), false);
         let idle: Vec<_> = said.difference(&found).collect();
-        assert!(
-            idle.is_empty(),
-            "method {method}: reported as relevant, but no change has an effect: {idle:?}"
-        );
+        assert!(idle.is_empty(), "{method} {idle:?}");
         let more: Vec<_> = found.difference(&said).collect();
         assert!(more.is_empty(), "method {method}: reported as idle, but has an effect: {more:?}");
     }
@@ -176,10 +161,8 @@ fn each_method_has_its_idle_fields() {
         ("operation.friction_coefficient", &["paper", "exact"]),
         ("driver.density", &[]),
     ] {
-        let found: Vec<&str> = ["paper", "exact", "static", "dynamic", "auto"]
-            .into_iter()
-            .filter(|method| idle(method, key))
-            .collect();
+        let mut found = vec!["paper", "exact", "static", "dynamic", "auto"];
+        found.retain(|method| idle(method, key));
         assert_eq!(found, methods, "{key}");
     }
 }
@@ -203,11 +186,7 @@ fn a_field_stays_in_use_while_a_required_value_is_missing() {
         let inputs = partial.read().0;
         for key in ["operation.power", "operation.speed", "pair.module", "driver.face_width"] {
             let field = index_of(key).unwrap();
-            assert_eq!(
-                relevance(field, &inputs),
-                relevance(field, &whole),
-                "{key} without {missing}"
-            );
+            assert_eq!(relevance(field, &inputs), relevance(field, &whole), "{key} {missing}");
         }
     }
 }

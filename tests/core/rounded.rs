@@ -46,19 +46,12 @@ fn pair(method: Method, tip_radius: Option<f64>) -> Inputs {
 
 #[test]
 fn a_vanishing_tip_radius_gives_the_geometry_of_a_sharp_tip() {
-    let keys = [
-        "contact_ratio",
-        "approach_angle_driven",
-        "contact_radius_driver",
-        "contact_radius_driven",
-        "contact_normal_radius_driven",
-        "normal_velocity",
-        "sliding_velocity",
-    ];
+    let keys = "contact_ratio approach_angle_driven contact_radius_driver contact_radius_driven \
+        contact_normal_radius_driven normal_velocity sliding_velocity";
     let sharp = solve(&pair(Method::Exact, None), Stages::ALL).unwrap();
     for radius in [1e-6, 1e-8, 1e-10] {
         let rounded = solve(&pair(Method::Exact, Some(radius)), Stages::ALL).unwrap();
-        for key in keys {
+        for key in keys.split(' ') {
             let off = (value(&rounded, key) / value(&sharp, key) - 1.0).abs();
             assert!(off < 20.0 * radius / 4e-3, "{key} off by {off:e} at {radius:e} m");
         }

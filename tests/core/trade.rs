@@ -36,11 +36,8 @@ fn traded_table_1() -> &'static Trade {
 }
 
 fn of<'a>(trade: &'a Trade, setting: &Setting) -> &'a MeasuredSetting {
-    trade
-        .settings
-        .iter()
-        .find(|measured| measured.setting == *setting)
-        .unwrap_or_else(|| panic!("no {setting}"))
+    let found = trade.settings.iter().find(|measured| measured.setting == *setting);
+    found.unwrap_or_else(|| panic!("no {setting}"))
 }
 
 fn numerical(measured: &MeasuredSetting, subject: Subject) -> f64 {
@@ -131,11 +128,8 @@ fn no_setting_qualifies_for_an_unreachable_tolerance() {
 #[test]
 fn no_setting_of_the_front_is_worse_than_another_in_both() {
     let trade = traded_table_1();
-    let points: Vec<(f64, f64, bool)> = trade
-        .settings
-        .iter()
-        .filter_map(|one| Some((one.total()?, one.seconds(), trade.is_on_front(one))))
-        .collect();
+    let point = |one: &MeasuredSetting| Some((one.total()?, one.seconds(), trade.is_on_front(one)));
+    let points: Vec<(f64, f64, bool)> = trade.settings.iter().filter_map(point).collect();
     assert!(points.iter().filter(|point| point.2).count() >= 3);
     for point in &points {
         let beaten = points.iter().any(|other| {
@@ -159,12 +153,7 @@ fn errors_fall_with_stations_and_are_below_the_tolerance() {
             )
         };
         for pair in STATIONS.windows(2) {
-            assert!(
-                off(pair[1]) < off(pair[0]),
-                "{method:?} {pair:?}: {:e} {:e}",
-                off(pair[0]),
-                off(pair[1])
-            );
+            assert!(off(pair[1]) < off(pair[0]), "{method:?} {pair:?} {:e}", off(pair[0]));
         }
         // At a corner of the curve the error is proportional to the distance to the nearest
         // station, which falls with their number; the position of the corner between two stations
@@ -193,17 +182,11 @@ fn only_needed_subjects_count_if_a_method_lacks_some() {
     for measured in trade.settings.iter().filter(is_fine) {
         let figures = measured.found.as_ref().unwrap();
         let has_ratio = figures.numerical[Subject::FrictionRatio as usize].is_some();
-        assert_eq!(
-            has_ratio,
-            matches!(figures.taken.method, Method::Paper | Method::Exact),
-            "{}",
-            measured.setting
-        );
+        let is_closed = matches!(figures.taken.method, Method::Paper | Method::Exact);
+        assert_eq!(has_ratio, is_closed, "{}", measured.setting);
         assert_eq!(figures.total[Subject::FrictionRatio as usize], None);
-        assert_eq!(
-            figures.total[Subject::Duration as usize].is_some(),
-            figures.taken.method != Method::Static
-        );
+        let has_duration = figures.total[Subject::Duration as usize].is_some();
+        assert_eq!(has_duration, figures.taken.method != Method::Static);
         assert!(measured.total().is_some());
     }
 }
@@ -222,9 +205,9 @@ fn the_cases_own_setting_is_there_and_marked() {
 
 #[test]
 fn no_corner_contact_by_both_is_agreement() {
-    let inputs = table::inputs(
-        &table::cases().into_iter().find(|path| path.ends_with("tip-relief-enough.toml")).unwrap(),
-    );
+    let mut cases = table::cases().into_iter();
+    let relieved = cases.find(|path| path.ends_with("tip-relief-enough.toml"));
+    let inputs = table::inputs(&relieved.unwrap());
     let trade = traded(&inputs, 0.05);
     let exact = of(&trade, &Setting::usual(Method::Exact, &table_1()));
     assert_eq!(exact.found.as_ref().unwrap().total[Subject::FirstContact as usize], Some(0.0));
@@ -253,12 +236,8 @@ fn a_method_that_refuses_is_listed_with_its_reason() {
     let (text, json) = (text(&trade), json(&trade));
     assert!(text.contains("No reference: method dynamic refuses the case"), "{text}");
     assert!(json["no_reference"].is_string() && json.get("reference").is_none());
-    let refused: Vec<&Value> = json["settings"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .filter(|one| one["refusal"].is_string())
-        .collect();
+    let all = json["settings"].as_array().unwrap().iter();
+    let refused: Vec<&Value> = all.filter(|one| one["refusal"].is_string()).collect();
     assert!(!refused.is_empty() && refused.iter().all(|one| one.get("seconds").is_none()));
 }
 
@@ -283,28 +262,15 @@ fn a_trade_reports_its_progress_and_stops_on_request() {
 fn json_has_every_setting_with_its_errors() {
     let trade = traded_table_1();
     let object = json(trade);
-    assert_eq!(
-        (&object["case"], &object["title"], &object["within"]),
-        (&"case.toml".into(), &"a title".into(), &0.05.into())
-    );
+    assert_eq!((&object["case"], &object["title"]), (&"case.toml".into(), &"a title".into()));
+    assert_eq!(object["within"], 0.05);
     assert_eq!(object["reference"]["tolerance"], 1e-12);
     assert!(object["reference"]["quantities"]["dynamic_peak_force"].as_f64().unwrap() > 1000.0);
     let settings = object["settings"].as_array().unwrap();
     assert_eq!(settings.len(), trade.settings.len());
     for setting in settings {
-        for key in [
-            "method",
-            "stations",
-            "accurate",
-            "seconds",
-            "spread",
-            "errors",
-            "total",
-            "pareto",
-            "qualifies",
-        ] {
-            assert!(setting.get(key).is_some(), "{key}: {setting}");
-        }
+        let keys = "method stations accurate seconds spread errors total pareto qualifies";
+        assert!(keys.split(' ').all(|key| setting.get(key).is_some()), "{setting}");
         let dynamic = setting["method"] == "dynamic";
         assert_eq!(setting.get("tolerance").is_some(), dynamic, "{setting}");
         let total = setting["errors"]["curve"]["total"].as_f64().unwrap();
@@ -370,19 +336,13 @@ fn cost_grows_linearly_with_cycles_and_stations() {
     let (few, some, many) =
         (evaluations(0.0, 20, 64), evaluations(0.0, 40, 64), evaluations(0.0, 160, 64));
     let ratio = slope(some, many, 120.0) / slope(few, some, 20.0);
-    assert!(
-        (0.8..1.25).contains(&ratio),
-        "a cycle costs {ratio} times as much later on: {few} {some} {many}"
-    );
+    assert!((0.8..1.25).contains(&ratio), "{ratio} {few} {some} {many}");
     let (few, many) = (evaluations(0.07, 20, 64), evaluations(0.07, 1000, 64));
     assert!(many < 1.1 * few, "a repeated cycle is free: {few} {many}");
     let (few, some, many) =
         (evaluations(0.07, 20, 64), evaluations(0.07, 20, 128), evaluations(0.07, 20, 1024));
     let ratio = slope(some, many, 896.0) / slope(few, some, 64.0);
-    assert!(
-        (0.9..1.1).contains(&ratio),
-        "a station costs {ratio} times as much later on: {few} {some} {many}"
-    );
+    assert!((0.9..1.1).contains(&ratio), "{ratio} {few} {some} {many}");
 }
 
 #[test]

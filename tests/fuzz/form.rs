@@ -16,11 +16,12 @@ use ratatui::layout::{Rect, Size};
 use tempfile::TempDir;
 use tipstrike::case::fields::Kind;
 use tipstrike::case::{Case, Document};
+use tipstrike::model::Stage;
 use tipstrike::model::inputs::Method;
 use tipstrike::tui::testing::store::recents;
 use tipstrike::tui::testing::{
-    Action, App, Autosave, Effect, Event, JournalWriter, Look, Prompt, Request, Slot, State, Work,
-    effects, opened, rows, solver, store, take_action, update, view,
+    Action, Answer, App, Autosave, Effect, Event, JournalWriter, Look, Prompt, Request, Slot,
+    State, Work, effects, opened, rows, solver, store, take_action, update, view,
 };
 
 use crate::values::{HOSTILE, field_and_text};
@@ -165,12 +166,8 @@ impl Bench {
         let read = Document::read_draft(&path).ok();
         let path = read.is_some().then_some(path);
         let look = Look { ascii, ..Look::FULL };
-        let app = opened(
-            read.unwrap_or_else(store::built_in),
-            path,
-            look,
-            Size { width: 80, height: 24 },
-        );
+        let size = Size { width: 80, height: 24 };
+        let app = opened(read.unwrap_or_else(store::built_in), path, look, size);
         let home = tempfile::tempdir().expect("a folder");
         let state = State { folder: Some(home.path().to_owned()), ..State::default() };
         let first = app.tab.case.clone();
@@ -190,9 +187,8 @@ impl Bench {
 
     fn take(&mut self, happening: Happening) {
         let letters = |text: String| {
-            text.chars()
-                .map(|letter| Event::Input(Input::Key(key(KeyCode::Char(letter)))))
-                .collect::<Vec<_>>()
+            let press = |letter| Event::Input(Input::Key(key(KeyCode::Char(letter))));
+            text.chars().map(press).collect::<Vec<_>>()
         };
         match happening {
             Happening::Key(key, times) => self.feed(presses(key, times)),
@@ -202,23 +198,18 @@ impl Bench {
                 self.feed([Event::Input(Input::Resize(width, height))]);
             }
             Happening::Fill(field, text) => {
-                let steps = presses(key(KeyCode::Down), field);
-                self.feed([Event::Input(Input::Key(KeyEvent::new(
-                    KeyCode::Home,
-                    KeyModifiers::CONTROL,
-                )))]);
-                self.feed(steps);
-                self.feed([Event::Input(Input::Key(ctrl('u')))]);
-                self.feed(letters(text));
+                let first = KeyEvent::new(KeyCode::Home, KeyModifiers::CONTROL);
+                let moves = [presses(first, 1), presses(key(KeyCode::Down), field)];
+                let typed = [presses(ctrl('u'), 1), letters(text)];
+                self.feed(moves.into_iter().chain(typed).flatten());
             }
             Happening::Open(name) => {
-                self.feed([Event::Input(Input::Key(ctrl('o')))]);
-                self.feed(letters(name));
-                self.feed([Event::Input(Input::Key(key(KeyCode::Enter)))]);
+                let enter = presses(key(KeyCode::Enter), 1);
+                self.feed([presses(ctrl('o'), 1), letters(name), enter].into_iter().flatten());
             }
             Happening::Meddle(text) => {
                 fs::write(self.folder.path().join("case.toml"), text).expect("room on the disk");
-                self.feed([Event::Input(Input::Key(ctrl('s')))]);
+                self.feed(presses(ctrl('s'), 1));
             }
         }
         // The worker often answers late.
@@ -306,12 +297,8 @@ impl Bench {
             }
             Effect::Work(number, mut work) => match work.slot {
                 Slot::Solve => {
-                    let request = self.app.tab.request();
-                    assert_eq!(
-                        self.app.tab.case.inputs().as_ref(),
-                        Ok(&request.inputs),
-                        "only valid cases reach the model"
-                    );
+                    let (request, valid) = (self.app.tab.request(), self.app.tab.case.inputs());
+                    assert_eq!(valid.as_ref(), Ok(&request.inputs), "only valid cases are solved");
                     self.waiting = Some(request);
                     Vec::new()
                 }
@@ -358,7 +345,13 @@ impl Bench {
 
     fn answer(&mut self) {
         if let Some(request) = self.waiting.take() {
-            self.app.take(solver::answer(&request));
+            let mut quick = request.clone();
+            // Slices over the speed take seconds: the worker still computes them.
+            if request.inputs.face().is_some() {
+                quick.stages = request.stages.without(Stage::SpeedRun);
+            }
+            let answer = solver::answer(&quick);
+            self.app.take(Answer { requested: request.stages, ..answer });
             self.act(Action::Tick);
         }
     }
@@ -372,17 +365,12 @@ impl Bench {
             // While a number is typed, its unit may be that of the field, and it may have
             // surrounding blanks.
             let said = if is_words || !app.has_line() { line.as_str() } else { line.trim() };
-            assert_eq!(
-                said,
-                rows::text(&app.tab.case, app.tab.form.focus).unwrap_or_default(),
-                "the line is the row's"
-            );
+            let row = rows::text(&app.tab.case, app.tab.form.focus).unwrap_or_default();
+            assert_eq!(said, row, "the line is the row's");
         }
         assert_eq!(app.tab.problems.is_empty(), app.tab.case.inputs().is_ok());
-        assert!(
-            app.tabs().all(|tab| self.on_disk.contains(&tab.saved)),
-            "the mark shows whether the file differs"
-        );
+        let is_known = app.tabs().all(|tab| self.on_disk.contains(&tab.saved));
+        assert!(is_known, "the mark shows whether the file differs");
         let inputs = app.tab.case.inputs().ok();
         let is_pending = app.tab.is_stale() || self.waiting.is_some();
         if let (Some(inputs), Some(answer), false) = (inputs, &app.tab.answer, is_pending) {
@@ -406,17 +394,10 @@ impl Bench {
             let is_wrong = |letter| is_hostile(letter) || self.app.look.ascii && !letter.is_ascii();
             assert!(!cell.symbol().contains(is_wrong), "{:?} on the screen", cell.symbol());
         }
-        let is_marked = buffer
-            .content
-            .iter()
-            .map(ratatui::buffer::Cell::symbol)
-            .collect::<String>()
-            .contains("*unsaved*");
-        if size.width >= 80
-            && size.height >= 24
-            && self.app.prompts.is_empty()
-            && self.app.others.is_empty()
-        {
+        let symbols = buffer.content.iter().map(ratatui::buffer::Cell::symbol);
+        let is_marked = symbols.collect::<String>().contains("*unsaved*");
+        let is_alone = self.app.prompts.is_empty() && self.app.others.is_empty();
+        if size.width >= 80 && size.height >= 24 && is_alone {
             assert_eq!(is_marked, self.app.tab.is_unsaved());
         }
     }
@@ -435,7 +416,7 @@ impl Bench {
 
     fn repeat(&mut self, key: KeyEvent, end: &str) {
         for _ in 0..1000 {
-            self.feed([Event::Input(Input::Key(key))]);
+            self.feed(presses(key, 1));
             if self.app.message.as_ref().is_some_and(|message| message.text == end) {
                 self.answer();
                 return;

@@ -262,12 +262,9 @@ impl Desk {
     /// The screen as text, with `DIR` for the folder of the test, without trailing blanks.
     pub(crate) fn screen_at(&self, size: Size) -> String {
         let folder = self.folder.path().display().to_string();
-        let lines: Vec<String> = self
-            .rows(size)
-            .iter()
-            .map(|row| row.replace(&folder, "DIR").trim_end().to_owned())
-            .collect();
-        lines.join("\n")
+        let rows = self.rows(size).into_iter();
+        let lines = rows.map(|row| row.replace(&folder, "DIR").trim_end().to_owned());
+        lines.collect::<Vec<_>>().join("\n")
     }
 
     pub(crate) fn shows(&self, text: &str) -> bool {
@@ -315,12 +312,9 @@ impl Desk {
     }
 
     fn rows(&self, size: Size) -> Vec<String> {
-        let width = usize::from(size.width.max(1));
-        self.buffer(size)
-            .content
-            .chunks(width)
-            .map(|row| row.iter().map(Cell::symbol).collect())
-            .collect()
+        let buffer = self.buffer(size);
+        let rows = buffer.content.chunks(usize::from(size.width.max(1)));
+        rows.map(|row| row.iter().map(Cell::symbol).collect()).collect()
     }
 
     /// The screen with its styles.
@@ -406,32 +400,27 @@ pub(crate) fn without_folder(desk: &Desk) -> String {
 }
 
 pub(crate) fn named(key: &str) -> Option<KeyEvent> {
+    use KeyCode::{
+        BackTab, Backspace, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right,
+        Tab, Up,
+    };
     let (modifiers, name) = match key.split_once('-') {
         Some(("Ctrl", name)) => (KeyModifiers::CONTROL, name),
         Some(("Alt", name)) => (KeyModifiers::ALT, name),
         Some(("Shift", name)) => (KeyModifiers::SHIFT, name),
         _ => (KeyModifiers::NONE, key),
     };
-    let code = match name {
-        "Up" => KeyCode::Up,
-        "Down" => KeyCode::Down,
-        "Left" => KeyCode::Left,
-        "Right" => KeyCode::Right,
-        "Home" => KeyCode::Home,
-        "End" => KeyCode::End,
-        "PageUp" => KeyCode::PageUp,
-        "PageDown" => KeyCode::PageDown,
-        "Tab" => KeyCode::Tab,
-        "BackTab" => KeyCode::BackTab,
-        "Enter" => KeyCode::Enter,
-        "Esc" => KeyCode::Esc,
-        "Backspace" => KeyCode::Backspace,
-        "Delete" => KeyCode::Delete,
-        "Space" => KeyCode::Char(' '),
-        _ if modifiers != KeyModifiers::NONE => {
+    let all = [
+        Up, Down, Left, Right, Home, End, PageUp, PageDown, Tab, BackTab, Enter, Esc, Backspace,
+        Delete,
+    ];
+    let code = match all.into_iter().find(|code| format!("{code:?}") == name) {
+        Some(code) => code,
+        None if name == "Space" => KeyCode::Char(' '),
+        None if modifiers != KeyModifiers::NONE => {
             KeyCode::Char(name.chars().next()?.to_ascii_lowercase())
         }
-        _ => KeyCode::F(name.strip_prefix('F')?.parse().ok()?),
+        None => KeyCode::F(name.strip_prefix('F')?.parse().ok()?),
     };
     Some(KeyEvent::new(code, modifiers))
 }

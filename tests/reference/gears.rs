@@ -70,12 +70,7 @@ fn the_field_agrees_with_finite_elements_of_another_program() {
                 (teeth, 1.0) if *teeth == 28 => 7e-3,
                 _ => tolerance,
             };
-            assert!(
-                off.abs() < tolerance,
-                "z {} at {}, {key}: {off}",
-                row["teeth"],
-                row["fraction"]
-            );
+            assert!(off.abs() < tolerance, "{} {} {key} {off}", row["teeth"], row["fraction"]);
         }
     }
 }

@@ -31,11 +31,8 @@ fn saver() {
     let Ok(mut document) = Document::read(&path) else { std::process::exit(REFUSED) };
     document.case.write(fields::index_of("pair.module").expect("a field"), "6 mm");
     let result = document.save(&path);
-    assert_eq!(
-        document.is_changed(),
-        result.is_err(),
-        "the buffer is unsaved until the file is in place"
-    );
+    let is_unsaved = document.is_changed();
+    assert_eq!(is_unsaved, result.is_err(), "the buffer is unsaved until the file is in place");
     match result {
         Ok(_) => std::process::exit(SAVED),
         Err(error) => {
@@ -51,11 +48,8 @@ fn saver() {
 fn saver_command(wrapper: &[&str], target: &Path) -> Command {
     let own = env::current_exe().expect("a path");
     let own = own.to_str().expect("a name in UTF-8");
-    let words: Vec<&str> = wrapper
-        .iter()
-        .copied()
-        .chain([own, "--exact", "faults::saver", "--test-threads=1", "--quiet"])
-        .collect();
+    let test = [own, "--exact", "faults::saver", "--test-threads=1", "--quiet"];
+    let words = [wrapper, &test].concat();
     let mut command = Command::new(words[0]);
     command
         .args(&words[1..])
@@ -122,10 +116,7 @@ fn under_every_fault(fault: &str, run: impl Fn(&[&str]) -> Output) -> usize {
                 break;
             }
             hits += 1;
-            assert!(
-                is_injected || output.status.signal().is_some(),
-                "{fault}: it fails unhurt: {output:?}"
-            );
+            assert!(is_injected || output.status.signal().is_some(), "{fault} {output:?}");
         }
     }
     hits
@@ -135,22 +126,14 @@ fn under_every_fault(fault: &str, run: impl Fn(&[&str]) -> Output) -> usize {
 fn made(run: &impl Fn(&[&str]) -> Output) -> Vec<&'static str> {
     let (output, log) = traced(&["-e", &format!("trace={CALLS}")], run);
     assert!(output.status.success(), "{output:?}");
-    assert!(
-        ["openat(", "write(", "fsync(", "rename"].iter().all(|call| log.contains(call)),
-        "not the calls of a save: {log}"
-    );
+    let is_save = ["openat(", "write(", "fsync(", "rename"].iter().all(|call| log.contains(call));
+    assert!(is_save, "not the calls of a save: {log}");
     // The data is on the disk before the rename, and the folder before the save returns.
     let calls: Vec<_> =
         log.lines().filter(|line| line.contains("fsync(") || line.contains("rename")).collect();
     let at = calls.iter().position(|line| line.contains("rename")).expect("a name");
-    assert!(
-        calls[..at].iter().any(|line| line.contains("fsync(")),
-        "not on the disk before it is in place: {log}"
-    );
-    assert!(
-        calls[at..].iter().any(|line| line.contains("fsync(")),
-        "its name is not on the disk: {log}"
-    );
+    assert!(calls[..at].iter().any(|line| line.contains("fsync(")), "{log}");
+    assert!(calls[at..].iter().any(|line| line.contains("fsync(")), "{log}");
     CALLS.split(',').filter(|call| log.contains(&format!(" {call}("))).collect()
 }
 
@@ -198,24 +181,14 @@ fn a_new_case_is_there_whole_or_not_at_all_at_every_fault() {
             let folder = tempfile::tempdir().expect("a folder");
             let path = folder.path().join("new.toml");
             let mut command = Command::new(strace[0]);
-            command
-                .args(&strace[1..])
-                .args([PROGRAM, "new"])
-                .arg(&path)
-                .env_remove("LD_LIBRARY_PATH");
-            let output = command.output().expect("strace starts");
+            command.args(&strace[1..]).args([PROGRAM, "new"]).arg(&path);
+            let output = command.env_remove("LD_LIBRARY_PATH").output().expect("strace starts");
             match fs::read(&path) {
                 Ok(text) => assert_eq!(text, whole, "{fault}: half a file"),
-                Err(_) => assert!(
-                    !output.status.success(),
-                    "{fault}: reported as written, but is missing"
-                ),
+                Err(_) => assert!(!output.status.success(), "{fault}: reported as written"),
             }
             let left = fs::read_dir(folder.path()).expect("a folder").count();
-            assert!(
-                !error_of(fault) || left <= usize::from(path.exists()),
-                "{fault}: a file is left over"
-            );
+            assert!(!error_of(fault) || left <= usize::from(path.exists()), "{fault}");
             output
         });
         println!("new, {fault}: {steps} steps");
@@ -233,30 +206,20 @@ fn a_limit_on_the_size_of_files_is_reported_and_leaves_the_old_file() {
         for most in [0, 1, 500] {
             let (folder, path) = folder_with_case();
             let limit = format!("--fsize={most}");
-            let output = saver_command(&["sh", "-c", shell, "sh", "prlimit", &limit], &path)
-                .output()
-                .expect("sh starts");
+            let limited = ["sh", "-c", shell, "sh", "prlimit", &limit];
+            let output = saver_command(&limited, &path).output().expect("sh starts");
             let code = output.status.code();
             assert!(!ignored || code == Some(REFUSED), "{most}: {output:?}");
             assert_old_or_new(&path, code, "file size limit");
             assert_eq!(fs::read_to_string(&path).expect("it is there"), TABLE_1);
             let new = folder.path().join("new.toml");
-            let output = Command::new("sh")
-                .args(["-c", shell, "sh", "prlimit", &limit, PROGRAM, "new"])
-                .arg(&new)
-                .output();
-            let output = output.expect("sh starts");
-            assert_eq!(
-                output.status.code(),
-                Some(REFUSED),
-                "the program ignores the signal itself: {output:?}"
-            );
+            let mut command = Command::new("sh");
+            command.args([&limited[1..], &[PROGRAM, "new"]].concat()).arg(&new);
+            let output = command.output().expect("sh starts");
+            assert_eq!(output.status.code(), Some(REFUSED), "{output:?}");
             let words = String::from_utf8_lossy(&output.stderr).into_owned();
-            assert!(
-                words.contains("new.toml: cannot be written") && words.lines().count() == 1,
-                "{words}"
-            );
-            assert!(!new.exists());
+            assert!(words.contains("new.toml: cannot be written"), "{words}");
+            assert!(words.lines().count() == 1 && !new.exists(), "{words}");
         }
     }
 }
@@ -304,13 +267,8 @@ fn a_folder_that_may_not_be_written_leaves_the_old_file() {
         &[]
     };
     if is_root {
-        let status = Command::new("chown")
-            .arg("-R")
-            .arg("65534:65534")
-            .arg(folder.path())
-            .status()
-            .expect("chown is there");
-        if !is_there("setpriv") || !status.success() {
+        let status = Command::new("chown").args(["-R", "65534:65534"]).arg(folder.path()).status();
+        if !is_there("setpriv") || !status.expect("chown is there").success() {
             return;
         }
     }
@@ -376,21 +334,15 @@ fn a_file_of_another_user_keeps_its_owner_or_is_not_changed() {
         "--bounding-set=-all",
         "--",
     ];
-    if !is_there("setpriv")
-        || !Command::new(nobody[0])
-            .args(&nobody[1..])
-            .arg("true")
-            .status()
-            .is_ok_and(|status| status.success())
-    {
+    let become_nobody = || Command::new(nobody[0]).args(&nobody[1..]).arg("true").status();
+    if !is_there("setpriv") || !become_nobody().is_ok_and(|status| status.success()) {
         return skip("this process cannot become nobody");
     }
     // In writable folders: one in which everybody may rename every file, and one in which everybody
     // may rename only his own.
-    for (folder_mode, expected) in [(0o777, "belongs to user 0"), (0o1777, "belongs to user 0")] {
+    for mode in [0o777, 0o1777].map(fs::Permissions::from_mode) {
         let (folder, path) = folder_with_case();
-        fs::set_permissions(folder.path(), fs::Permissions::from_mode(folder_mode))
-            .expect("our own folder");
+        fs::set_permissions(folder.path(), mode).expect("our own folder");
         // The access list permits nobody to read only.
         drop(xattr::remove(&path, LIST));
         fs::set_permissions(&path, fs::Permissions::from_mode(0o666)).expect("our own file");
@@ -400,7 +352,8 @@ fn a_file_of_another_user_keeps_its_owner_or_is_not_changed() {
             return skip(&format!("the test cannot be started as nobody: {output:?}"));
         }
         assert_eq!(output.status.code(), Some(REFUSED), "{words}");
-        assert!(words.contains(expected) && words.contains("save under another name"), "{words}");
+        let is_told = words.contains("belongs to user 0");
+        assert!(is_told && words.contains("save under another name"), "{words}");
         assert_eq!(fs::read_to_string(&path).expect("it is there"), TABLE_1);
         let left = fs::read_dir(folder.path()).expect("a folder").count();
         assert_eq!(left, 1, "no other file remains");
@@ -426,15 +379,9 @@ fn a_failed_save_of_the_workbench_is_reported_and_the_edits_stay() {
             assert!(tty.shows("*unsaved*"), "{call} {fault}");
             assert_eq!(fs::read_to_string(tty.case()).expect("it is there"), TABLE_1);
             tty.discard();
-            let left: Vec<_> = fs::read_dir(tty.folder.path())
-                .expect("a folder")
-                .flatten()
-                .map(|entry| entry.file_name())
-                .collect();
-            assert!(
-                left.iter().all(|name| !name.to_string_lossy().starts_with(".tipstrike")),
-                "{left:?}"
-            );
+            let left = fs::read_dir(tty.folder.path()).expect("a folder").flatten();
+            let mut left = left.map(|entry| entry.file_name().to_string_lossy().into_owned());
+            assert!(left.all(|name| !name.starts_with(".tipstrike")), "{call} {fault}");
         }
     }
 }
@@ -474,19 +421,14 @@ fn a_full_output_is_reported_and_a_closed_one_is_not() {
         let (folder, _) = folder_with_case();
         let run = |shell: &str| {
             let line = format!("{PROGRAM} {command} {shell}");
-            Command::new("bash")
-                .args(["-c", &line])
-                .current_dir(folder.path())
-                .output()
-                .expect("bash starts")
+            let mut bash = Command::new("bash");
+            bash.args(["-c", &line]).current_dir(folder.path()).output().expect("bash starts")
         };
         let full = run(">/dev/full");
         let words = String::from_utf8_lossy(&full.stderr).into_owned();
         assert_eq!(full.status.code(), Some(5), "{command}: {words}");
-        assert!(
-            words.contains("standard output: cannot be written") && words.lines().count() == 1,
-            "{command}: {words}"
-        );
+        let is_told = words.contains("standard output: cannot be written");
+        assert!(is_told && words.lines().count() == 1, "{command}: {words}");
         for reader in ["head -c 1 >/dev/null", "true"] {
             let closed = run(&format!("| {reader}; exit ${{PIPESTATUS[0]}}"));
             assert_eq!(closed.status.code(), Some(0), "{command} | {reader}");

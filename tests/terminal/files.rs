@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
 use tipstrike::case::{Document, fields};
-use tipstrike::tui::testing::{Action, Effect, Found, Next, SaveFault, update};
+use tipstrike::tui::testing::{Action, Effect, Found, Next, SaveFault, Tab, update};
 
 fn edited() -> Desk {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
@@ -36,11 +36,12 @@ fn meddle(desk: &Desk, how: &str, text: &str) {
         "older" => time - Duration::from_secs(86400),
         _ => SystemTime::now(),
     };
-    File::options()
-        .write(true)
-        .open(&path)
-        .and_then(|file| file.set_modified(time))
-        .expect("our own file");
+    touch(&path, time);
+}
+
+fn touch(path: &Path, time: SystemTime) {
+    let file = File::options().write(true).open(path);
+    file.and_then(|file| file.set_modified(time)).expect("our own file");
 }
 
 #[test]
@@ -48,22 +49,14 @@ fn a_file_changed_by_another_program_is_refused_and_the_differences_are_shown() 
     for how in ["same time", "older", "newer", "replaced"] {
         let mut desk = edited();
         // The same length as the old text.
-        meddle(
-            &desk,
-            how,
-            &TABLE_1.replace("2000 rpm", "2100 rpm").replace("\"5 mm\"", "\"6 mm\""),
-        );
-        desk.keys(&["Ctrl-S"]);
-        assert!(desk.shows("has changed on disk"), "{how}");
-        desk.assert_at(
-            how,
-            desk.shows("module: 6 mm in the file, 5 mm in the form (changed in the file)"),
-        );
-        desk.assert_at(
-            how,
-            desk.shows("speed: 2100 rpm in the file, 1500 rpm in the form (changed in"),
-        );
-        desk.assert_at(how, desk.shows("[  Reload  ] [  Save as  ] [  Overwrite  ] [> Cancel <]"));
+        let theirs = TABLE_1.replace("2000 rpm", "2100 rpm").replace("\"5 mm\"", "\"6 mm\"");
+        meddle(&desk, how, &theirs);
+        desk.keys(&["Ctrl-S"]).has(&[
+            "has changed on disk",
+            "module: 6 mm in the file, 5 mm in the form (changed in the file)",
+            "speed: 2100 rpm in the file, 1500 rpm in the form (changed in",
+            "[  Reload  ] [  Save as  ] [  Overwrite  ] [> Cancel <]",
+        ]);
         assert!(desk.read("case.toml").contains("2100 rpm") && desk.app.tab.is_unsaved(), "{how}");
     }
 }
@@ -127,18 +120,13 @@ fn a_failed_save_changes_nothing_and_skips_the_next_step() {
         let failed = Action::Saved(desk.path("other.toml"), next.clone(), Err(fault.clone()));
         assert!(update(&mut desk.app, failed).is_empty(), "{fault:?} {next:?}");
         let after = &desk.app.tab;
-        assert_eq!(
-            (&after.path, &after.case, &after.saved),
-            (&before.path, &before.case, &before.saved),
-            "{fault:?} {next:?}"
-        );
-        assert_eq!(after.document.stamp(), before.document.stamp(), "{fault:?} {next:?}");
+        let parts = |tab: &Tab| {
+            (tab.path.clone(), tab.case.clone(), tab.saved.clone(), tab.document.stamp())
+        };
+        assert!(parts(after) == parts(&before), "{fault:?} {next:?}");
         assert!(after.is_unsaved() && desk.app.tabs().count() == 1, "{fault:?} {next:?}");
-        desk.keys(&["Esc", "Esc", "Ctrl-Q"]);
-        desk.assert_at(
-            format!("{fault:?} {next:?}"),
-            desk.shows("has unsaved edits") && !desk.has_quit,
-        );
+        desk.keys(&["Esc", "Esc", "Ctrl-Q"]).assert_shows("has unsaved edits");
+        assert!(!desk.has_quit, "{fault:?} {next:?}");
     }
 }
 
@@ -196,17 +184,10 @@ fn after_a_save_form_and_file_are_equal() {
         assert!(desk.shows("saved ") && !desk.app.tab.is_unsaved(), "{key}\n{}", desk.screen());
         let file = Document::read(&desk.path("case.toml")).expect("a good case");
         assert!(desk.app.tab.case == file.case, "{key}");
-        let field = fields::index_of(key).expect("a field");
-        assert_eq!(
-            desk.app.tab.form.input.value(),
-            file.case.text(field).unwrap_or_default(),
-            "{key}"
-        );
+        let text = file.case.text(fields::index_of(key).expect("a field"));
+        assert_eq!(desk.app.tab.form.input.value(), text.unwrap_or_default(), "{key}");
     }
-    assert_eq!(
-        desk.app.tab.case.text(fields::index_of("driver.teeth").expect("a field")),
-        Some("21")
-    );
+    assert_eq!(desk.text("driver.teeth"), "21");
 }
 
 #[test]
@@ -225,10 +206,7 @@ fn a_path_that_is_no_file_is_reported_without_a_terminal() {
         let output = run(command, name);
         let words = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(5), "{command} {name}: {words}");
-        assert!(
-            output.stdout.is_empty() && words.lines().count() == 1,
-            "{command} {name}: {words}"
-        );
+        assert!(output.stdout.is_empty() && words.lines().count() == 1, "{command} {name} {words}");
         words
     };
     for name in ["pipe", "loop", "dangling", "none", ".", "none/case.toml"] {
@@ -237,9 +215,8 @@ fn a_path_that_is_no_file_is_reported_without_a_terminal() {
     }
     let here = folder.path().display();
     let missing = |name: &str| {
-        format!(
-            "the folder {here}/{name} does not exist: create the folder (mkdir -p '{here}/{name}')"
-        )
+        let folder = format!("{here}/{name}");
+        format!("the folder {folder} does not exist: create the folder (mkdir -p '{folder}')")
     };
     for (name, cause) in [
         ("pipe", "not a regular file".to_owned()),
@@ -392,11 +369,7 @@ fn our_own_save_and_a_mere_touch_are_no_change_of_the_file() {
     tty.type_for("\x156 mm", "6 mm");
     tty.type_for("\x13", "saved ");
     let later = SystemTime::now() + Duration::from_secs(5);
-    File::options()
-        .write(true)
-        .open(tty.case())
-        .and_then(|file| file.set_modified(later))
-        .expect("our own file");
+    touch(&tty.case(), later);
     tty.settle(Duration::from_millis(2500));
     assert!(tty.shows("saved ") && !tty.shows("changed on disk"));
 }

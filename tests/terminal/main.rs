@@ -19,6 +19,7 @@ mod faults;
 mod files;
 mod first_frame;
 mod hostile;
+mod memory;
 mod pty;
 mod recovery;
 mod screen;

@@ -14,10 +14,8 @@ fn it_types_saves_quits_and_gives_the_terminal_back() {
     tty.type_for("\x13", "saved ");
     tty.quit();
     tty.assert_restored();
-    assert_eq!(
-        fs::read_to_string(tty.case()).expect("it is there"),
-        TABLE_1.replace("\"5 mm\"", "\"1 in\"")
-    );
+    let saved = fs::read_to_string(tty.case()).expect("it is there");
+    assert_eq!(saved, TABLE_1.replace("\"5 mm\"", "\"1 in\""));
 }
 
 /// Signals that end a process, and their descriptions by the system.
@@ -98,9 +96,6 @@ fn without_a_terminal_it_names_the_headless_command() {
         let words = String::from_utf8(output.stderr).expect("words");
         assert_eq!(output.status.code(), Some(2), "{term:?}");
         assert!(output.stdout.is_empty(), "{term:?}");
-        assert!(
-            words.contains("tipstrike solve") && words.lines().count() == 1,
-            "{term:?}: {words}"
-        );
+        assert!(words.contains("tipstrike solve") && words.lines().count() == 1, "{term:?}");
     }
 }

@@ -5,7 +5,7 @@ use crate::tty::{Launch, PATIENCE, TABLE_1, Tty, has_faults_on_demand, is_there,
 use std::fs;
 use std::fs::Permissions;
 use std::os::unix::fs::{PermissionsExt, symlink};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -31,12 +31,8 @@ fn again(tty: &Tty) -> Tty {
 
 fn wait_for_journal(tty: &mut Tty, text: &str) {
     let state = tty.folder.path().to_owned();
-    let is_kept = |state: &Path| {
-        journals(state)
-            .iter()
-            .any(|path| fs::read_to_string(path).is_ok_and(|kept| kept.contains(text)))
-    };
-    tty.wait_until(&format!("a journal with {text:?}"), |_| is_kept(&state));
+    let has = |path: &PathBuf| fs::read_to_string(path).is_ok_and(|kept| kept.contains(text));
+    tty.wait_until(&format!("journal with {text:?}"), |_| journals(&state).iter().any(has));
 }
 
 /// A case in memory, with its autosave.
@@ -46,11 +42,8 @@ fn bench(folder: &Path) -> (App, Autosave, Arc<JournalWriter>) {
     let document = Document::read(&path).expect("a good case");
     let app = tipstrike::tui::testing::opened(document, Some(path), Look::FULL, Size::new(80, 24));
     let journal_writer = JournalWriter::open(|warning| panic!("{warning}")).expect("a thread");
-    let autosave = Autosave::new(
-        State::choose(Some(folder.join("tipstrike")), []),
-        Arc::clone(&journal_writer),
-    );
-    (app, autosave, journal_writer)
+    let state = State::choose(Some(folder.join("tipstrike")), []);
+    (app, Autosave::new(state, Arc::clone(&journal_writer)), journal_writer)
 }
 
 fn write(app: &mut App, key: &str, text: &str) {
@@ -150,11 +143,8 @@ fn edits_that_cannot_be_written_to_a_journal_are_reported() {
     fs::write(folder.path().join("tipstrike"), "no folder").expect("room on the disk");
     write(&mut app, "pair.module", "6 mm");
     let claims = autosave.follow(&app.sheets(), Instant::now());
-    assert!(
-        matches!(&claims[..], [Err(text)] if text.contains(
-            "save the case, or a crash loses the edits")),
-        "{claims:?}"
-    );
+    let [Err(text)] = &claims[..] else { panic!("{claims:?}") };
+    assert!(text.contains("save the case, or a crash loses the edits"), "{text}");
     drop(autosave);
     let mut homeless = Autosave::new(State::choose(None, []), Arc::new(JournalWriter::default()));
     let claims = homeless.follow(&app.sheets(), Instant::now());
@@ -248,11 +238,8 @@ fn journals_keep_away_from_a_folder_that_others_may_write() {
     assert!(!state.join("last-case").exists());
     let kept = fs::read_dir(folder.path().join("run/tipstrike/journals"));
     assert_eq!(kept.expect("a folder").count(), 1);
-    let mut next = Launch::of(Arc::clone(&folder))
-        .argument(folder.path().join("case.toml"))
-        .variable("XDG_RUNTIME_DIR", run)
-        .start();
-    next.wait_for(OFFER);
+    let next = Launch::of(Arc::clone(&folder)).argument(folder.path().join("case.toml"));
+    let mut next = next.variable("XDG_RUNTIME_DIR", run).shown(OFFER);
     next.type_for("\r", "the edits are restored");
     next.type_for("\x13", "saved ");
     next.quit();
@@ -279,10 +266,9 @@ fn kill_9_after_two_seconds_loses_nothing() {
     wait_for_journal(&mut tty, "1.2");
     println!("kept {:.2?} after the last key", typed.elapsed());
     tty.type_in("5 in");
-    let rest = Duration::from_millis(2200);
-    let end = Instant::now() + rest;
+    let end = Instant::now() + Duration::from_millis(2200);
     while Instant::now() < end {
-        tty.take_output(rest / 20);
+        tty.take_output(SECOND / 10);
     }
     tty.end_by("KILL");
     let mut next = again(&tty);
@@ -384,12 +370,8 @@ fn a_terminal_closed_without_a_signal_is_noticed() {
         tty.settle(Duration::from_millis(100));
         let children =
             fs::read_to_string(format!("/proc/{0}/task/{0}/children", tty.id())).expect("it runs");
-        let child = children
-            .split_whitespace()
-            .next()
-            .and_then(|child| child.parse().ok())
-            .expect("a child");
-        let kept = hang_up_of(&mut tty, child);
+        let child = children.split_whitespace().next().expect("a child");
+        let kept = hang_up_of(&mut tty, child.parse().expect("its number"));
         assert!(kept.contains("1.25 in"), "{fault}: {kept}");
     }
 }
@@ -402,9 +384,8 @@ fn hang_up(tty: &mut Tty) -> String {
 
 fn hang_up_of(tty: &mut Tty, id: u32) -> String {
     let ticks = |id| {
-        stat(id).map_or(0, |words| {
-            words[11].parse::<u64>().unwrap_or(0) + words[12].parse::<u64>().unwrap_or(0)
-        })
+        let words = stat(id).unwrap_or_default().into_iter().skip(11).take(2);
+        words.map(|word| word.parse::<u64>().unwrap_or(0)).sum::<u64>()
     };
     let before = ticks(id);
     assert!(journals(tty.folder.path()).is_empty(), "no journal is written yet");
@@ -419,19 +400,13 @@ fn hang_up_of(tty: &mut Tty, id: u32) -> String {
         std::thread::sleep(Duration::from_millis(2));
     }
     let gone = broken.elapsed();
-    println!(
-        "journal after {:.1?}, end after {gone:.1?}, {} ticks of 10 ms",
-        kept.unwrap_or(gone),
-        burnt - before
-    );
+    let (kept, burnt) = (kept.unwrap_or(gone), burnt - before);
+    println!("journal after {kept:.1?}, end after {gone:.1?}, {burnt} ticks of 10 ms");
     // The promises are 0.2 s and 1 s; a busy machine may wake the process later.
-    assert!(kept.unwrap_or(gone) < SECOND / 2, "its edits are kept after {kept:?}");
-    assert!(gone < 5 * SECOND, "it remains for {gone:.1?}");
-    assert!(burnt - before <= 8, "it burns {} ticks on its way out", burnt - before);
-    journals(tty.folder.path())
-        .first()
-        .and_then(|path| fs::read_to_string(path).ok())
-        .unwrap_or_default()
+    assert!(kept < SECOND / 2 && gone < 5 * SECOND, "{kept:.1?} {gone:.1?}");
+    assert!(burnt <= 8, "it burns {burnt} ticks on its way out");
+    let kept = journals(tty.folder.path()).pop();
+    kept.and_then(|path| fs::read_to_string(path).ok()).unwrap_or_default()
 }
 
 #[test]
@@ -541,12 +516,9 @@ fn a_second_session_reads_names_the_first_and_may_save_elsewhere() {
     let read =
         |name: &str| fs::read_to_string(first.folder.path().join(name)).expect("it is there");
     assert!(read("case.toml").contains("7 mm") && read("other.toml").contains("6 mm"));
-    let left: Vec<_> = fs::read_dir(first.folder.path())
-        .expect("a folder")
-        .flatten()
-        .map(|entry| entry.file_name())
-        .collect();
-    assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".tipstrike")), "{left:?}");
+    let left = fs::read_dir(first.folder.path()).expect("a folder").flatten();
+    let mut left = left.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    assert!(left.all(|name| !name.ends_with(".tipstrike")), "a lock is left");
 }
 
 #[test]

@@ -6,6 +6,7 @@ use crate::tty::{
 };
 
 use std::fs;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// The output is complete if nothing arrives for this time.
@@ -28,10 +29,8 @@ fn a_panic_of_the_screen_restores_the_terminal_and_keeps_the_edits() {
     assert_eq!(tty.wait_for_end().exit_code(), 101);
     tty.assert_restored();
     tty.assert(tty.shows("internal error") && tty.shows("unsaved edits are kept"));
-    assert!(
-        fs::read_to_string(&journals(tty.folder.path())[0])
-            .is_ok_and(|kept| kept.contains("1.25 in"))
-    );
+    let kept = fs::read_to_string(&journals(tty.folder.path())[0]);
+    assert!(kept.is_ok_and(|kept| kept.contains("1.25 in")));
 }
 
 #[test]
@@ -52,24 +51,33 @@ fn a_panic_of_the_worker_is_reported_and_the_workbench_continues() {
     tty.assert_restored();
 }
 
+/// A shell in the folder.
+fn shell(launch: &Launch) -> Tty {
+    let shell = Launch::of(launch.folder.clone()).variable("PS1", "ready> ").instead("bash");
+    shell.argument("--norc").argument("-i").shown("ready>")
+}
+
+fn is_back(tty: &mut Tty) -> bool {
+    tty.screen().alternate_screen() && tty.shows("quit")
+}
+
+/// Starts the workbench in a shell.
+fn start_in(tty: &mut Tty, case: &Path) {
+    tty.type_in(format!("{} {}\r", tty::PROGRAM, case.display()));
+    tty.wait_until("the workbench", is_back);
+}
+
 #[test]
 fn a_shell_stops_and_resumes_the_workbench() {
     if !is_there("bash") {
         return;
     }
-    let launch = Launch::on_table_1().variable("PS1", "ready> ");
+    let launch = Launch::on_table_1();
     let case = launch.case();
-    let mut tty = Launch::of(launch.folder.clone())
-        .variable("PS1", "ready> ")
-        .instead("bash")
-        .argument("--norc")
-        .argument("-i")
-        .start();
-    tty.wait_for("ready>");
+    let mut tty = shell(&launch);
     let ours = tty.modes();
     for _ in 0..2 {
-        tty.type_in(format!("{} {}\r", tty::PROGRAM, case.display()));
-        tty.wait_until("the workbench", |tty| tty.screen().alternate_screen() && tty.shows("quit"));
+        start_in(&mut tty, &case);
         let taken = tty.modes();
         for by_key in [false, true] {
             if by_key {
@@ -84,9 +92,7 @@ fn a_shell_stops_and_resumes_the_workbench() {
             assert_eq!(tty.modes(), ours, "the shell has its modes");
             assert!(!tty.screen().hide_cursor() && !tty.screen().application_cursor());
             tty.type_in("fg\r");
-            tty.wait_until("the workbench", |tty| {
-                tty.screen().alternate_screen() && tty.shows("quit")
-            });
+            tty.wait_until("the workbench", is_back);
             tty.settle(QUIET);
             assert_eq!(tty.modes(), taken, "the workbench has its modes");
         }
@@ -95,9 +101,7 @@ fn a_shell_stops_and_resumes_the_workbench() {
         tty.wait_for("Stopped");
         tty.settle(QUIET);
         tty.type_in("fg\r");
-        tty.wait_until("a new picture", |tty| {
-            tty.screen().alternate_screen() && tty.shows("quit") && !tty.shows("Stopped")
-        });
+        tty.wait_until("a new picture", |tty| is_back(tty) && !tty.shows("Stopped"));
         tty.settle(QUIET);
         assert_eq!(tty.modes(), taken, "the workbench has its modes");
         tty.type_in("\x11");
@@ -117,16 +121,9 @@ fn a_shell_ends_a_stopped_workbench_without_resuming_it() {
     let launch = Launch::on_table_1();
     let case = launch.case();
     for stop in ["TSTP", "STOP"] {
-        let mut tty = Launch::of(launch.folder.clone())
-            .variable("PS1", "ready> ")
-            .instead("bash")
-            .argument("--norc")
-            .argument("-i")
-            .start();
-        tty.wait_for("ready>");
+        let mut tty = shell(&launch);
         let ours = tty.modes();
-        tty.type_in(format!("{} {}\r", tty::PROGRAM, case.display()));
-        tty.wait_until("the workbench", |tty| tty.screen().alternate_screen() && tty.shows("quit"));
+        start_in(&mut tty, &case);
         tty.settle(QUIET);
         tty.send_to_program(stop);
         tty.wait_for("Stopped");
@@ -198,10 +195,7 @@ fn a_slow_line_is_not_flooded_and_the_way_out_stays_open() {
     tty.set_pace(0);
     assert_eq!(tty.wait_for_end().exit_code(), 0);
     let written = tty.written.as_ref().map_or(0, Vec::len);
-    println!(
-        "{KEYS} keys at {PACE} bytes/s: {written} bytes, {grown} KiB more, gone {left:.1?} after \
-            the last key"
-    );
+    println!("{KEYS} keys: {written} bytes, {grown} KiB more, gone after {left:.1?}");
     // A frame per key would be 9 MB; the system buffers 64 KiB, and one frame and the share of the
     // line are in transit.
     assert!(written <= 200 << 10, "{written} bytes");
@@ -218,10 +212,10 @@ fn a_storm_of_sizes_ends_in_the_right_picture() {
     tty.settle(QUIET);
     tty.wait_for("Corner contact");
     let plain = opened(Launch::on_table_1());
-    let line = |tty: &Tty| {
+    let words = |tty: &Tty| {
         tty.screen().contents().lines().next().map(|line| line.split_whitespace().count())
     };
-    assert_eq!(line(&tty), line(&plain));
+    assert_eq!(words(&tty), words(&plain));
     tty.quit();
     tty.assert_restored();
 }
@@ -288,11 +282,7 @@ fn a_flood_and_a_long_paste_are_cheap_and_press_no_button() {
         &[],
     );
     tty.settle(QUIET);
-    assert!(
-        !tty.has_ended() && tty.shows("Discard"),
-        "a paste presses no button:\n{}",
-        tty.screen().contents()
-    );
+    assert!(!tty.has_ended() && tty.shows("Discard"), "{}", tty.screen().contents());
     tty.type_in("d");
     assert_eq!(tty.wait_for_end().exit_code(), 0);
     assert_eq!(fs::read_to_string(tty.case()).expect("it is there"), TABLE_1);
@@ -438,10 +428,7 @@ fn a_typed_digit_costs_few_bytes() {
                 with results and chart"
         );
         assert!(alone <= 120, "{columns}x{rows}: {alone} bytes for a field alone");
-        assert!(
-            first <= 600 && whole <= 600,
-            "{columns}x{rows}: {whole} bytes with results and chart"
-        );
+        assert!(first <= 600 && whole <= 600, "{columns} {rows} {whole}");
         tty.discard();
     }
 }

@@ -155,13 +155,8 @@ fn a_long_session_loses_nothing_and_does_not_grow() {
             }
         }
     }
-    println!(
-        "{count} actions in {:.0} s, {} files parsed, {} suspensions: {early} KiB in the first quarter, \
-         {most} at most",
-        begun.elapsed().as_secs_f64(),
-        soak.looks,
-        soak.suspensions
-    );
+    let (took, looks, stops) = (begun.elapsed(), soak.looks, soak.suspensions);
+    println!("{count} actions in {took:.0?}, {looks} files, {stops} stops, {early} to {most} KiB");
     assert!(soak.looks >= count / LOOK && soak.suspensions > 0, "{} looks", soak.looks);
     assert!(most <= early + MOST_GROWTH && most <= 30 << 10, "{early} KiB, then {most} KiB");
 }

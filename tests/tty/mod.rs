@@ -213,10 +213,8 @@ impl Tty {
     pub(crate) fn pour(&mut self, pieces: Vec<Vec<u8>>, sizes: &[(u16, u16)]) {
         let mut writer = std::mem::replace(&mut self.line().writer, Box::new(std::io::sink()));
         let pouring = thread::spawn(move || {
-            pieces
-                .iter()
-                .try_for_each(|piece| writer.write_all(piece).and_then(|()| writer.flush()))
-                .ok();
+            let pour = |piece: &Vec<u8>| writer.write_all(piece).and_then(|()| writer.flush());
+            pieces.iter().try_for_each(pour).ok();
             writer
         });
         let mut sizes = sizes.iter();
@@ -259,11 +257,7 @@ impl Tty {
     pub(crate) fn wait_until(&mut self, what: &str, is_so: impl Fn(&mut Tty) -> bool) {
         let end = Instant::now() + PATIENCE;
         while !is_so(self) {
-            assert!(
-                Instant::now() < end,
-                "timeout while waiting for {what}:\n{}",
-                self.screen().contents()
-            );
+            assert!(Instant::now() < end, "{what} {}", self.screen().contents());
             self.take_output(Duration::from_millis(5));
         }
     }
@@ -306,11 +300,7 @@ impl Tty {
     }
 
     pub(crate) fn send_signal(&self, name: &str) {
-        let status = Command::new("kill")
-            .args([format!("-{name}"), self.id().to_string()])
-            .status()
-            .expect("kill is there");
-        assert!(status.success());
+        signal(name, &self.id().to_string());
     }
 
     /// Sends a signal and waits for the end.
@@ -338,11 +328,7 @@ impl Tty {
                 while self.take_output(Duration::from_millis(50)) > 0 {}
                 return status;
             }
-            assert!(
-                Instant::now() < end,
-                "the program does not end:\n{}",
-                self.screen().contents()
-            );
+            assert!(Instant::now() < end, "{}", self.screen().contents());
             self.take_output(Duration::from_millis(5));
         }
     }
@@ -378,11 +364,8 @@ impl Tty {
         let other_end = master.tty_name().expect("the terminal has a name");
         let end = Instant::now() + PATIENCE;
         while !reader.is_finished() {
-            fs::OpenOptions::new()
-                .write(true)
-                .open(&other_end)
-                .and_then(|mut terminal| terminal.write_all(b" "))
-                .ok();
+            let terminal = fs::OpenOptions::new().write(true).open(&other_end);
+            terminal.and_then(|mut terminal| terminal.write_all(b" ")).ok();
             assert!(Instant::now() < end, "the reader stays");
             thread::sleep(Duration::from_millis(2));
         }
@@ -390,16 +373,8 @@ impl Tty {
 
     /// Sends a signal to the foreground program of this terminal.
     pub(crate) fn send_to_program(&self, name: &str) {
-        let front = self
-            .line
-            .as_ref()
-            .and_then(|line| line.master.process_group_leader())
-            .expect("something is in front");
-        let status = Command::new("kill")
-            .args([format!("-{name}"), format!("{front}")])
-            .status()
-            .expect("kill is there");
-        assert!(status.success());
+        let front = self.line.as_ref().and_then(|line| line.master.process_group_leader());
+        signal(name, &front.expect("something is in front").to_string());
     }
 
     /// Stops reading, and makes the program draw until the terminal accepts no more bytes.
@@ -454,6 +429,11 @@ impl Drop for Tty {
     }
 }
 
+fn signal(name: &str, process: &str) {
+    let status = Command::new("kill").args([&format!("-{name}"), process]).status();
+    assert!(status.is_ok_and(|status| status.success()), "{name} {process}");
+}
+
 /// The fields of a process's state after its name: state, parent, group, ...; 11 and 12 are its
 /// ticks in user and system mode.
 pub(crate) fn stat(process: u32) -> Option<Vec<String>> {
@@ -469,13 +449,9 @@ pub(crate) fn number_after(text: &str, name: &str) -> u64 {
 
 /// The journals of unsaved edits in a state folder.
 pub(crate) fn journals(state: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(state.join("tipstrike/journals"))
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path());
-    let mut paths: Vec<_> =
-        entries.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
+    let entries = fs::read_dir(state.join("tipstrike/journals")).into_iter().flatten().flatten();
+    let mut paths: Vec<_> = entries.map(|entry| entry.path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
     paths.sort();
     paths
 }
@@ -506,12 +482,8 @@ pub(crate) fn skip(why: &str) {
     let line = format!("SKIPPED {}: {why}\n", thread::current().name().unwrap_or("a test"));
     std::io::stderr().write_all(line.as_bytes()).ok();
     if let Some(file) = std::env::var_os("TIPSTRIKE_SKIPPED") {
-        fs::OpenOptions::new()
-            .append(true)
-            .create(true)
-            .open(file)
-            .and_then(|mut file| file.write_all(line.as_bytes()))
-            .ok();
+        let file = fs::OpenOptions::new().append(true).create(true).open(file);
+        file.and_then(|mut file| file.write_all(line.as_bytes())).ok();
     }
 }
 

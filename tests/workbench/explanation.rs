@@ -51,23 +51,19 @@ fn words(text: &str) -> Vec<&str> {
 #[test]
 fn the_page_of_every_result_is_that_of_the_command_and_can_be_read_through() {
     for (method, pages) in [("exact", 34), ("dynamic", 40)] {
-        let mut desk = Desk::on(
-            SMALL,
-            "case.toml",
-            &TABLE_1.replace("method = \"exact\"", &format!("method = \"{method}\"")),
-        );
+        let case = TABLE_1.replace("\"exact\"", &format!("\"{method}\""));
+        let mut desk = Desk::on(SMALL, "case.toml", &case);
         let path = desk.path("case.toml").display().to_string();
         let listed = desk.app.results().listed();
         let count = listed.len();
         assert!(count >= pages, "{method}: {count}");
         // Some rows: the text is the same, and each takes a dozen solves.
-        for row in (0..count).step_by(if method == "dynamic" { 12 } else { 3 }) {
+        for row in (0..count).step_by(if method == "dynamic" { 16 } else { 5 }) {
             desk.app.tab.results.selected = Some(listed[row].key);
             desk.keys(&["Esc", "2", "Enter"]);
             let key = of(&desk).quantity.key;
-            let page = read_through(&mut desk)
-                .join("\n")
-                .replace("DIR", &desk.folder.path().display().to_string());
+            let folder = desk.folder.path().display().to_string();
+            let page = read_through(&mut desk).join("\n").replace("DIR", &folder);
             let command = stdout_of(&["explain", key, &path]);
             assert_eq!(words(&page), words(&command), "{key}");
             desk.keys(&["Esc"]);
@@ -92,12 +88,9 @@ fn the_fields_behind_a_result_lead_to_the_form() {
     desk.keys(&["Enter"]);
     assert!(desk.app.prompts.is_empty());
     assert_eq!(tipstrike::case::FIELDS[desk.app.tab.form.focus].key, wanted);
+    // Without a selection Enter selects the first field.
     desk.keys(&["Esc", "2", "Enter", "Enter"]);
-    assert_eq!(
-        of(&desk).field(),
-        Some("pair.module"),
-        "Enter without a selection selects the first field"
-    );
+    assert_eq!(of(&desk).field(), Some("pair.module"));
 }
 
 #[test]
@@ -138,12 +131,7 @@ fn every_letter_of_every_page_has_its_like_in_ascii() {
             let page = tipstrike::report::explain::render(page, "case");
             let strange: Vec<_> =
                 page.lines().map(written_out).filter(|line| !line.is_ascii()).collect();
-            assert!(
-                strange.is_empty(),
-                "{} of {}: {strange:?}",
-                of(&desk).quantity.key,
-                example.name
-            );
+            assert!(strange.is_empty(), "{} {} {strange:?}", of(&desk).quantity.key, example.name);
             desk.keys(&["Esc"]);
         }
     }

@@ -16,10 +16,9 @@ fn edited() -> Desk {
 fn names(desk: &Desk) -> Vec<String> {
     let entries = fs::read_dir(desk.folder.path()).expect("the folder");
     // The lock of the open case is a hidden file.
-    let mut names: Vec<_> = entries
-        .map(|entry| entry.expect("an entry").file_name().into_string().expect("a name"))
-        .collect();
-    names.retain(|name: &String| !name.starts_with('.'));
+    let name = |entry: fs::DirEntry| entry.file_name().into_string().expect("a name");
+    let mut names: Vec<String> = entries.map(|entry| name(entry.expect("an entry"))).collect();
+    names.retain(|name| !name.starts_with('.'));
     names.sort();
     names
 }
@@ -46,16 +45,8 @@ fn the_extension_and_the_focused_pane_select_the_content() {
     ];
     for (pane, name, part) in cases {
         let mut desk = edited();
-        desk.keys(&[
-            "Esc",
-            pane,
-            ":",
-            "export",
-            "Enter",
-            "Ctrl-U",
-            &desk_path(&desk, name),
-            "Enter",
-        ]);
+        let path = desk_path(&desk, name);
+        desk.keys(&["Esc", pane, ":", "export", "Enter", "Ctrl-U", &path, "Enter"]);
         let text = desk.read(name);
         assert!(text.contains(part), "{name}: {text}");
     }

@@ -25,7 +25,6 @@ mod export;
 mod form_aids;
 mod frozen;
 mod keys;
-mod memory;
 mod models;
 mod panes;
 mod picture;

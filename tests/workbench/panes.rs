@@ -2,6 +2,8 @@
 use crate::harness::{Desk, LARGE, SMALL, TABLE_1};
 
 use ratatui::layout::Size;
+use tipstrike::model::Quantity;
+use tipstrike::model::quantities::Need;
 use tipstrike::tui::testing::Answer;
 
 const TINY: Size = Size { width: 60, height: 16 };
@@ -12,11 +14,8 @@ fn last_valid_results_show_their_reason_and_the_key_that_goes_there() {
         let mut desk = Desk::new(size);
         desk.fill("pair.module", "2 mm").keys(&["Down", "Down"]);
         let shown = desk.screen().replace('\n', " ");
-        desk.assert(
-            shown.contains("! rh1 bore radius")
-                && shown.contains("1 more")
-                && shown.contains("Alt-E"),
-        );
+        let has = |part: &&str| shown.contains(part);
+        desk.assert(["! rh1 bore radius", "1 more", "Alt-E"].iter().all(has));
         desk.keys(&["Alt-E"]);
         assert_eq!(desk.app.tab.case.text(desk.app.tab.form.focus), Some("20 mm"));
         desk.assert_shows("rh1 driver bore radius, ");
@@ -40,10 +39,8 @@ fn the_mark_in_the_results_stays_with_its_quantity() {
     // A removed quantity is selected again when it returns.
     desk.keys(&["Ctrl-T"]).fill("operation.friction_coefficient", "0.1");
     let listed = desk.app.results().listed();
-    let of_friction = listed
-        .iter()
-        .find(|known| known.needs == tipstrike::model::quantities::Need::Friction)
-        .map(|known| known.key);
+    let needs_friction = |known: &&&Quantity| known.needs == Need::Friction;
+    let of_friction = listed.iter().find(needs_friction).map(|known| known.key);
     desk.app.tab.results.selected = of_friction;
     assert!(of_friction.is_some() && marked(&desk) == of_friction);
     desk.fill("operation.friction_coefficient", "");
@@ -58,18 +55,8 @@ fn the_baseline_is_drawn_by_the_method_in_force() {
     desk.keys(&["Alt-B"])
         .fill("operation.speed", "1900 rpm")
         .keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T", "Esc", "3", "Home"]);
-    let shown = |desk: &Desk| {
-        desk.screen()
-            .lines()
-            .find(|line| line.contains("before E: F_S"))
-            .expect("a readout")
-            .to_owned()
-    };
-    assert!(
-        shown(&desk).contains("F_S 80.39") && shown(&desk).contains("baseline 84.6"),
-        "{}",
-        shown(&desk)
-    );
+    let shown = desk.line_with("before E: F_S");
+    assert!(shown.contains("F_S 80.39") && shown.contains("baseline 84.6"), "{shown}");
     desk.keys(&["Ctrl-T", "Ctrl-T", "3", "Home"]).assert_shows("baseline (exact)");
 }
 
@@ -101,11 +88,7 @@ fn an_axis_fits_the_visible_part_of_its_curves() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Ctrl-T", "Esc", ":", "sliding velocity", "Enter", "3", "0"]);
     let axis = |desk: &Desk| desk.app.charts().upright(desk.app.chart.graph());
-    assert!(
-        axis(&desk).from < 0.0 && axis(&desk).to > 0.0,
-        "the whole contact has both signs: {:?}",
-        axis(&desk)
-    );
+    assert!(axis(&desk).from < 0.0 && axis(&desk).to > 0.0, "{:?}", axis(&desk));
     desk.keys(&["v"]);
     assert!(axis(&desk).from >= 0.0, "the strike has one sign: {:?}", axis(&desk));
     desk.keys(&["v"]);

@@ -28,11 +28,7 @@ fn the_pictures_of_the_readme() {
             std::fs::write(&path, &picture).expect("the picture is written");
         }
         let kept = std::fs::read_to_string(&path).unwrap_or_default();
-        assert!(
-            kept == picture,
-            "assets/{name}.svg is not what the workbench shows: draw it again with \
-                TIPSTRIKE_REGENERATE=1"
-        );
+        assert!(kept == picture, "{name}");
     }
 }
 

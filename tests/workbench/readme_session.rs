@@ -20,13 +20,8 @@ fn quoted(cell: &str) -> Vec<&str> {
 
 /// The keys of each step, and the sentences on the screen after them.
 fn steps() -> Vec<(Vec<&'static str>, Vec<&'static str>)> {
-    let section = GUIDE
-        .split_once(TITLE)
-        .expect("the guide has the walk")
-        .1
-        .split("\n#")
-        .next()
-        .unwrap_or_default();
+    let (_, section) = GUIDE.split_once(TITLE).expect("the guide has the walk");
+    let section = section.split("\n#").next().unwrap_or_default();
     let rows = section.lines().filter(|line| line.starts_with('|')).skip(2);
     let step = |row: &'static str| {
         let cells: Vec<&str> = row.trim_matches('|').split(" | ").collect();
@@ -44,16 +39,11 @@ fn each_step_of_the_walk_shows_its_sentences() {
         desk.keys(keys);
         assert!(!says.is_empty(), "{keys:?}");
         for says in says {
-            desk.assert_at(
-                format!("{keys:?} must show {says:?}:"),
-                desk.screen().replace("DIR/", "").contains(says),
-            );
+            desk.assert_at((keys, says), desk.screen().replace("DIR/", "").contains(says));
         }
     }
-    assert!(
-        desk.read("pair.toml").contains("tip_relief = \"48 um\""),
-        "the case is saved as the walk leaves it"
-    );
+    let saved = desk.read("pair.toml");
+    assert!(saved.contains("tip_relief = \"48 um\""), "saved as the walk leaves it");
 }
 
 /// The block with the present output of its commands.
@@ -62,11 +52,8 @@ fn rerun(block: &str) -> String {
     for command in block.lines().filter_map(|line| line.strip_prefix("$ ")) {
         let words: Vec<&str> = command.split_whitespace().collect();
         assert_eq!(words[0], "tipstrike", "{command}");
-        let output = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
-            .args(&words[1..])
-            .current_dir(FOLDER)
-            .output()
-            .expect("the program runs");
+        let mut program = Command::new(env!("CARGO_BIN_EXE_tipstrike"));
+        let output = program.args(&words[1..]).current_dir(FOLDER).output().expect("it runs");
         assert!(output.status.success(), "{command}: {output:?}");
         let printed = String::from_utf8(output.stdout).expect("the output is text");
         write!(text, "$ {command}\n{printed}").expect("a string");

@@ -32,20 +32,10 @@ fn arrows_select_from_the_fastest_to_the_slowest() {
     let mut desk = measured(LARGE);
     let seconds = |desk: &Desk| {
         let traded = desk.app.tab.traded.as_ref().unwrap();
-        let marked = traded.marked.unwrap();
-        traded
-            .trade
-            .as_ref()
-            .unwrap()
-            .settings
-            .iter()
-            .find(|one| one.setting == marked)
-            .unwrap()
-            .seconds()
+        let mut settings = traded.trade.as_ref().unwrap().settings.iter();
+        settings.find(|one| Some(one.setting) == traded.marked).unwrap().seconds()
     };
-    for _ in 0..100 {
-        desk.keys(&["Left"]);
-    }
+    desk.keys(&["Left"; 100]);
     let mut last = seconds(&desk);
     for _ in 0..10 {
         desk.keys(&["l"]);
@@ -184,10 +174,9 @@ fn evened(desk: &mut Desk) {
 fn enter_also_uses_the_compliance_of_the_selected_setting() {
     let mut desk = measured(LARGE);
     let traded = desk.app.tab.traded.as_ref().expect("a measurement");
-    let beam = traded.trade.as_ref().expect("it is whole").settings.iter();
-    let beam = beam
-        .map(|measured| measured.setting)
-        .find(|setting| setting.to_string() == "static with beam and weber, 64 stations");
+    let all = traded.trade.as_ref().expect("it is whole").settings.iter();
+    let name = "static with beam and weber, 64 stations";
+    let beam = all.map(|one| one.setting).find(|setting| setting.to_string() == name);
     desk.app.tab.traded.as_mut().expect("a measurement").marked = beam;
     desk.keys(&["Enter"]);
     assert_eq!(Some(own(&desk)), beam);

@@ -140,10 +140,7 @@ impl Table {
                     [(stored.median, made.median), (stored.greatest, made.greatest)]
                 {
                     let ratio = stored.max(ROUNDING) / made.clamp(ROUNDING, 1.0);
-                    assert!(
-                        (0.1..=10.0).contains(&ratio),
-                        "{name}: {made:e} where {stored:e} is stored"
-                    );
+                    assert!((0.1..=10.0).contains(&ratio), "{name} {made:e} {stored:e}");
                 }
             }
         }

@@ -104,11 +104,7 @@ fn the_beam_is_up_to_22_percent_softer_than_the_field_where_its_foundation_is_fi
             continue;
         }
         let found = differences(&inputs, ToothCompliance::BEAM).unwrap();
-        assert!(
-            found.iter().all(|off| (0.0..=22.0).contains(off)),
-            "z {}: {found:?}",
-            inputs.driver.teeth
-        );
+        assert!(found.iter().all(|off| (0.0..=22.0).contains(off)), "{}", inputs.driver.teeth);
         seen += 1;
     }
     assert!(seen >= 3, "{seen}");
