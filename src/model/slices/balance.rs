@@ -129,34 +129,53 @@ impl Incoming {
     }
 }
 
-/// The part of a pair that carries in a slice, over which the lead is linear: the mean of what is above
-/// 0 of it is `part` times its mean plus `rest`, in m.
+/// The part of a pair that carries in a slice: the mean of what is above 0 of its lead, over the
+/// compliance there and times that of the slice, is `part` times the mean lead plus `rest`, in m.
 ///
 /// # Formula
 /// ```text
-/// mean max(0, δ) = (δ̄ + w)²/(4 w)   for |δ̄| < w,   δ̄ above,   0 below
+/// ½ ∫ max(0, δ̄ + a t + c (t² − 1/3)) dt   from −1 to 1
 /// ```
-/// δ̄ is the mean of the lead and w half of its rise over the slice. A contact therefore begins and
-/// ends continuously within a slice.
+/// A contact therefore begins and ends continuously within a slice.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Carried {
     part: f64,
     rest: f64,
+    /// Change of the part with the mean lead, in 1/m.
+    change: f64,
 }
 
 impl Carried {
-    const NONE: Carried = Carried { part: 0.0, rest: 0.0 };
-    const ALL: Carried = Carried { part: 1.0, rest: 0.0 };
+    const NONE: Carried = Carried { part: 0.0, rest: 0.0, change: 0.0 };
+    const ALL: Carried = Carried { part: 1.0, rest: 0.0, change: 0.0 };
 
-    fn of(lead: f64, half: f64) -> Carried {
-        if lead >= half && lead > 0.0 {
-            Carried::ALL
-        } else if lead > -half {
-            let part = 0.5 * (lead + half) / half;
-            Carried { part, rest: 0.5 * part * (half - lead) }
-        } else {
-            Carried::NONE
+    /// Of the lead δ̄ + a t + c (t² − 1/3).
+    fn of(mean: f64, rise: f64, bend: f64) -> Carried {
+        let (middle, most) = (mean - bend / 3.0, rise.abs() + bend.abs());
+        if middle > most {
+            return Carried::ALL;
         }
+        if middle <= -most {
+            return Carried::NONE;
+        }
+        let root = (rise * rise - 4.0 * bend * middle).max(0.0).sqrt();
+        let turn = -0.5 * (rise + root.copysign(rise));
+        // A root that is none is at an end.
+        let [one, other] = [middle / turn, turn / bend].map(|root| root.max(-1.0).min(1.0));
+        let ends = [-1.0, one.min(other), one.max(other), 1.0];
+        let mut sum = Carried::NONE;
+        for span in ends.windows(2) {
+            let (from, to, at) = (span[0], span[1], f64::midpoint(span[0], span[1]));
+            if middle + at * (rise + bend * at) > 0.0 {
+                let (square, cube) = (to * to - from * from, to.powi(3) - from.powi(3));
+                sum.part += 0.5 * (to - from);
+                sum.rest += 0.25 * rise * square + bend * (cube - (to - from)) / 6.0;
+            }
+        }
+        for end in [one, other] {
+            sum.change += if end.abs() < 1.0 && root > 0.0 { 0.5 / root } else { 0.0 };
+        }
+        if sum.part > 0.0 { sum } else { Carried::NONE }
     }
 
     fn touches(self) -> bool {
@@ -168,6 +187,30 @@ impl Carried {
     }
 }
 
+/// A part of a slice on one side of an edge of the section.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    /// Its part of the slice, and its middle, from −1 to 1 along the slice.
+    part: f64,
+    middle: f64,
+    /// Mean of the gap less that of the slice, its rise and its bend, in m.
+    mean: f64,
+    rise: f64,
+    bend: f64,
+    /// Compliance of the contact in the slice over that here.
+    ratio: f64,
+}
+
+/// Means of the sections between two places that are so far apart, by their integrals.
+fn means(one: &[f64; 6], other: &[f64; 6], way: f64) -> [f64; 5] {
+    std::array::from_fn(|at| (other[at + 1] - one[at + 1]) / way)
+}
+
+/// c of the parabola ḡ + a t + c (t² − 1/3) with the values at its ends t = −1 and 1.
+fn bend(ends: [f64; 2], mean: f64) -> f64 {
+    1.5 * (f64::midpoint(ends[0], ends[1]) - mean)
+}
+
 /// A pair at a slice.
 #[derive(Debug, Clone, Copy)]
 struct Contact {
@@ -175,14 +218,17 @@ struct Contact {
     width: f64,
     /// Gap, infinite beyond the computed range.
     gap: f64,
-    /// Its mean over the slice, and its rise from one border to the other.
+    /// Its mean over the slice, and its rise and its bend from one border to the other.
     mean: f64,
     rise: f64,
+    bend: f64,
+    /// The parts of the slice on both sides of an edge.
+    sides: Option<[Side; 2]>,
     /// Whether the pair can carry here.
     can_carry: bool,
-    /// Compliance of the contact, q_c.
+    /// Compliance of the contact, q_c, less what the load takes from the mean of u.
     local: f64,
-    /// √q_t of the teeth.
+    /// √(1 + ε) √q_t of the teeth.
     root: f64,
     /// The part of the load that turns the driver.
     weight: f64,
@@ -195,11 +241,31 @@ impl Contact {
         gap: f64::INFINITY,
         mean: f64::INFINITY,
         rise: 0.0,
+        bend: 0.0,
+        sides: None,
         can_carry: false,
         local: 1.0,
         root: 0.0,
         weight: 1.0,
     };
+
+    /// What carries with a mean lead, and its rise by the displacement of the teeth over the slice.
+    fn carried(&self, mean: f64, rise: f64) -> Carried {
+        let Some(sides) = self.sides else {
+            return Carried::of(mean, 0.5 * (rise - self.rise), -self.bend);
+        };
+        sides.iter().fold(Carried::NONE, |sum, side| {
+            let aside = 0.5 * rise * side.middle - side.mean;
+            let half_rise = 0.5 * (rise * side.part - side.rise);
+            let of = Carried::of(mean + aside, half_rise, -side.bend);
+            let share = side.part * side.ratio;
+            Carried {
+                part: sum.part + share * of.part,
+                rest: sum.rest + share * (of.part * aside + of.rest),
+                change: sum.change + share * of.change,
+            }
+        })
+    }
 }
 
 /// All pairs at all slices with the incoming pair at a place, to be balanced.
@@ -269,23 +335,67 @@ impl Face {
         let one: [f64; 6] = before.unwrap_or_else(|| self.sections.at(borders[0]));
         let other: [f64; 6] = self.sections.at(borders[1]);
         let way = borders[1] - borders[0];
-        let [mean, local, driver, driven, friction] = if way.abs() < NARROW * mesh.base_pitch {
-            self.section(place)
-        } else {
-            std::array::from_fn(|at| (other[at + 1] - one[at + 1]) / way)
-        };
-        let teeth = driver * slice.ends[0] + driven * slice.ends[1];
+        let is_narrow = way.abs() < NARROW * mesh.base_pitch;
+        let means = if is_narrow { self.section(place) } else { means(&one, &other, way) };
+        let ([local, teeth], mean) = (self.compliances(slice, &means), means[0]);
+        let (ends, gaps) = ([one, other], slice.border_gaps);
         let contact = Contact {
             width: slice.width,
             gap: self.sections.one(0, place) + slice.gap,
             mean: mean + slice.mean_gap,
-            rise: other[0] - one[0] + slice.rise,
+            rise: other[0] - one[0] + gaps[1] - gaps[0],
+            bend: bend([one[0] + gaps[0], other[0] + gaps[1]], mean + slice.mean_gap),
+            sides: if is_narrow { None } else { self.sides(slice, borders, ends, (mean, local)) },
             can_carry: true,
             local,
-            root: teeth.max(0.0).sqrt(),
-            weight: 1.0 - mesh.friction() * self.inputs.oblique * friction,
+            root: (teeth * (1.0 + self.excess)).sqrt(),
+            weight: 1.0 - mesh.friction() * self.inputs.oblique * means[4],
         };
         (contact, Some(other))
+    }
+
+    /// Both sides of an edge between two borders with their sections. `None` without an edge.
+    fn sides(
+        &self,
+        slice: &Slice,
+        [from, to]: [f64; 2],
+        [one, other]: [[f64; 6]; 2],
+        (mean, local): (f64, f64),
+    ) -> Option<[Side; 2]> {
+        /// Of a base pitch: a narrower side has too few digits.
+        const NARROWEST: f64 = 1e-9;
+        let way = to - from;
+        let depth = |edge: f64| (edge - from).abs().min((edge - to).abs());
+        let is_inside = |edge: &&f64| {
+            (**edge - from) * (**edge - to) < 0.0
+                && depth(**edge) > NARROWEST * self.mesh.base_pitch
+        };
+        let edge = *self.edges.iter().find(is_inside)?;
+        let (part, between) = ((edge - from) / way, self.sections.at(edge));
+        let [first, last] = slice.border_gaps;
+        let gap = first + part * (last - first);
+        let side = |ends: [[f64; 6]; 2], gaps: [f64; 2], part: f64, middle: f64| {
+            let of_side = means(&ends[0], &ends[1], part * way);
+            Side {
+                part,
+                middle,
+                mean: of_side[0] - mean + f64::midpoint(gaps[0], gaps[1]) - slice.mean_gap,
+                rise: ends[1][0] - ends[0][0] + gaps[1] - gaps[0],
+                bend: bend([ends[0][0], ends[1][0]], of_side[0]),
+                ratio: local / self.compliances(slice, &of_side)[0],
+            }
+        };
+        Some([
+            side([one, between], [first, gap], part, part - 1.0),
+            side([between, other], [gap, last], 1.0 - part, part),
+        ])
+    }
+
+    /// q_c − ε q_t and q_t of a slice by the means of its sections.
+    fn compliances(&self, slice: &Slice, means: &[f64; 5]) -> [f64; 2] {
+        let [_, local, driver, driven, _] = *means;
+        let teeth = (driver * slice.ends[0] + driven * slice.ends[1]).max(0.0);
+        [(local - self.excess * teeth).max(0.5 * local), teeth]
     }
 
     /// Gap, compliances of contact, driver and driven gear, and arm of the friction at a place of the path.
@@ -370,7 +480,9 @@ impl Face {
                 let place = s + (f64::from(first) + rear as f64) * mesh.base_pitch;
                 let to_middle = 0.5 * (mesh.length - way) - place;
                 let place = place + to_middle.clamp(-self.reach, self.reach);
-                let (front, neighbour) = (rear + apart, self.neighbour(place, apart));
+                // An even load has v = f.
+                let neighbour = self.neighbour(place, apart) / (1.0 + self.excess);
+                let front = rear + apart;
                 kappa[front * pairs + rear] = neighbour;
                 kappa[rear * pairs + front] = neighbour;
             }
@@ -453,7 +565,7 @@ impl Position<'_> {
             let (allowed, mut is_right) = (precision * displacement.abs(), true);
             for (at, of) in self.contacts.iter().enumerate().filter(|(_, of)| of.can_carry) {
                 let (mean, old) = (means[at], carried[at]);
-                let new = Carried::of(mean, self.half(&means, at, of));
+                let new = of.carried(mean, self.rise(&means, at));
                 if (new.mean(mean) - old.mean(mean)).abs() > allowed {
                     (carried[at], is_right) = (new, false);
                     if round >= CORRECTIONS {
@@ -475,10 +587,8 @@ impl Position<'_> {
         }
         let (mut bend, mut smooth) = (0.0, f64::INFINITY);
         for (at, of) in self.contacts.iter().enumerate().filter(|(_, of)| of.can_carry) {
-            let half = self.half(&means, at, of);
-            if carried[at].touches() && carried[at].part < 1.0 {
-                bend += of.weight * of.width * lines[at][0].powi(3) / (2.0 * half * of.local);
-            }
+            let half = 0.5 * (self.rise(&means, at) - of.rise).abs();
+            bend += of.weight * of.width * lines[at][0].powi(3) * carried[at].change / of.local;
             if half < SUDDEN * displacement.abs() {
                 smooth = f64::min(smooth, (means[at].abs() - half).abs() / lines[at][0].abs());
             }
@@ -517,14 +627,14 @@ impl Position<'_> {
         })
     }
 
-    /// Half of the rise of a lead over its slice, by the means of all leads. The displacement of the
-    /// teeth is linear between the middles of two slices.
-    fn half(&self, means: &[f64], at: usize, of: &Contact) -> f64 {
+    /// The rise of a lead over its slice by the displacement of the teeth, which is linear between the
+    /// middles of two slices, by the means of all leads.
+    fn rise(&self, means: &[f64], at: usize) -> f64 {
         let teeth = |at: usize| self.contacts[at].mean + means[at];
         let before = at.checked_sub(self.pairs).unwrap_or(at);
         let after = if at + self.pairs < means.len() { at + self.pairs } else { at };
         let rise = teeth(after) - teeth(before);
-        0.5 * (of.rise - if rise.is_finite() { 0.5 * rise } else { 0.0 }).abs()
+        if rise.is_finite() { 0.5 * rise } else { 0.0 }
     }
 
     /// The displacement at which independent slices balance a force. Begins with all slices, so that
@@ -560,8 +670,8 @@ impl Position<'_> {
                 }
             }
             let guess = |(at, of): (usize, &Contact)| {
-                let half = self.half(&means, at, of);
-                if of.can_carry { Carried::of(means[at], half) } else { Carried::NONE }
+                let rise = self.rise(&means, at);
+                if of.can_carry { of.carried(means[at], rise) } else { Carried::NONE }
             };
             let carried: Vec<Carried> = self.contacts.iter().enumerate().map(guess).collect();
             match until {
@@ -733,13 +843,13 @@ impl<'a> System<'a> {
             }
             for (pair, factors) in &active {
                 let at = number * pairs + pair;
-                let Carried { part, rest } = self.carried[at];
+                let Carried { part, rest, .. } = self.carried[at];
                 if part == 0.0 {
                     continue;
                 }
                 let Contact { mean, local, root, .. } = self.at.contacts[at];
                 let push = part * slice.width * root / local;
-                let gap = if part < 1.0 { mean - rest / part } else { mean };
+                let gap = mean - rest / part;
                 for (slot, factor) in factors.iter().enumerate().filter(|(_, it)| **it != 0.0) {
                     let (push, side, row) = (push * factor, &mut sides[slot], &mut block[slot]);
                     *side = [side[0] + push, side[1] + push * gap];
