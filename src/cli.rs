@@ -83,10 +83,12 @@ pub fn parse(
         return Err(Exit::Usage);
     }
     matches.and_then(|matches| Arguments::from_arg_matches(&matches)).map_err(|error| {
-        let text: String =
-            error.render().to_string().lines().map(|line| sanitize(line) + "\n").collect();
+        let text = error.render().to_string();
         if error.use_stderr() {
-            let _ = streams.errors.write_all(text.as_bytes());
+            // Cause, values and tip; usage and the way to the help follow.
+            let is_of_cause = |line: &&str| !line.starts_with("Usage:") && !line.starts_with("For more");
+            let lines = text.lines().take_while(is_of_cause).map(str::trim);
+            streams.say(&lines.filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" "));
             return Exit::Usage;
         }
         let printed = streams.output.write_all(text.as_bytes());
@@ -569,7 +571,7 @@ impl Failure {
 
     /// Wrong usage, with the reason.
     fn usage(line: String) -> Failure {
-        Failure::new(Exit::Usage, line)
+        Failure::new(Exit::Usage, format!("error: {line}"))
     }
 
     /// Why a case or a file of results has no result.

@@ -53,14 +53,15 @@ impl SeekReport {
         with_unit(&shortest(number), &self.range.unit)
     }
 
-    /// The values of the quantity of the condition at both ends of a bracket.
+    /// The values of the quantity of the condition on both sides of a crossing.
     fn values(&self, lower: &Sample, upper: &Sample) -> String {
         let Some(quantity) = self.condition.quantity() else { return String::new() };
         let [from, to] = [lower, upper].map(|sample| match sample.value {
             Some(value) => shown(quantity, value).to_string(),
             None => "no value".to_owned(),
         });
-        format!(", {} {from} to {to}", quantity.key)
+        let to = if from == to { String::new() } else { format!(" to {to}") };
+        format!("; {} {from}{to}", quantity.symbol)
     }
 }
 
@@ -82,14 +83,13 @@ impl Results for SeekReport {
                 return lines;
             }
         }
-        // A value with the digits that a bracket supports.
-        let rounded = |number: f64| self.value(format!("{number:.9e}").parse().unwrap_or(number));
+        // JSON has every digit.
+        let rounded = |number: f64| self.value(format!("{number:.5e}").parse().unwrap_or(number));
         for [lower, upper] in self.found.crossings() {
             let middle = rounded(lower.at + 0.5 * (upper.at - lower.at));
             let (below, above) = (word(&lower.state), word(&upper.state));
-            lines.push(format!("  crossing at {middle}: {below} below, {above} above"));
-            let [from, to] = [lower, upper].map(|sample| self.value(sample.at));
-            lines.push(format!("    bracket {from} to {to}{}", self.values(lower, upper)));
+            let values = self.values(lower, upper);
+            lines.push(format!("  crossing at {middle}: {below} below, {above} above{values}"));
         }
         for [first, last] in self.found.segments() {
             let reason = match &first.state {
@@ -105,7 +105,7 @@ impl Results for SeekReport {
     fn json(&self) -> Json {
         let AxisRange { field, unit, from, to } = &self.range;
         let quantity = self.condition.quantity();
-        let end = |Sample { at, state, value }: &Sample| {
+        let end = |Sample { at, state, value, .. }: &Sample| {
             let value = quantity.and_then(|known| Some(measured(known, (*value)?, None)));
             json!({"at": at, "state": word(state).replace(' ', "-"), "quantity": value})
         };
@@ -213,14 +213,14 @@ pub fn table(points: &dyn Points, quantities: &[&Quantity], first: usize, rows: 
 
 /// A row of a sweep as a JSON object.
 fn line(grid: &Grid, quantities: &[&Quantity], index: usize, row: &Row) -> Json {
-    let varied = grid.places(index).map(|(axis, at)| {
+    let varied = grid.places(index).flat_map(|(axis, at)| {
         let (point, unit) = (&axis.points[at], axis.unit.as_str());
         let unit = if unit.is_empty() { "1" } else { unit };
         let value = match point.number {
             Some(value) => json!({"value": value, "unit": unit}),
             None => json!(point.text),
         };
-        (axis.key(), value)
+        axis.fields().map(move |field| (FIELDS[field].key, value.clone()))
     });
     let values = quantities.iter().zip(&row.values);
     let values =
@@ -276,7 +276,9 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
         Ok(number) if is_number => number,
         _ => places.iter().position(|place| place[0] == text).unwrap_or_default() as f64,
     };
-    let others: Vec<usize> = fields.into_iter().filter(|&at| at != across).collect();
+    // A field that varies with the first has no curves of its own.
+    let is_apart = |at: &usize| *at != across && distinct(&[across, *at]).len() > places.len();
+    let others: Vec<usize> = fields.into_iter().filter(is_apart).collect();
     let number = |row: &csv::StringRecord, at: usize| row[at].parse::<f64>().ok();
     let values = rows.iter().flat_map(|row| known.iter().filter_map(|&(at, _)| number(row, at)));
     let unit = common_unit(first, values, System::Metric);

@@ -19,6 +19,8 @@ pub const MOST_POINTS: usize = 1_000_000;
 pub struct Axis {
     /// Index in [`FIELDS`].
     pub field: usize,
+    /// Other fields with the same values.
+    pub also: Vec<usize>,
     /// The unit in which the user gave the values; empty for a bare number or a choice.
     pub unit: String,
     /// The values.
@@ -62,12 +64,28 @@ impl AxisPoint {
 }
 
 impl Axis {
-    /// Parses a text such as `operation.speed=500..3000 rpm` or `driven.teeth=20,30,40`.
+    /// Parses a text such as `operation.speed=500..3000 rpm`, `driven.teeth=20,30,40` or, for two
+    /// fields with the same values, `driver.grade,driven.grade=5..9`.
     ///
     /// # Errors
     /// Returns an error if the field does not exist or does not accept the values, if the range is
     /// reversed or empty, or if the number of points does not suit the range.
     pub fn parse(text: &str, sampling: Sampling) -> Result<Axis, Problem> {
+        let (keys, values) = text.split_once('=').unwrap_or((text, ""));
+        if let Some((first, others)) = keys.split_once(',') {
+            let mut axis = Axis::parse(&format!("{first}={values}"), sampling)?;
+            for key in others.split(',').map(str::trim) {
+                let field = index_of(key).ok_or_else(|| unknown_key(key))?;
+                for (at, point) in axis.points.iter().enumerate() {
+                    if field_value(field, &axis.with_unit(at))? != point.value {
+                        let cause = format!("{key} is of another kind than {}", axis.key());
+                        return Err(Problem::new(key, cause, "vary it with its own --vary"));
+                    }
+                }
+                axis.also.push(field);
+            }
+            return Ok(axis);
+        }
         let (field, values) = assignment(text)?;
         if values.contains(TO) {
             return AxisRange::of(field, values)?.axis(sampling);
@@ -85,7 +103,7 @@ impl Axis {
             AxisPoint::at(number_in(field, item, &unit)?, &unit, field)
         };
         let points = items().map(point).collect::<Result<_, _>>()?;
-        Ok(Axis { field, unit, points })
+        Ok(Axis { field, also: Vec::new(), unit, points })
     }
 
     /// Whether a text is a range, so that a number of points applies.
@@ -96,6 +114,11 @@ impl Axis {
     /// The key of the field.
     pub fn key(&self) -> &'static str {
         FIELDS[self.field].key
+    }
+
+    /// Every field of the axis.
+    pub fn fields(&self) -> impl Iterator<Item = usize> {
+        [self.field].into_iter().chain(self.also.iter().copied())
     }
 
     /// The value at an index with its unit, in the syntax of `--set`.
@@ -212,12 +235,16 @@ impl AxisRange {
             match index {
                 0 => from,
                 _ if index == last => to,
-                _ if is_log => rounded(from * (to / from).powf(part)),
+                // Decades of a range of decades are exact.
+                _ if is_log => {
+                    let [low, high] = [from, to].map(f64::log10);
+                    rounded(10f64.powf(low + (high - low) * part))
+                }
                 _ => rounded(from + (to - from) * index as f64 / last as f64),
             }
         };
         let points = (0..count).map(|index| self.at(number(index))).collect::<Result<_, _>>()?;
-        Ok(Axis { field: self.field, unit: self.unit.clone(), points })
+        Ok(Axis { field: self.field, also: Vec::new(), unit: self.unit.clone(), points })
     }
 }
 
@@ -380,35 +407,47 @@ impl Points for Grid {
 
     /// The varied fields in their units.
     fn columns(&self) -> Vec<(String, &str)> {
-        self.axes.iter().map(|axis| (axis.key().to_owned(), axis.unit.as_str())).collect()
+        let of = |axis| {
+            let axis: &Axis = axis;
+            axis.fields().map(|field| (FIELDS[field].key.to_owned(), axis.unit.as_str()))
+        };
+        self.axes.iter().flat_map(of).collect()
     }
 
     fn cells(&self, index: usize) -> Vec<String> {
-        self.places(index).map(|(axis, at)| axis.points[at].text.clone()).collect()
+        let of = |(axis, at): (&Axis, usize)| {
+            let text = axis.points[at].text.clone();
+            vec![text; 1 + axis.also.len()]
+        };
+        self.places(index).flat_map(of).collect()
     }
 
     fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
         for (axis, at) in self.places(index) {
-            axis.points[at].put(axis.field, inputs);
+            axis.fields().for_each(|field| axis.points[at].put(field, inputs));
         }
         Ok(())
     }
 }
 
-/// Checks that an axis varies another field than the previous axes.
+/// Checks that an axis varies other fields than the previous axes.
 fn apart(others: &[Axis], axis: &Axis) -> Result<(), Problem> {
-    let key = axis.key();
-    let cause = others.iter().find_map(|other| match other.key() {
-        own if own == key => Some(format!("{key} is varied twice")),
-        other if Case::are_exclusive(other, key) => {
-            Some(format!("{other} and {key} exclude each other"))
+    let keys = |axis: &Axis| axis.fields().map(|field| FIELDS[field].key).collect::<Vec<_>>();
+    let mut known: Vec<&str> = others.iter().flat_map(keys).collect();
+    for key in keys(axis) {
+        let cause = known.iter().find_map(|&other| match other {
+            own if own == key => Some(format!("{key} is varied twice")),
+            other if Case::are_exclusive(other, key) => {
+                Some(format!("{other} and {key} exclude each other"))
+            }
+            _ => None,
+        });
+        if let Some(cause) = cause {
+            return Err(Problem::new(key, cause, "leave one of them out"));
         }
-        _ => None,
-    });
-    match cause {
-        Some(cause) => Err(Problem::new(key, cause, "leave one of them out")),
-        None => Ok(()),
+        known.push(key);
     }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -37,7 +37,8 @@ pub struct Condition {
 #[derive(Debug, Clone, PartialEq)]
 enum Kind {
     Outcome(Outcome),
-    Compared(&'static Quantity, Relation, f64),
+    /// The quantity with its limit, or with its factor of another quantity.
+    Compared(&'static Quantity, Relation, f64, Option<&'static Quantity>),
 }
 
 /// Whether a point meets the condition.
@@ -93,16 +94,22 @@ impl Condition {
         }
     }
 
-    /// Checks that a method computes the quantity.
+    /// The quantity, and the one to which its limit is relative.
+    pub fn quantities(&self) -> Vec<&'static Quantity> {
+        match self.kind {
+            Kind::Outcome(_) => Vec::new(),
+            Kind::Compared(quantity, .., of) => [quantity].into_iter().chain(of).collect(),
+        }
+    }
+
+    /// Checks that a method computes the quantities.
     ///
     /// # Errors
-    /// Returns an error if the method does not compute the quantity.
+    /// Returns an error if the method does not compute one of them.
     pub fn check(&self, method: Method) -> Result<(), Problem> {
-        let Some(quantity) = self.quantity() else { return Ok(()) };
+        let is_absent = |own: &&Quantity| !method.stages().has(own.stage);
+        let Some(quantity) = self.quantities().into_iter().find(is_absent) else { return Ok(()) };
         let computes = |method: &Method| method.stages().has(quantity.stage);
-        if computes(&method) {
-            return Ok(());
-        }
         let others: Vec<&str> =
             Method::ALL.into_iter().filter(computes).map(Method::name).collect();
         let cause = format!("method {} does not compute {}", method.name(), quantity.key);
@@ -110,7 +117,7 @@ impl Condition {
         Err(Problem::new(quantity.key, cause, fix))
     }
 
-    /// Whether a row meets the condition; the first value of the row must be the quantity.
+    /// Whether a row meets the condition; the values of the row are [`Self::quantities`].
     pub fn state(&self, row: &Row) -> State {
         let outcome = match (row.outcome, &row.refusal) {
             (_, Some(refused)) => return State::Unknown((**refused).clone()),
@@ -119,12 +126,9 @@ impl Condition {
         };
         let is_met = match self.kind {
             Kind::Outcome(wanted) => outcome == wanted,
-            Kind::Compared(quantity, relation, limit) => {
-                match row.values.first().copied().flatten() {
-                    Some(value) => {
-                        let margin = relation.margin(value, limit);
-                        margin > 0.0 || margin == 0.0 && !relation.is_strict
-                    }
+            Kind::Compared(quantity, relation, ..) => {
+                match self.margin(row) {
+                    Some(margin) => margin > 0.0 || margin == 0.0 && !relation.is_strict,
                     // No tooth strikes.
                     None if outcome == Outcome::NoCornerContact || quantity.is_of_free_impact() => {
                         relation.is_upper
@@ -141,12 +145,12 @@ impl Condition {
         if is_met { State::Met } else { State::NotMet }
     }
 
-    /// The distance of a value from the limit, above 0 where the condition is met.
-    pub fn margin(&self, value: f64) -> Option<f64> {
-        match self.kind {
-            Kind::Outcome(_) => None,
-            Kind::Compared(_, relation, limit) => Some(relation.margin(value, limit)),
-        }
+    /// The distance of the value of a row from the limit, above 0 where the condition is met.
+    fn margin(&self, row: &Row) -> Option<f64> {
+        let Kind::Compared(_, relation, limit, of) = self.kind else { return None };
+        let value = |at: usize| row.values.get(at).copied().flatten();
+        let base = if of.is_some() { value(1)? } else { 1.0 };
+        Some(relation.margin(value(0)?, limit * base))
     }
 }
 
@@ -157,12 +161,8 @@ fn compared(name: &str, relation: Option<Relation>, value: &str) -> Result<Kind,
     let flags = format!("write {key}=true or {key}=false");
     let (cause, fix) = match (quantity.is_flag(), relation) {
         (false, Some(relation)) => {
-            let Limit { value: limit, of, .. } = Limit::new(key, value)?;
-            if of.is_none() {
-                return Ok(Kind::Compared(quantity, relation, limit));
-            }
-            let cause = format!("{} is relative to another result", quoted(value));
-            (cause, "write a value with its unit".to_owned())
+            let Limit { value, of, .. } = Limit::new(key, value)?;
+            return Ok(Kind::Compared(quantity, relation, value, of));
         }
         (false, None) => {
             let cause = format!("= compares only flags and outcomes, and {key} is a number");
@@ -170,8 +170,8 @@ fn compared(name: &str, relation: Option<Relation>, value: &str) -> Result<Kind,
         }
         (true, Some(_)) => (format!("{key} is true or false and has no order"), flags),
         (true, None) => match value {
-            "true" | "yes" => return Ok(Kind::Compared(quantity, AT_LEAST, 1.0)),
-            "false" | "no" => return Ok(Kind::Compared(quantity, AT_MOST, 0.0)),
+            "true" | "yes" => return Ok(Kind::Compared(quantity, AT_LEAST, 1.0, None)),
+            "false" | "no" => return Ok(Kind::Compared(quantity, AT_MOST, 0.0, None)),
             other => (format!("{} is neither true nor false", quoted(other)), flags),
         },
     };
@@ -244,6 +244,8 @@ pub struct Sample {
     pub state: State,
     /// The value of the quantity in SI.
     pub value: Option<f64>,
+    /// Its distance from the limit.
+    margin: Option<f64>,
 }
 
 /// The result of a search: every solved point, in order.
@@ -280,7 +282,7 @@ pub fn seek(
     scan: Axis,
     control: &Control,
 ) -> Result<Found, Stopped> {
-    let quantities: Vec<_> = condition.quantity().into_iter().collect();
+    let quantities = condition.quantities();
     let solve = |axis: Axis| {
         let grid = Grid { axes: vec![axis] };
         let batch = Batch { inputs, points: &grid, quantities: &quantities };
@@ -291,27 +293,28 @@ pub fn seek(
                 at: point.number.unwrap_or_default(),
                 state: condition.state(row),
                 value: row.values.first().copied().flatten(),
+                margin: condition.margin(row),
             }));
             true
         })?;
         Ok(samples)
     };
-    let mut samples = solve(scan)?;
+    let mut samples = solve(scan.clone())?;
     for _ in 0..MOST_ROUNDS {
-        let wanted = refinement(range, condition, &samples);
+        let wanted = refinement(range, &samples);
         if wanted.is_empty() {
             break;
         }
         // The field accepts every number between the ends of the range.
         let points = wanted.into_iter().filter_map(|number| range.at(number).ok()).collect();
-        samples.extend(solve(Axis { field: range.field, unit: range.unit.clone(), points })?);
+        samples.extend(solve(Axis { points, ..scan.clone() })?);
         samples.sort_by(|one, other| one.at.total_cmp(&other.at));
     }
     Ok(Found(samples))
 }
 
 /// New points in the intervals that need refinement.
-fn refinement(range: &AxisRange, condition: &Condition, samples: &[Sample]) -> Vec<f64> {
+fn refinement(range: &AxisRange, samples: &[Sample]) -> Vec<f64> {
     let is_wide = |lower: &Sample, upper: &Sample| {
         let size = lower.at.abs().max(upper.at.abs());
         upper.at - lower.at > (WIDTH * size).max(WIDTH_AT_ZERO * (range.to - range.from))
@@ -321,7 +324,7 @@ fn refinement(range: &AxisRange, condition: &Condition, samples: &[Sample]) -> V
         .map(|pair| !pair[0].state.is_like(&pair[1].state) && is_wide(&pair[0], &pair[1]))
         .collect();
     for (at, three) in samples.windows(3).enumerate() {
-        if turns_back(condition, three) && is_wide(&three[0], &three[2]) {
+        if turns_back(three) && is_wide(&three[0], &three[2]) {
             (intervals[at], intervals[at + 1]) = (true, true);
         }
     }
@@ -331,8 +334,8 @@ fn refinement(range: &AxisRange, condition: &Condition, samples: &[Sample]) -> V
 
 /// Whether the quantity is so close to its limit at the middle of three points with one state that
 /// it may cross the limit between them.
-fn turns_back(condition: &Condition, three: &[Sample]) -> bool {
-    let margin = |sample: &Sample| Some(condition.margin(sample.value?)?.abs());
+fn turns_back(three: &[Sample]) -> bool {
+    let margin = |sample: &Sample| Some(sample.margin?.abs());
     let state = &three[0].state;
     let is_one_answer =
         three.iter().all(|one| one.state.is_like(state)) && !matches!(state, State::Unknown(_));
@@ -360,7 +363,7 @@ mod tests {
     #[test]
     fn a_condition_compares_a_quantity_or_an_outcome() {
         let compared = |key: &str, relation: Relation, limit: f64| {
-            Kind::Compared(Quantity::find(key).unwrap(), relation, limit)
+            Kind::Compared(Quantity::find(key).unwrap(), relation, limit, None)
         };
         let strict = |relation: Relation| Relation { is_strict: true, ..relation };
         for (text, kind) in [
@@ -382,7 +385,7 @@ mod tests {
             ("impact_forc<=2500 N", "did you mean impact_force?"),
             ("impact_force<=2500", "2500 has no unit"),
             ("impact_force<=2500 mm", "unit of length"),
-            ("impact_force<=1.3 x mesh_force", "is relative to another result"),
+            ("impact_force<=1.3 x contact_ratio", "name a result in the same unit"),
             ("impact_force=2500 N", "is a number: write impact_force<=2500 N"),
             ("outcome=contact", "write corner-contact or no-corner-contact"),
             ("impact_force==2500 N", "is a number: write impact_force<=2500 N"),

@@ -131,7 +131,7 @@ fn a_refusal_names_the_command_line_and_offers_a_fix_in_one_line() {
         (
             set("operation.power=15 kW' --set 'operation.torque=70 N m"),
             2,
-            "--set operation.torque=70 N m: --set operation.power excludes this field: ",
+            "error: --set operation.torque=70 N m: --set operation.power excludes this field: ",
             "remove one of the two --set options",
         ),
         (

@@ -84,6 +84,10 @@ fn a_sweep_is_a_table_with_the_varied_fields_in_their_own_units() {
         assert!(row.starts_with(start) && row.contains(",1.55"), "{row}");
         assert!(row.ends_with(",corner-contact,exact"), "{row}");
     }
+    let both = page("sweep TABLE_1 --vary 'driver.grade,driven.grade=5..6' --only total_deviation");
+    let rows: Vec<&str> = both.lines().collect();
+    assert!(rows[0].starts_with("driver.grade,driven.grade,total_deviation [m],"), "{both}");
+    assert!(rows[1].starts_with("5,5,") && rows[2].starts_with("6,6,"), "{both}");
 }
 
 #[test]
@@ -194,6 +198,10 @@ fn a_search_prints_its_crossing_with_bracket_and_segments() {
     insta::assert_snapshot!("seek_zhou", page(command));
     let found = json(&format!("{command} --format json"));
     assert_eq!(found["answer"], "crossings");
+    let nominal = command.replace("2000 N", "1.312039 x nominal");
+    let relative = json(&format!("{nominal} --format json"));
+    let at = |found: &Value| found["crossings"][0]["from"]["at"].as_f64().unwrap();
+    assert!((at(&relative) / at(&found) - 1.0).abs() < 1e-3, "{relative}");
     assert_eq!((&found["unit"], &found["vary"]), (&"um".into(), &"deviations.base_pitch".into()));
     let bracket = &found["crossings"][0];
     let [from, to] = ["from", "to"].map(|end| bracket[end]["at"].as_f64().unwrap());

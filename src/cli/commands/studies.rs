@@ -29,7 +29,8 @@ const SWEPT: &[Format] = &[Format::Csv, Format::Json];
 #[derive(Debug, Args)]
 pub struct Sweep {
     /// Vary a field over a range, such as 'operation.speed=500..3000 rpm', or over a list, such as
-    /// 'driven.teeth=20,30,40'; of several fields the first varies slowest
+    /// 'driven.teeth=20,30,40'; of several fields the first varies slowest; fields with commas
+    /// between them have the same values, such as 'driver.grade,driven.grade=5..9'
     #[arg(long, required = true, value_name = "KEY=FROM..TO")]
     vary: Vec<String>,
     /// Number of points of each range, both ends included; default 101, or every whole number.
@@ -60,7 +61,8 @@ impl Sweep {
             .map_err(|(text, problem)| Failure::of_option("--vary", text, &problem))?;
         self.running.destination.check(&self.input.case)?;
         let format = self.running.format(self.format, SWEPT, true)?.unwrap_or(Format::Csv);
-        let first = grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0)));
+        let of = |axis: &Axis| axis.fields().map(|field| (field, axis.with_unit(0))).collect::<Vec<_>>();
+        let first = grid.axes.iter().flat_map(of);
         let mut opened = self.input.open(&first.collect::<Vec<_>>(), streams)?;
         let mut quantities = self.only.quantities();
         opened.need(quantities.iter().copied());
@@ -102,8 +104,8 @@ fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
     }
     // The values of a grid are checked when it is made.
     drop(grid.put(0, &mut inputs));
-    let warning = |axis: &Axis| opened.without_effect(axis.field, &inputs);
-    grid.axes.iter().filter_map(warning).collect()
+    let fields = grid.axes.iter().flat_map(Axis::fields);
+    fields.filter_map(|field| opened.without_effect(field, &inputs)).collect()
 }
 
 /// The options of the command.
