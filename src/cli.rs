@@ -86,7 +86,8 @@ pub fn parse(
         let text = error.render().to_string();
         if error.use_stderr() {
             // Cause, values and tip; usage and the way to the help follow.
-            let is_of_cause = |line: &&str| !line.starts_with("Usage:") && !line.starts_with("For more");
+            let is_of_cause =
+                |line: &&str| !line.starts_with("Usage:") && !line.starts_with("For more");
             let lines = text.lines().take_while(is_of_cause).map(str::trim);
             streams.say(&lines.filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" "));
             return Exit::Usage;
@@ -161,7 +162,11 @@ pub struct Arguments {
 
 fn exit_codes() -> String {
     let codes = Exit::MEANINGS.map(|(exit, meaning)| format!("{} {meaning}", exit as u8));
-    format!("Exit: {}.", codes.join("; "))
+    format!(
+        "Exit: {}.\n\nEnvironment: NO_COLOR switches colours off; without UTF-8 in the locale \
+         (LC_ALL, LC_CTYPE, LANG) the workbench is ASCII.",
+        codes.join("; ")
+    )
 }
 
 /// A case that is ready to solve.

@@ -513,7 +513,7 @@ impl Case {
     }
 
     fn __repr__(&self) -> String {
-        format!("<Case {:?}: {}>", self.name, self.title())
+        format!("<Case {:?} {:?}>", self.name, self.title())
     }
 }
 

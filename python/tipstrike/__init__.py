@@ -387,6 +387,7 @@ def tolerance(case, *, samples=10_000, seed=1, ranking=None, only=None, method=N
               progress=None, **changes):
     """Percentiles, probabilities and ranking by the distributions [spread]; `columns` has every solve."""
     opened = _opened(case, changes, variant, method)
+    samples = max(samples, 0)
     columns, json, text, notes = opened.tolerance(samples, seed, ranking, _names(only), jobs, _progress(progress))
     return Study(columns, text, notes, json)
 

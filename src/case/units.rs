@@ -664,7 +664,7 @@ pub enum System {
 
 /// Each shown metric unit and its inch unit. Both systems use units that are not in this list, such
 /// as deg, rpm or us.
-const PAIRS: [(&str, &str); 20] = [
+const PAIRS: [(&str, &str); 21] = [
     ("m", "ft"),
     ("mm", "in"),
     ("um", "thou"),
@@ -685,6 +685,7 @@ const PAIRS: [(&str, &str); 20] = [
     ("um mm/N", "in2/lbf"),
     ("m2/N", "in2/lbf"),
     ("N/um", "lbf/in"),
+    ("N/mm", "lbf/in"),
 ];
 
 impl System {

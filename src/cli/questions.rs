@@ -145,7 +145,9 @@ impl Question for Seek {
 
     fn answer(&self, inputs: &Inputs, go_on: &dyn Fn(usize, usize) -> bool) -> Answer {
         let (range, condition) = self.parsed()?;
-        let inputs = inputs.clone().needing(condition.quantities().into_iter().map(|quantity| quantity.stage));
+        let inputs = inputs
+            .clone()
+            .needing(condition.quantities().into_iter().map(|quantity| quantity.stage));
         condition.check(inputs.method).map_err(|problem| self.wrong_condition(problem))?;
         let scan = range.axis(Sampling { points: Some(self.points), is_log: false });
         let scan = scan.map_err(|problem| self.wrong_range(problem))?;

@@ -433,26 +433,27 @@ fn rpm(speed: f64) -> f64 {
 
 /// The run-up, the run-down if its motion differs, and the points with loss of contact.
 fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
-    let called = |run: &str, peak: Option<&AtSpeed>| {
-        let text = |key, value| Some(shown(Quantity::find(key)?, value).to_string());
-        let peak = peak.and_then(|peak| {
-            let factor = text("resonance_peak_factor", peak.tooth_factor)?;
-            Some(format!(": peak {factor} at {}", text("resonance_peak_speed", peak.speed)?))
-        });
-        of(name, &(run.to_owned() + &peak.unwrap_or_default()))
+    let text = |key, value| Some(shown(Quantity::find(key)?, value).to_string());
+    let peak = |peak: Option<&AtSpeed>| {
+        let factor = text("resonance_peak_factor", peak?.tooth_factor)?;
+        Some(format!(": peak {factor} at {}", text("resonance_peak_speed", peak?.speed)?))
     };
+    let [rising, falling] = [curve.peak_rising(), curve.peak_falling()].map(peak);
+    let falling = falling.filter(|falling| rising.as_ref() != Some(falling));
+    let called =
+        |run: &str, peak: Option<String>| of(name, &(run.to_owned() + &peak.unwrap_or_default()));
     let jumps: Vec<AtSpeed> = curve.jumps().copied().collect();
     let is_jump = |point: &AtSpeed| jumps.iter().any(|jump| jump == point);
     let way = if jumps.is_empty() { "rising/falling" } else { "speed rising" };
     let down = curve.down.iter().map(|point| point.as_ref().filter(|point| is_jump(point)));
     let all = [
         Series {
-            name: called(way, curve.peak_rising()),
+            name: called(way, rising),
             pieces: unbroken(curve.up.iter().map(Option::as_ref)),
             kind: Kind::Curve,
         },
         Series {
-            name: called("speed falling", curve.peak_falling()),
+            name: called("speed falling", falling),
             pieces: unbroken(down),
             kind: Kind::Curve,
         },

@@ -95,9 +95,9 @@ fn page(
     solution: &Solution,
     solves: impl Fn(&Known) -> (Vec<String>, Vec<Effect>),
 ) -> Page {
-    let solution = solution.having(quantity.stage);
-    let is_by_auto = inputs.method == Method::Auto;
-    let used = if is_by_auto { auto::taken(inputs, solution.method) } else { inputs.clone() };
+    let (chosen, solution) = (solution.method, solution.having(quantity.stage));
+    let is_auto = inputs.method == Method::Auto;
+    let used = if is_auto { auto::taken(inputs, solution.method) } else { inputs.clone() };
     let context = Context { inputs: &used, given: inputs, solution };
     let known = Known { case, context };
     let value = value(quantity, solution);
@@ -108,7 +108,7 @@ fn page(
         symbol: quantity.symbol_in(solution.method),
         label: quantity.label_in(solution.method).trim_start(),
         method: solution.method.name(),
-        is_by_auto,
+        is_by_auto: is_auto && chosen == solution.method,
         value,
         shown: value.map(|value| shown(quantity, value)),
         missing: value.is_none().then(|| format!("No value: {}", Absence::of(quantity, solution))),

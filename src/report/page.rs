@@ -11,12 +11,14 @@ use crate::case::{Case, FIELDS, units};
 use crate::model::Quantity;
 use crate::model::explanation::tidy;
 use crate::report::charts::NamedCase;
-use crate::report::charts::{Picture, find, pictures};
+use crate::report::charts::{PATTERN, Picture, find, pictures};
 use crate::report::compare::{ComparedCase, Comparison};
+use crate::report::relief::RELIEF;
 use crate::report::solve::Subject;
 use crate::report::table::{Cell, Column, Table};
 use crate::report::tolerance::{distributions, probabilities, samples as samples_of};
 use crate::report::verdict::verdicts;
+use crate::study::relief::{Begin, TipReliefs};
 use crate::study::seek::distinct;
 use crate::study::shard::Format;
 use crate::study::statistics::PERCENTILES;
@@ -53,8 +55,12 @@ const DEFINING: [&str; 8] = [
 
 /// The results on the first sheet; those of the free impact by their counterparts in the method.
 /// The results with a limit follow.
-const MAIN_RESULTS: [&str; 21] = [
+const MAIN_RESULTS: [&str; 25] = [
     "contact_ratio",
+    "overlap_ratio",
+    "axial_force",
+    "face_load_factor",
+    "static_peak_line_load",
     "centre_distance",
     "working_pressure_angle",
     "mesh_force",
@@ -79,7 +85,7 @@ const MAIN_RESULTS: [&str; 21] = [
 
 /// The pictures of the first sheet, of a single case with the teeth: the first of them that the case
 /// has; the others are in the appendix.
-const MAIN_PICTURES: [&str; 4] = ["force", "relief", "transmission_error", "gap"];
+const MAIN_PICTURES: [&str; 5] = ["force", PATTERN, RELIEF, "transmission_error", "gap"];
 /// Their number, besides the teeth.
 const ON_FIRST_SHEET: usize = 3;
 
@@ -250,7 +256,11 @@ impl PageCase<'_> {
     fn about(&self) -> Vec<String> {
         let report = self.report;
         let method = report.solution.method.name();
-        let mut line = format!("{}, method {method}", sanitize(&report.name));
+        // The heading of a case without title is its name.
+        let mut line = match report.case.title() {
+            "" => format!("Method {method}"),
+            _ => format!("{}, method {method}", sanitize(&report.name)),
+        };
         let notes = one_line(report.text("notes"));
         if !notes.is_empty() {
             line = format!("{line}. {notes}");
@@ -344,7 +354,40 @@ fn inputs(cases: &[PageCase]) -> Table {
         let names = [field.label.to_owned(), symbols.join(" / ")].map(Cell::from);
         is_shown.then(|| names.into_iter().chain(values).collect())
     });
-    Table::new("", columns("input", titles(cases))).with(rows)
+    let begins = [
+        begins(cases, "tip relief begins at roll angle", "ξ1 / ξ2", "deg", |at| {
+            at.roll_angle.to_degrees()
+        }),
+        begins(cases, "tip relief begins at diameter", "d_Ca1 / d_Ca2", "mm", |at| {
+            at.diameter * 1e3
+        }),
+    ];
+    Table::new("", columns("input", titles(cases))).with(rows.chain(begins.into_iter().flatten()))
+}
+
+/// The places at which the tip reliefs of the cases begin, if there are any.
+fn begins(
+    cases: &[PageCase],
+    label: &str,
+    symbol: &str,
+    unit: &str,
+    place: fn(&Begin) -> f64,
+) -> Option<Vec<Cell>> {
+    let of = |case: &PageCase| {
+        let (inputs, geometry) = (&case.report.inputs, &case.report.solution.geometry);
+        let reliefs = TipReliefs::of_case(inputs, geometry);
+        let begins = reliefs.begins(geometry);
+        let text = |at: usize| match reliefs.amounts[at] {
+            0.0 => "–".to_owned(),
+            _ => format!("{:.2}", place(&begins[at])),
+        };
+        let has_relief = reliefs.removed() > 0.0;
+        has_relief.then(|| Cell::Default(format!("{} / {} {unit}", text(0), text(1))))
+    };
+    let cells: Vec<Option<Cell>> = cases.iter().map(of).collect();
+    let names = [label, symbol].map(Cell::from).into_iter();
+    let values = cells.iter().map(|cell| cell.clone().unwrap_or_else(|| "–".into()));
+    cells.iter().any(Option::is_some).then(|| names.chain(values).collect())
 }
 
 /// The text of a field, given, computed from other fields or by default, and whether the case does

@@ -44,17 +44,17 @@ impl Specification {
             ),
             (
                 format!(
-                    "What each relief gains; C_a in um, L in mm, TE: {figure} peak-to-peak \
-                     transmission error over the loads without deviations in um; * the smallest \
-                     relief {within}"
+                    "What each relief gains; TE: {figure} peak-to-peak transmission error over the \
+                     loads without deviations, worst: within the tolerances; * the smallest relief \
+                     {within}"
                 ),
                 self.gains(),
             ),
             (
                 format!(
-                    "What each relief costs; TE at {} % of the load in um, contact ratio of the \
-                     unrelieved flanks; within the tolerances: force before E and peak force in N, \
-                     gap in um, load at which it closes",
+                    "What each relief costs; TE at {} % of the load, contact ratio of the \
+                     unrelieved flanks; within the tolerances: force before E, peak force, gap, \
+                     load at which it closes",
                     percent(found.loads[0])
                 ),
                 self.of_choices(&costs),
@@ -143,10 +143,10 @@ impl Specification {
             format!("{own:.2} +-{:.2}", other - own)
         };
         let mut rows = vec![
-            row("tip relief C_a, um", &|at| {
+            row("tip relief Ca, um", &|at| {
                 format!("{} +-{}", um(reliefs.amounts[at]), um(demand.tolerance))
             }),
-            row("length along the path of contact L_Ca, mm", &|at| {
+            row("length along the path of contact La, mm", &|at| {
                 format!("{} +-{}", mm(reliefs.lengths[at]), mm(off))
             }),
             row("begins at roll angle, deg", &|at| {
@@ -157,7 +157,7 @@ impl Specification {
         ];
         if *is_over_face {
             let crowning = um(reliefs.crowning);
-            rows.push(vec!["  crowning C_b, um".to_owned(), crowning, "as in the case".to_owned()]);
+            rows.push(vec!["  crowning Cβ, um".to_owned(), crowning, um(self.driven_crowning)]);
         }
         let head = ["  For the drawing", "driver", "driven gear"].map(str::to_owned);
         let mut table = Table::of_texts(head.to_vec(), rows);
@@ -171,7 +171,7 @@ impl Specification {
         let (case, own) = (&found.choices[0], &found.choices[at]);
         let greatest = found.demand.greatest_load();
         let load = match own.greatest_load {
-            Some(load) => format!("the load can rise to {} %", percent(floor(load))),
+            Some(load) => format!("the load can rise to {:.1} %", 100.0 * floor(load)),
             None => {
                 format!("no load up to {} % causes corner contact", percent(MOST_LOAD * greatest))
             }
@@ -329,7 +329,7 @@ impl Specification {
                 let Some(value) = of(found, choice) else { return Cell::None("-".into()) };
                 let text = match *shown {
                     "%" => format!("{:+.0} %", 100.0 * value),
-                    "% load" => percent(value) + " %",
+                    "% load" => format!("{:.1} %", 100.0 * value),
                     unit => tidy(value / units::factor(unit).unwrap_or(1.0), *digits),
                 };
                 Cell::Shown(value, text)
@@ -512,25 +512,25 @@ type Numbers = (
 
 /// The columns of numbers.
 const NUMBERS: [Numbers; 24] = [
-    ("driver.tip_relief", "C_a1", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[0])),
-    ("driver.tip_relief_length", "L_1", "m", ("mm", 4), |_, of| of.length(0)),
-    ("driven.tip_relief", "C_a2", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[1])),
-    ("driven.tip_relief_length", "L_2", "m", ("mm", 4), |_, of| of.length(1)),
-    ("transmission_error", "TE", "m", ("um", 3), |_, of| Some(of.nominal.error)),
-    ("margin", "gap", "m", ("um", 2), |_, of| Some(of.worst.gap)),
+    ("driver.tip_relief", "Ca1 um", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[0])),
+    ("driver.tip_relief_length", "La1 mm", "m", ("mm", 4), |_, of| of.length(0)),
+    ("driven.tip_relief", "Ca2 um", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[1])),
+    ("driven.tip_relief_length", "La2 mm", "m", ("mm", 4), |_, of| of.length(1)),
+    ("transmission_error", "TE um", "m", ("um", 3), |_, of| Some(of.nominal.error)),
+    ("margin", "gap um", "m", ("um", 2), |_, of| Some(of.worst.gap)),
     ("change", "vs case", "1", ("%", 2), |all, of| {
         Some(of.nominal.error / all.choices[0].nominal.error - 1.0)
     }),
-    ("worst_transmission_error", "in tolerance", "m", ("um", 3), |_, of| Some(of.worst.error)),
-    ("least_load_error", "TE", "m", ("um", 3), |_, of| of.errors.first().copied()),
+    ("worst_transmission_error", "worst um", "m", ("um", 3), |_, of| Some(of.worst.error)),
+    ("least_load_error", "TE um", "m", ("um", 3), |_, of| of.errors.first().copied()),
     ("least_load_change", "vs case", "1", ("%", 2), |all, of| {
         Some(of.errors.first()? / all.choices[0].errors.first()? - 1.0)
     }),
     ("unloaded_contact_ratio", "ratio", "1", ("1", 3), |all, of| {
         Some(of.reliefs.unloaded_contact_ratio(&all.geometry))
     }),
-    ("worst_entry_force", "entry", "N", ("N", 3), |_, of| Some(of.worst.entry)),
-    ("worst_peak_force", "peak", "N", ("N", 4), |_, of| Some(of.worst.peak)),
+    ("worst_entry_force", "entry N", "N", ("N", 3), |_, of| Some(of.worst.entry)),
+    ("worst_peak_force", "peak N", "N", ("N", 4), |_, of| Some(of.worst.peak)),
     ("dynamic_factor", "K", "1", ("1", 3), |_, of| of.nominal.factor),
     ("greatest_load", "load", "1", ("% load", 0), |_, of| of.greatest_load.map(floor)),
     ("entry_force", "", "N", ("N", 3), |_, of| Some(of.nominal.entry)),
@@ -543,7 +543,7 @@ const NUMBERS: [Numbers; 24] = [
     }),
     ("static_te_peak_to_peak", "", "m", ("um", 4), |_, of| Some(of.nominal.own_errors?[0])),
     ("static_transmission_error", "", "m", ("um", 4), |_, of| Some(of.nominal.own_errors?[1])),
-    (CROWNING, "C_b", "m", ("um", 3), |_, of| Some(of.reliefs.crowning)),
+    (CROWNING, "Cβ1 um", "m", ("um", 3), |_, of| Some(of.reliefs.crowning)),
     ("peak_line_load", "", "N/m", ("N/mm", 4), |_, of| of.nominal.line_load),
     ("worst_peak_line_load", "", "N/m", ("N/mm", 4), |_, of| of.worst.line_load),
 ];
@@ -615,15 +615,14 @@ pub fn relief_chart(all: &Reliefs, geometry: &Geometry, off: Off) -> Result<Char
     });
     let tips = [all.driver.tip, all.driven.tip];
     let has_band = |at: &usize| tips[*at] > 0.0 && off[*at].max(off[2 + at]) > 0.0;
-    let bands = (0..2).filter(has_band).map(|at| {
-        let pieces = vec![curve(at, 1.0), curve(at, -1.0)];
-        Series { name: format!("{}, tolerance", name(at)), pieces, kind: Kind::Bound }
-    });
+    let pieces = (0..2).filter(has_band).flat_map(|at| [curve(at, 1.0), curve(at, -1.0)]).collect();
+    let band = Series { name: "limits of the tolerances".to_owned(), pieces, kind: Kind::Bound };
+    let band = Some(band).filter(|band| !band.pieces.is_empty());
     Ok(Chart {
         title: "Reliefs over the roll angle (K-chart)".to_owned(),
         across: Axis::new("roll angle of the gear", "deg"),
         up: Axis::new("Deviation from the involute", "um"),
-        series: series.into_iter().chain(bands).collect(),
+        series: series.into_iter().chain(band).collect(),
         ..Chart::default()
     })
 }

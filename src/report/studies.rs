@@ -426,6 +426,8 @@ impl Results for Excitation {
              brakes the driver.",
             "Both angles count in the direction of rotation of their gear; t = 0 where a tooth \
              pair is at E.",
+            "k is the stiffness of a small motion about the balance under load; mean_stiffness is \
+             k_m of the pairs on the path of contact without reliefs, which the damping uses.",
         ];
         lines.push(String::new());
         lines.extend(notes.iter().flat_map(|note| item("", note)));

@@ -172,7 +172,7 @@ fn frame(chart: &Chart, height: f64) -> String {
     let [size, small] = [(&title, 17.0, right - left), (&up, 15.0, bottom + 40.0)]
         .map(|(text, size, room)| size * (room / (LETTER * text.chars().count() as f64)).min(1.0));
     format!(
-        "{}<text x=\"{left}\" y=\"22\" class=\"title\" style=\"font-size:{size:.1}px\">{title}</text>\n\
+        "{}<text x=\"{left}\" y=\"17\" class=\"title\" style=\"font-size:{size:.1}px\">{title}</text>\n\
          <text x=\"{middle}\" y=\"{below}\" text-anchor=\"middle\">{across}</text>\n\
          <text transform=\"translate(18 {half}) rotate(-90)\" text-anchor=\"middle\" \
              style=\"font-size:{small:.1}px\">{up}</text>\n",
@@ -221,7 +221,7 @@ fn grid(text: &mut String, chart: &Chart, (across, up): (Span, Span)) {
         let _ = writeln!(text, "<path d=\"M{x:.1} {top}V{bottom}\" class=\"mark\"/>");
         if let Some(row) = (0..ends.len()).find(|&row| x - half > ends[row] + LETTER) {
             ends[row] = x + half;
-            let above = top - 9.0 - 14.0 * row as f64;
+            let above = top - 8.0 - 14.0 * row as f64;
             let _ = writeln!(
                 text,
                 "<text x=\"{x:.1}\" y=\"{above}\" text-anchor=\"middle\">{name}</text>"

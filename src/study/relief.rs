@@ -127,6 +127,8 @@ pub struct Specification {
     pub mesh_force: f64,
     /// Whether the load varies over the face width.
     pub is_over_face: bool,
+    /// The crowning of the driven gear, which stays that of the case, in m.
+    pub driven_crowning: f64,
     /// The geometry of the pair.
     pub geometry: Geometry,
     /// The loads, relative to the load of the case.
@@ -144,6 +146,18 @@ pub struct Specification {
 }
 
 impl TipReliefs {
+    /// The reliefs of a case.
+    pub fn of_case(inputs: &Inputs, geometry: &Geometry) -> TipReliefs {
+        let gears = [&inputs.driver, &inputs.driven];
+        let usual = geometry.shared_length();
+        TipReliefs {
+            shape: inputs.relief_shape,
+            amounts: gears.map(|gear| gear.tip_relief),
+            lengths: gears.map(|gear| gear.tip_relief_length.unwrap_or(usual)),
+            crowning: inputs.driver.crowning,
+        }
+    }
+
     /// The reliefs with deviations. A tip without relief has no deviation.
     pub fn off(&self, by: Off) -> TipReliefs {
         let amount = |at: usize| {
@@ -305,14 +319,7 @@ pub fn specify(
         }
     };
     pair.part.set(SEARCH);
-    let usual = solution.geometry.shared_length();
-    let gears = [&at_rest.driver, &at_rest.driven];
-    let present = TipReliefs {
-        shape: at_rest.relief_shape,
-        amounts: gears.map(|gear| gear.tip_relief),
-        lengths: gears.map(|gear| gear.tip_relief_length.unwrap_or(usual)),
-        crowning: at_rest.driver.crowning,
-    };
+    let present = TipReliefs::of_case(&at_rest, &solution.geometry);
     let mut choices = vec![pair.choice("relief of the case", present)?];
     let (kinds, mut beyond) = (found.len() as f64, None);
     for (done, (name, reliefs)) in (1..).zip(found) {
@@ -336,6 +343,7 @@ pub fn specify(
         torque,
         mesh_force: solution.mesh_force,
         is_over_face,
+        driven_crowning: at_rest.driven.crowning,
         geometry: solution.geometry,
         map: pair.map(&choices[best].reliefs)?,
         loads: loads.into_iter().map(|(load, _)| load).collect(),

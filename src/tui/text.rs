@@ -384,7 +384,7 @@ const VEILED: char = '\u{FFFD}';
 const MOST_MARKS: usize = 8;
 
 /// ASCII replacements of single cells.
-const ONE_CELL: [(&str, char); 31] = [
+const ONE_CELL: [(&str, char); 35] = [
     ("─━╌┄", '-'),
     ("═", '='),
     ("│┃║▏▕┊", '|'),
@@ -408,6 +408,10 @@ const ONE_CELL: [(&str, char); 31] = [
     ("µμ", 'u'),
     ("Δδ", 'd'),
     ("α", 'a'),
+    ("β", 'b'),
+    ("γ", 'g'),
+    ("ζ", 'z'),
+    ("Σ", 'S'),
     ("ε", 'e'),
     ("κ", 'k'),
     ("ν", 'n'),

@@ -54,7 +54,7 @@ fn a_relief_over_the_face_has_a_crowning_and_is_drawn_with_its_tolerances() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("relief.svg");
     page(&format!("{search} --out {}", picture.display()));
-    has(&fs::read_to_string(picture).unwrap(), &["driven gear, tolerance"]);
+    has(&fs::read_to_string(picture).unwrap(), &["limits of the tolerances"]);
 }
 
 #[test]

@@ -61,7 +61,8 @@ impl Sweep {
             .map_err(|(text, problem)| Failure::of_option("--vary", text, &problem))?;
         self.running.destination.check(&self.input.case)?;
         let format = self.running.format(self.format, SWEPT, true)?.unwrap_or(Format::Csv);
-        let of = |axis: &Axis| axis.fields().map(|field| (field, axis.with_unit(0))).collect::<Vec<_>>();
+        let of =
+            |axis: &Axis| axis.fields().map(|field| (field, axis.with_unit(0))).collect::<Vec<_>>();
         let first = grid.axes.iter().flat_map(of);
         let mut opened = self.input.open(&first.collect::<Vec<_>>(), streams)?;
         let mut quantities = self.only.quantities();
@@ -304,7 +305,8 @@ impl<Q: Args + Question> Asked<Q> {
         let out = destination.out.as_deref();
         if let Some(chart) = found.picture(inputs).filter(|_| format.is_none()) {
             let chart = chart.map_err(|reason| opened.failed(&reason))?;
-            return write_text(out, streams, &draw(&chart));
+            write_text(out, streams, &draw(&chart))?;
+            return opened.write(&*found, Format::Text, None, streams);
         }
         opened.write(&*found, format.unwrap_or(Format::Text), out, streams)?;
         if format == Some(Format::Csv) {
