@@ -81,10 +81,11 @@ fn inputs(report: &Report) -> Vec<String> {
     let shown = |(at, field): (usize, &Field)| {
         let is_listed = match field.table() {
             "" => false,
-            "model" => field.name() == "deflection",
+            "model" => field.name() == "deflection" && case.text(at).is_some(),
             _ => field.name() == "pressure_angle" || !is_default(at, case),
         };
-        let text = case.text(at).filter(|_| is_listed)?;
+        // The pressure angle also by default.
+        let text = case.effective(at).filter(|_| is_listed)?;
         Some(format!("{} = {}", field.symbol, sanitize(text)))
     };
     let shown: Vec<String> = FIELDS.iter().enumerate().filter_map(shown).collect();

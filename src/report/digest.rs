@@ -99,7 +99,8 @@ pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> St
     let ratio = times(solution, "dynamic_peak_force", "static_peak_force")
         .filter(|_| solution.method == Method::Dynamic);
     let ratio = ratio.map(|ratio| ratio + "the force at rest)").unwrap_or_default();
-    let most = most.map(|most| format!("{most} on a tooth{ratio}"));
+    let at_rest = if solution.method == Method::Static { " at rest" } else { "" };
+    let most = most.map(|most| format!("{most} on a tooth{at_rest}{ratio}"));
     if solution.outcome == Outcome::NoCornerContact {
         let why = without_contact_in_full(solution, system);
         let most = most.map(|most| format!("; up to {most}")).unwrap_or_default();
@@ -191,7 +192,7 @@ pub fn free_impact(
 ) -> Option<String> {
     let what = match governing.method.shares_load() {
         true if is_deflection_given => "Free-impact estimate with the given deflection",
-        true => "Free-impact estimate",
+        true => "Free-impact estimate, without the load on the other pairs",
         false => "Method exact",
     };
     let found = match exact.outcome {
@@ -314,7 +315,7 @@ mod tests {
         );
         assert!(verdict(&[("model.method", "static")]).starts_with(
             "Corner contact 1.252 deg before E: up to 1466.2 N on the tip (0.96 times the mesh \
-                force), 1524.3 N on a tooth; "
+                force), 1524.3 N on a tooth at rest; "
         ));
         assert!(verdict(&[("model.method", "dynamic")]).starts_with(
             "Corner contact 1.279 deg before E: up to 1410.8 N on the tip (0.93 times the mesh \
@@ -326,7 +327,7 @@ mod tests {
         limited.set_limit("dynamic_peak_force", "3000 N").unwrap();
         let inputs = limited.inputs().unwrap();
         let found = solve::digest(&limited, &inputs, System::Metric, &|_| true).unwrap();
-        assert!(found.outcome.contains(", 1524.3 N on a tooth; "), "{}", found.outcome);
+        assert!(found.outcome.contains(", 1524.3 N on a tooth at rest; "), "{}", found.outcome);
         let relieved = [("driven.tip_relief", "80 um"), ("model.method", "exact")];
         assert!(
             verdict(&relieved).starts_with("No corner contact: the tip clears the flank before E")

@@ -184,7 +184,13 @@ fn about(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> String {
         said(is_own, "setting of the case"),
         selected.and_then(|measured| parts(trade, measured)),
         said(is_best, "no other setting is both faster and more accurate"),
-        said(refused > 0, &format!("{refused} {} the case", if refused == 1 { "setting refuses" } else { "settings refuse" })),
+        said(
+            refused > 0,
+            &format!(
+                "{refused} {} the case",
+                if refused == 1 { "setting refuses" } else { "settings refuse" }
+            ),
+        ),
     ];
     words.into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
