@@ -694,10 +694,7 @@ impl System {
 
     /// The name in settings and messages.
     pub fn name(self) -> &'static str {
-        match self {
-            System::Metric => "metric",
-            System::Inch => "inch",
-        }
+        ["metric", "inch"][self as usize]
     }
 
     /// The system with this name.
@@ -707,10 +704,7 @@ impl System {
 
     /// The other system.
     pub fn other(self) -> System {
-        match self {
-            System::Metric => System::Inch,
-            System::Inch => System::Metric,
-        }
+        System::ALL[1 - self as usize]
     }
 
     /// The unit of this system that corresponds to a written unit. Other units stay unchanged.

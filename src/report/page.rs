@@ -8,8 +8,8 @@ use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
 use crate::case::{Case, FIELDS, units};
-use crate::model::Quantity;
 use crate::model::explanation::tidy;
+use crate::model::{Inputs, Quantity};
 use crate::report::charts::NamedCase;
 use crate::report::charts::{PATTERN, Picture, find, pictures};
 use crate::report::compare::{ComparedCase, Comparison};
@@ -354,41 +354,33 @@ fn inputs(cases: &[PageCase]) -> Table {
         let names = [field.label.to_owned(), symbols.join(" / ")].map(Cell::from);
         is_shown.then(|| names.into_iter().chain(values).collect())
     });
-    let begins = [
-        begins(cases, "tip relief begins at roll angle", "ξ1 / ξ2", "deg", |at| {
-            at.roll_angle.to_degrees()
-        }),
-        begins(cases, "tip relief begins at diameter", "d_Ca1 / d_Ca2", "mm", |at| {
-            at.diameter * 1e3
-        }),
-    ];
-    Table::new("", columns("input", titles(cases))).with(rows.chain(begins.into_iter().flatten()))
+    let has_relief = |case: &PageCase| {
+        let Inputs { driver, driven, .. } = &case.report.inputs;
+        driver.tip_relief + driven.tip_relief > 0.0
+    };
+    let begins = BEGINS.iter().filter(|_| cases.iter().any(has_relief));
+    let begins = begins.map(|(label, symbol, unit, place)| {
+        let of = |case: &PageCase| {
+            let geometry = &case.report.solution.geometry;
+            let reliefs = TipReliefs::of_case(&case.report.inputs, geometry);
+            let begins = reliefs.begins(geometry).each_ref().map(place);
+            let text = |at: usize| match reliefs.amounts[at] {
+                0.0 => "–".to_owned(),
+                _ => format!("{:.2}", begins[at]),
+            };
+            Cell::Default(format!("{} / {} {unit}", text(0), text(1)))
+        };
+        let names = [*label, *symbol].map(Cell::from);
+        names.into_iter().chain(cases.iter().map(of)).collect()
+    });
+    Table::new("", columns("input", titles(cases))).with(rows.chain(begins))
 }
 
-/// The places at which the tip reliefs of the cases begin, if there are any.
-fn begins(
-    cases: &[PageCase],
-    label: &str,
-    symbol: &str,
-    unit: &str,
-    place: fn(&Begin) -> f64,
-) -> Option<Vec<Cell>> {
-    let of = |case: &PageCase| {
-        let (inputs, geometry) = (&case.report.inputs, &case.report.solution.geometry);
-        let reliefs = TipReliefs::of_case(inputs, geometry);
-        let begins = reliefs.begins(geometry);
-        let text = |at: usize| match reliefs.amounts[at] {
-            0.0 => "–".to_owned(),
-            _ => format!("{:.2}", place(&begins[at])),
-        };
-        let has_relief = reliefs.removed() > 0.0;
-        has_relief.then(|| Cell::Default(format!("{} / {} {unit}", text(0), text(1))))
-    };
-    let cells: Vec<Option<Cell>> = cases.iter().map(of).collect();
-    let names = [label, symbol].map(Cell::from).into_iter();
-    let values = cells.iter().map(|cell| cell.clone().unwrap_or_else(|| "–".into()));
-    cells.iter().any(Option::is_some).then(|| names.chain(values).collect())
-}
+/// Where a tip relief begins: label, symbol, unit and place.
+const BEGINS: [(&str, &str, &str, fn(&Begin) -> f64); 2] = [
+    ("tip relief begins at roll angle", "ξ1 / ξ2", "deg", |at| at.roll_angle.to_degrees()),
+    ("tip relief begins at diameter", "d_Ca1 / d_Ca2", "mm", |at| at.diameter * 1e3),
+];
 
 /// The text of a field, given, computed from other fields or by default, and whether the case does
 /// not change it.

@@ -432,20 +432,17 @@ impl Points for Grid {
 
 /// Checks that an axis varies other fields than the previous axes.
 fn apart(others: &[Axis], axis: &Axis) -> Result<(), Problem> {
-    let keys = |axis: &Axis| axis.fields().map(|field| FIELDS[field].key).collect::<Vec<_>>();
-    let mut known: Vec<&str> = others.iter().flat_map(keys).collect();
-    for key in keys(axis) {
-        let cause = known.iter().find_map(|&other| match other {
-            own if own == key => Some(format!("{key} is varied twice")),
-            other if Case::are_exclusive(other, key) => {
-                Some(format!("{other} and {key} exclude each other"))
-            }
-            _ => None,
-        });
-        if let Some(cause) = cause {
+    for key in axis.fields().map(|field| FIELDS[field].key) {
+        for other in others.iter().flat_map(Axis::fields).map(|field| FIELDS[field].key) {
+            let cause = match other {
+                own if own == key => format!("{key} is varied twice"),
+                _ if Case::are_exclusive(other, key) => {
+                    format!("{other} and {key} exclude each other")
+                }
+                _ => continue,
+            };
             return Err(Problem::new(key, cause, "leave one of them out"));
         }
-        known.push(key);
     }
     Ok(())
 }

@@ -110,6 +110,8 @@ const ONE_BAD_LINE: &[OneLine] = &[
     ("[limits]", "[limits]\n[limits]", 1, 2, "limits", "appears twice", "under one header"),
     ("impact_force = \"2500 N\"", "impact_forse = \"2500 N\"", 0, 1, "limits.impact_forse", "unknown quantity",
         "did you mean impact_force?"),
+    ("impact_force = \"2500 N\"", "F_d,max = \"3 kN\"", 0, 1, "limits", "symbol of dynamic_peak_force",
+        "write dynamic_peak_force"),
     ("impact_force = \"2500 N\"", "F_S = \"2500 N\"", 0, 1, "limits.F_S", "symbol of impact_force", "write impact_force"),
     ("impact_force = \"2500 N\"", "dynamic_contact_lost = false", 0, 24,
         "limits.dynamic_contact_lost", "true or false", "dynamic_contact_lost = 0"),

@@ -485,6 +485,13 @@ fn syntax_fault(error: &TomlError, source: &str) -> (usize, Problem) {
         let problem = Problem::new(field.key, "`:` instead of `=`", written(field));
         return (start + key.len(), problem);
     }
+    if let Some((key, _)) = named
+        && above.rsplit('[').next().is_some_and(|table| table.starts_with("limits]"))
+        && let Some(known) = check::quantity("", key).ok().filter(|known| known.key != key)
+    {
+        let cause = format!("{} is the symbol of {}", quoted(key), known.key);
+        return (start, Problem::new("limits", cause, format!("write {}", known.key)));
+    }
     let cause = message.split(", expected").next().unwrap_or(message);
     let known = FIXES.iter().find(|(part, _)| message.contains(part));
     (at, Problem::new(name, cause, known.map_or("write valid TOML", |(_, fix)| *fix)))
