@@ -23,7 +23,7 @@ use super::panes::trade::{TradePane, TradeView};
 use super::rows;
 use super::session::{Access, NEWER, OpenCase};
 use super::settings::Settings;
-use super::solver::{self, Answer, Baseline, Request};
+use super::solver::{self, Answer, Baseline, Request, Wanted, idle_fields};
 use super::store::WatchedFile;
 use super::tab::Tab;
 use super::theme::Look;
@@ -319,6 +319,7 @@ impl App {
             case: &tab.case,
             saved: &tab.saved,
             inputs: &tab.inputs_so_far,
+            idle: &tab.idle,
             problems: &tab.problems,
             refused: tab.refused_row(),
             solution: tab.present(),
@@ -418,23 +419,21 @@ impl App {
         })
     }
 
-    /// The stages of the visible results.
-    pub(crate) fn wanted(&self) -> Stages {
-        if self.is_pinning {
-            return Stages::EVERY;
-        }
+    /// The visible part of the results.
+    pub(crate) fn wanted(&self) -> Wanted {
         let plan = self.layout.plan();
+        let is_by_model = GRAPHS[self.chart.graph()].by_model.is_some();
+        let stiffness = plan.shows(Pane::Chart) && is_by_model;
+        let paper = self.shows_every_method;
+        if self.is_pinning {
+            return Wanted { stages: Stages::EVERY, stiffness, paper };
+        }
         let seen = Pane::ALL.into_iter().filter(|&pane| plan.shows(pane));
         // The verdict with its notes is visible even if only the chart is: it needs all stages
         // except the stiffness spread and the late stages.
         let verdict = Pane::Results.needs().without(Stage::Band).except(Stages::LATE);
-        seen.fold(verdict, |stages, pane| stages.and(pane.needs()))
-    }
-
-    /// Whether the chart of the mesh stiffness is visible.
-    fn wants_stiffness(&self) -> bool {
-        let is_visible = self.layout.plan().shows(Pane::Chart);
-        is_visible && GRAPHS[self.chart.graph()].by_model.is_some()
+        let stages = seen.fold(verdict, |stages, pane| stages.and(pane.needs()));
+        Wanted { stages, stiffness, paper }
     }
 
     /// Requests an effect.
@@ -513,8 +512,7 @@ impl App {
             };
             solver::on_demand("solver");
             let mut evaluator = evaluator.lock().unwrap_or_else(PoisonError::into_inner);
-            let found = solver::solve(&mut evaluator, &request, &mut |answer| show(answer), &go_on);
-            found.iter().for_each(show);
+            solver::solve(&mut evaluator, &request, &mut |answer| show(answer), &go_on);
         });
         self.start(work.or(move |app| app.solver_failed(serial)));
     }
@@ -540,7 +538,7 @@ impl App {
 
     /// Checks the form and returns the request for its results if the form is valid.
     fn checked(&mut self) -> Option<Request> {
-        let (stages, stiffness) = (self.wanted(), self.wants_stiffness());
+        let wanted = self.wanted();
         let tab = &mut self.tab;
         let (inputs, problems) = tab.case.read();
         tab.inputs_so_far = inputs;
@@ -549,32 +547,34 @@ impl App {
         let placed = problems.iter().map(|problem| (place_of(problem), problem.for_form()));
         tab.problems = placed.collect();
         if !tab.problems.is_empty() {
-            tab.refusal = None;
+            (tab.refusal, tab.idle) = (None, idle_fields(&tab.inputs_so_far));
             return None;
         }
         self.last_serial += 1;
-        (tab.serial, tab.requested, tab.requested_stiffness) =
-            (self.last_serial, stages, stiffness);
+        (tab.serial, tab.requested) = (self.last_serial, wanted);
         (tab.is_settled, tab.solving) = (false, None);
         Some(self.tab.request())
     }
 
     /// Solves what the first frame leaves out.
     pub(super) fn complete(&mut self) {
-        let stiffness = self.wants_stiffness();
-        let is_partial = self.tab.answer.as_ref().is_some_and(|answer| {
-            answer.stages != self.tab.requested || (stiffness && answer.stiffness.is_none())
-        });
-        if is_partial || !self.tab.is_settled {
+        if !self.tab.is_settled || self.tab.answer.is_some() && !self.has_results() {
             self.solve();
         }
     }
 
+    /// Whether every requested result is present.
+    pub(super) fn has_results(&self) -> bool {
+        let Tab { answer, serial, requested, .. } = &self.tab;
+        answer.as_ref().is_some_and(|answer| {
+            let has_stiffness = answer.stiffness.is_some() >= requested.stiffness;
+            answer.serial == *serial && answer.stages == requested.stages && has_stiffness
+        })
+    }
+
     /// Solves the stages that became visible after the last request.
     pub(super) fn catch_up(&mut self) {
-        let lacks = !self.wanted().iter().all(|stage| self.tab.requested.has(stage));
-        let lacks = lacks || (self.wants_stiffness() && !self.tab.requested_stiffness);
-        if lacks && self.tab.problems.is_empty() {
+        if self.tab.problems.is_empty() && !self.tab.requested.covers(&self.wanted()) {
             self.solve();
         }
     }

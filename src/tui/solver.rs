@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::case::Evaluator;
+use crate::case::{Acting, Evaluator, FIELDS, relevance};
 use crate::model::compliance::without_field;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages};
@@ -37,10 +37,31 @@ pub struct Request {
     pub serial: u64,
     /// The pair.
     pub inputs: Inputs,
-    /// The stages of the visible results.
-    pub stages: Stages,
+    pub(crate) wanted: Wanted,
+    /// The known fields without effect.
+    pub(crate) idle: Vec<usize>,
+}
+
+/// The visible part of the results.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wanted {
+    pub(crate) stages: Stages,
     /// Whether the chart of the mesh stiffness is visible.
-    pub stiffness: bool,
+    pub(crate) stiffness: bool,
+    /// Whether method `paper` is visible beside another method.
+    pub(crate) paper: bool,
+}
+
+impl Wanted {
+    pub(crate) const NOTHING: Wanted =
+        Wanted { stages: Stages::NONE, stiffness: false, paper: false };
+
+    /// Whether this part contains another one.
+    pub(crate) fn covers(&self, other: &Wanted) -> bool {
+        self.stages.covers(other.stages)
+            && self.stiffness >= other.stiffness
+            && self.paper >= other.paper
+    }
 }
 
 /// The results of every method for a request.
@@ -68,6 +89,8 @@ pub struct Answer {
     pub notes: Vec<Note>,
     /// The mesh stiffness by every model, or the refusal; `None` until it is computed.
     pub stiffness: Option<MeshStiffness>,
+    /// The fields without effect.
+    pub(crate) idle: Vec<usize>,
 }
 
 /// The mesh stiffness by every model, or the refusal.
@@ -147,11 +170,18 @@ pub(crate) struct Variants {
     pub(crate) columns: Vec<(String, Result<Solution, String>)>,
 }
 
+/// The fields that a case with these inputs does not use.
+pub(crate) fn idle_fields(inputs: &Inputs) -> Vec<usize> {
+    let is_idle = |field: &usize| matches!(relevance(*field, inputs), Acting::No(_));
+    (0..FIELDS.len()).filter(is_idle).collect()
+}
+
 /// Solves with the closed forms and with the method of the case, which may take long.
 pub fn answer(request: &Request) -> Answer {
     let evaluator = &mut Evaluator::default();
-    let found = solve(evaluator, request, &mut |_| (), &|_| true);
-    found.unwrap_or_else(|| at_once(evaluator, request, Instant::now()))
+    let mut last = None;
+    solve(evaluator, request, &mut |answer| last = Some(answer.clone()), &|_| true);
+    last.unwrap_or_else(|| at_once(evaluator, request, Instant::now()))
 }
 
 /// The answer for the first frame of the program, which does not wait for elastic fields: without
@@ -161,27 +191,28 @@ pub(crate) fn answer_without_fields(request: &Request) -> Option<Answer> {
     if methods.any(|method| without_field(&Inputs { method, ..request.inputs.clone() }).is_some()) {
         return None;
     }
-    let stages = request.stages.without(Stage::Band);
-    let quick = Request { stages, stiffness: false, ..request.clone() };
     let (start, mut shown) = (Instant::now(), None);
+    let stages = request.wanted.stages.without(Stage::Band);
+    let wanted = Wanted { stages, stiffness: false, ..request.wanted };
+    let quick = Request { wanted, ..request.clone() };
     let mut show = |answer: &Answer| shown = Some(answer.clone());
     let go_on = |_| start.elapsed() < PATIENCE;
     let evaluator = &mut Evaluator::default();
-    let whole = solve(evaluator, &quick, &mut show, &go_on);
-    let answer = whole.or(shown).unwrap_or_else(|| at_once(evaluator, &quick, start));
-    Some(Answer { requested: request.stages, ..answer })
+    solve(evaluator, &quick, &mut show, &go_on);
+    let answer = shown.unwrap_or_else(|| at_once(evaluator, &quick, start));
+    Some(Answer { requested: request.wanted.stages, ..answer })
 }
 
-/// The results of the closed forms, of the method of the case and, for `dynamic`, of the load at
-/// rest. Shows the answer that is present after [`PATIENCE`] and before each part that others must
-/// not wait for; `None` if `go_on` returns false.
+/// Shows the results of the closed forms, of the method of the case and, for `dynamic`, of the load
+/// at rest: the answer that is present after [`PATIENCE`], before each part that others must not wait
+/// for, and at the end. `None` if `go_on` returns false.
 pub(super) fn solve(
     evaluator: &mut Evaluator,
     request: &Request,
     show: &mut dyn FnMut(&Answer),
     go_on: &dyn Fn(f64) -> bool,
-) -> Option<Answer> {
-    let begun = Instant::now();
+) -> Option<()> {
+    let (begun, wanted) = (Instant::now(), request.wanted);
     let mut answer = at_once(evaluator, request, begun);
     if let Some(method) = answer.pending {
         let (first, waits) = (answer.clone(), Cell::new(true));
@@ -193,7 +224,7 @@ pub(super) fn solve(
             go_on(part)
         };
         // A slow method is solved without its late stages.
-        let stages = request.stages.except(Stages::LATE);
+        let stages = wanted.stages.except(Stages::LATE);
         let found = unless_stopped(evaluator.solve(&request.inputs, method, stages, &go_on))?;
         // If the program chose the method, the chosen method is active.
         let active = found.as_ref().map_or(method, |solution| solution.method);
@@ -202,7 +233,7 @@ pub(super) fn solve(
         if active == Method::Dynamic {
             // The required relief of the load at rest is fast to compute and is compared with that
             // of the motion.
-            let stages = request.stages.without(Stage::StaticSpectrum);
+            let stages = wanted.stages.without(Stage::StaticSpectrum);
             let rest = evaluator.solve(&request.inputs, Method::Static, stages, &|_| go_on(1.0));
             answer.methods.push((Method::Static, unless_stopped(rest)?));
         }
@@ -210,7 +241,7 @@ pub(super) fn solve(
         answer.cost = Cost { stages: stages_run(&answer.methods), micros: micros(begun) };
         answer = answer.with_notes();
     }
-    if request.stiffness {
+    if wanted.stiffness {
         // The elastic fields of new gears are slow.
         show(&answer);
         if !go_on(1.0) {
@@ -220,8 +251,8 @@ pub(super) fn solve(
     }
     // The motion over the speed is last.
     let has_speeds = answer.active.stages().has(Stage::SpeedRun);
-    let first = has_speeds.then(|| request.stages.without(Stage::SpeedRun));
-    for stages in first.into_iter().chain([request.stages]) {
+    let first = has_speeds.then(|| wanted.stages.without(Stage::SpeedRun));
+    for stages in first.into_iter().chain([wanted.stages]) {
         if answer.stages.covers(stages) || answer.refusal().is_some() {
             continue;
         }
@@ -234,7 +265,14 @@ pub(super) fn solve(
         answer.methods.push((answer.active, found));
         answer = Answer { stages, ..answer }.with_notes();
     }
-    Some(Answer { stages: request.stages, ..answer })
+    answer.stages = wanted.stages;
+    show(&answer);
+    // The marks of the form, which change seldom, follow the results.
+    let idle = idle_fields(&request.inputs);
+    if idle != answer.idle {
+        show(&Answer { idle, ..answer });
+    }
+    Some(())
 }
 
 type Solved = Result<Solution, Refusal>;
@@ -246,15 +284,19 @@ fn unless_stopped(found: Solved) -> Option<Solved> {
 /// The answer of the closed forms.
 fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answer {
     let asked = request.inputs.method;
+    let stages = request.wanted.stages;
+    let is_shown =
+        |method: &Method| *method != Method::Paper || asked == *method || request.wanted.paper;
     let methods: Vec<_> = Method::CLOSED_FORM
         .into_iter()
-        .map(|method| (method, evaluator.solve(&request.inputs, method, request.stages, &|_| true)))
+        .filter(is_shown)
+        .map(|method| (method, evaluator.solve(&request.inputs, method, stages, &|_| true)))
         .collect();
     let pending = Some(asked).filter(|method| !Method::CLOSED_FORM.contains(method));
     let answer = Answer {
         serial: request.serial,
-        stages: request.stages,
-        requested: request.stages,
+        stages,
+        requested: stages,
         inputs: request.inputs.clone(),
         active: if pending.is_some() { Method::Exact } else { asked },
         pending,
@@ -262,6 +304,7 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
         methods,
         notes: Vec::new(),
         stiffness: None,
+        idle: request.idle.clone(),
     };
     answer.with_notes()
 }
@@ -286,7 +329,8 @@ mod tests {
     fn request(method: Method) -> Request {
         let mut inputs = Case::table_1().inputs().expect("Table 1 is valid");
         inputs.method = method;
-        Request { serial: 1, inputs, stages: Stages::EVERY, stiffness: false }
+        let wanted = Wanted { stages: Stages::EVERY, ..Wanted::NOTHING };
+        Request { serial: 1, idle: idle_fields(&inputs), inputs, wanted }
     }
 
     #[test]
@@ -302,12 +346,27 @@ mod tests {
         }
     }
 
-    /// Every shown answer, and the last one if the solve is not stopped.
-    fn shown(request: &Request, go_on: &dyn Fn(f64) -> bool) -> (Vec<Answer>, Option<Answer>) {
+    /// Every shown answer.
+    fn shown(request: &Request, go_on: &dyn Fn(f64) -> bool) -> Vec<Answer> {
         let mut shown = Vec::new();
         let show = &mut |answer: &Answer| shown.push(answer.clone());
-        let last = solve(&mut Evaluator::default(), request, show, go_on);
-        (shown, last)
+        solve(&mut Evaluator::default(), request, show, go_on);
+        shown
+    }
+
+    #[test]
+    fn only_visible_methods_are_solved_and_changed_marks_follow_the_results() {
+        let mut asked = request(Method::Exact);
+        let methods = |asked: &Request| {
+            answer(asked).methods.into_iter().map(|(method, _)| method).collect::<Vec<_>>()
+        };
+        assert_eq!(methods(&asked), [Method::Exact]);
+        asked.wanted.paper = true;
+        assert_eq!(methods(&asked), Method::CLOSED_FORM);
+        assert_eq!(shown(&asked, &|_| true).len(), 1);
+        let idle = std::mem::take(&mut asked.idle);
+        let lists = shown(&asked, &|_| true).into_iter().map(|answer| answer.idle);
+        assert_eq!(lists.collect::<Vec<_>>(), [vec![], idle]);
     }
 
     #[test]
@@ -317,8 +376,7 @@ mod tests {
         // Without damping the motion never becomes steady.
         slow.inputs.damping_ratio = 0.0;
         let begun = Instant::now();
-        let (shown, last) = shown(&slow, &|_| begun.elapsed() < 4 * PATIENCE);
-        assert_eq!(last, None);
+        let shown = shown(&slow, &|_| begun.elapsed() < 4 * PATIENCE);
         assert_eq!(
             shown.iter().map(|answer| (answer.active, answer.pending)).collect::<Vec<_>>(),
             [(Method::Exact, Some(Method::Dynamic))]
@@ -332,8 +390,8 @@ mod tests {
             (Method::Static, vec![false, true]),
             (Method::Auto, vec![false, true]),
         ] {
-            let (shown, last) = shown(&request(method), &|_| true);
-            let whole = shown.into_iter().chain(last).filter(|answer| answer.pending.is_none());
+            let shown = shown(&request(method), &|_| true);
+            let whole = shown.into_iter().filter(|answer| answer.pending.is_none());
             let found = whole.map(|answer| {
                 let clearing = answer.of(answer.active).and_then(|solution| solution.clearing);
                 assert_eq!(clearing.is_none(), answer.lacks(Stage::Clearing));
@@ -345,7 +403,7 @@ mod tests {
 
     #[test]
     fn the_relief_at_rest_is_present_during_the_search_in_motion() {
-        let (shown, _) = shown(&request(Method::Dynamic), &|_| true);
+        let shown = shown(&request(Method::Dynamic), &|_| true);
         let answer = shown.iter().find(|answer| answer.pending.is_none()).expect("an answer");
         let relief = |method| answer.of(method).and_then(|solution| solution.clearing);
         assert!(answer.lacks(Stage::Clearing) && relief(Method::Dynamic).is_none());

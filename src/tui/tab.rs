@@ -9,11 +9,11 @@ use super::panes::study::Study;
 use super::panes::trade::Traded;
 use super::rows;
 use super::session::{Access, OpenCase};
-use super::solver::{Answer, Request, Values, Variants};
+use super::solver::{Answer, Request, Values, Variants, Wanted};
 use super::text::Line;
 use crate::case::{Case, Document, FIELDS, Limit, Problem, Spread, Variant, fields};
 use crate::model::inputs::Method;
-use crate::model::{Inputs, Refusal, Solution, Stages};
+use crate::model::{Inputs, Refusal, Solution};
 
 /// An open case.
 #[derive(Debug, Clone)]
@@ -49,10 +49,10 @@ pub struct Tab {
     pub problems: Vec<(usize, Problem)>,
     /// The serial of the last request. No two tabs share a serial.
     pub serial: u64,
-    /// The stages of that request.
-    pub(crate) requested: Stages,
-    /// Whether that request includes the mesh stiffness.
-    pub requested_stiffness: bool,
+    /// The results of that request.
+    pub(crate) requested: Wanted,
+    /// The fields without effect.
+    pub(crate) idle: Vec<usize>,
     /// Progress of a slow solve.
     pub(crate) solving: Option<f64>,
     /// Whether the worker has answered the request, with results or without.
@@ -113,8 +113,8 @@ impl Tab {
             history: History::default(),
             problems: Vec::new(),
             serial: 0,
-            requested: Stages::NONE,
-            requested_stiffness: false,
+            requested: Wanted::NOTHING,
+            idle: Vec::new(),
             solving: None,
             is_settled: false,
             answer: None,
@@ -132,8 +132,8 @@ impl Tab {
 
     /// The last request.
     pub fn request(&self) -> Request {
-        let (stages, stiffness) = (self.requested, self.requested_stiffness);
-        Request { serial: self.serial, inputs: self.inputs_so_far.clone(), stages, stiffness }
+        let (inputs, idle) = (self.inputs_so_far.clone(), self.idle.clone());
+        Request { serial: self.serial, inputs, wanted: self.requested, idle }
     }
 
     /// The inputs, if the form is valid.
@@ -260,11 +260,12 @@ impl Tab {
     /// Shows an answer to the present request.
     pub(super) fn take(&mut self, mut answer: Answer) {
         self.has_failed = false;
+        self.idle.clone_from(&answer.idle);
         self.is_settled = answer.pending.is_none();
         self.solving = self.solving.filter(|_| !self.is_settled);
         self.refusal = answer.refusal().copied();
         if self.refusal.is_none() {
-            if answer.stiffness.is_none() && self.requested_stiffness {
+            if answer.stiffness.is_none() && self.requested.stiffness {
                 // The chart keeps its curves until the new ones are computed.
                 answer.stiffness = self.answer.take().and_then(|earlier| earlier.stiffness);
             }

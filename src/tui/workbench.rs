@@ -171,7 +171,8 @@ impl Workbench {
                 Ok(changed) => has_changed |= changed,
                 Err(end) => return Ok(Some(end)),
             }
-            let waits = self.app.is_busy(Slot::Solve) && Instant::now() < quick;
+            let waits = self.app.is_busy(Slot::Solve) && !self.app.has_results();
+            let waits = waits && Instant::now() < quick;
             batch = if waits { self.events.batch(None, Some(quick)) } else { Vec::new() };
         }
         self.keep_settings();

@@ -6,7 +6,7 @@ use ratatui::style::{Modifier, Style};
 
 use super::Title;
 use crate::case::fields::{GROUPS, Kind};
-use crate::case::{Acting, Case, Limit, Problem, relevance};
+use crate::case::{Case, Limit, Problem};
 use crate::model::{Inputs, Solution};
 use crate::report::verdict::{Standing, verdict};
 use crate::tui::form_aids::materials;
@@ -54,6 +54,8 @@ pub(crate) struct Form<'a> {
     pub(crate) saved: &'a Case,
     /// The inputs of the valid fields.
     pub(crate) inputs: &'a Inputs,
+    /// The fields without effect.
+    pub(crate) idle: &'a [usize],
     /// The invalid rows.
     pub(crate) problems: &'a [(usize, Problem)],
     /// The row that the fix of the model's refusal names first.
@@ -205,7 +207,7 @@ fn draw_line(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> 
     let (case, theme) = (pane.case, pane.look.theme);
     let field = rows::field(case, index);
     let kind = field.map(|field| field.kind);
-    let is_idle = field.is_some() && matches!(relevance(index, pane.inputs), Acting::No(_));
+    let is_idle = pane.idle.contains(&index);
     let (mark, of_mark, style) = match (pane.state.focus == index, is_idle) {
         (true, _) => ("▸", theme.focus, theme.focus),
         // The reason below the row has a mark of its own.

@@ -8,7 +8,7 @@ use ratatui::symbols::Marker;
 use tui_input::InputRequest as Line;
 
 use super::{edit, export, files, panes, studies};
-use crate::case::{Acting, FIELDS, Field, relevance};
+use crate::case::{FIELDS, Field};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
 use crate::report::stations::GRAPHS;
@@ -194,8 +194,6 @@ struct Context {
 
 impl Context {
     fn of(app: &App) -> Context {
-        let inputs = &app.tab.inputs_so_far;
-        let idle = |field: &usize| matches!(relevance(*field, inputs), Acting::No(_));
         let every = Results { shows_every_method: true, ..app.results() }.listed();
         let result = |quantity: &'static Quantity| match app.tab.solution() {
             _ if every.iter().any(|listed| listed.key == quantity.key) => Some((quantity, None)),
@@ -204,7 +202,7 @@ impl Context {
         Context {
             results: QUANTITIES.iter().filter_map(result).collect(),
             are_results_first: app.layout.focus() == Pane::Results,
-            idle: (0..FIELDS.len()).filter(idle).collect(),
+            idle: app.tab.idle.clone(),
         }
     }
 

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use super::{edit, export, key_of};
 use crate::case::file::Saved;
 use crate::case::{Case, Document, EXAMPLES, Example, rexs};
-use crate::model::Stages;
 use crate::tui::app::App;
 use crate::tui::app::actions::{Choice, Effect, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
@@ -17,6 +16,7 @@ use crate::tui::layout::Pane;
 use crate::tui::session::{
     self, Access, Claim, Found, NEWER, Next, Offer, Over, SaveFault, Saving, Written,
 };
+use crate::tui::solver::Wanted;
 use crate::tui::store::folder::Target;
 use crate::tui::tab::{Origin, Tab};
 use crate::tui::text::{CASE_ENDING, Line};
@@ -268,7 +268,7 @@ pub(super) fn go_to_tab(app: &mut App, at: usize) {
     app.place_of_tab = at;
     // The worker may have dropped a request of this tab for a later one.
     if !app.tab.is_settled {
-        app.tab.requested = Stages::NONE;
+        app.tab.requested = Wanted::NOTHING;
     }
     app.follow();
 }
