@@ -7,7 +7,6 @@
 
 mod app;
 mod form_aids;
-mod header;
 mod input;
 mod layout;
 mod panes;

@@ -345,11 +345,11 @@ struct States {
 #[derive(Debug, Clone)]
 struct Difference {
     texts: Box<[(usize, Box<str>)]>,
-    /// Limits, spreads and variants, which seldom change.
+    /// Limits, spreads, variants and `[about]`, which seldom change.
     others: Option<Box<Others>>,
 }
 
-type Others = (Vec<Limit>, Vec<Spread>, Vec<Variant>);
+type Others = (Vec<Limit>, Vec<Spread>, Vec<Variant>, Vec<(String, String)>);
 
 impl States {
     fn push(&mut self, case: &Case, focus: usize) {
@@ -384,7 +384,7 @@ impl Difference {
             other.write(field, &text);
         }
         if let Some(others) = self.others {
-            (other.limits, other.spread, other.variants) = *others;
+            (other.limits, other.spread, other.variants, other.about) = *others;
         }
         other
     }
@@ -392,7 +392,7 @@ impl Difference {
 
 // The parts of a case other than its fields.
 fn others_of(case: &Case) -> Others {
-    (case.limits.clone(), case.spread.clone(), case.variants.clone())
+    (case.limits.clone(), case.spread.clone(), case.variants.clone(), case.about.clone())
 }
 
 #[cfg(test)]
@@ -414,7 +414,8 @@ mod tests {
         let fifth = edited(&fourth, &|case| {
             (0..9).for_each(|field| case.write(field, ""));
         });
-        vec![first, second, third, fourth, fifth]
+        let sixth = edited(&fifth, &|case| case.about.push(("project".to_owned(), "A".to_owned())));
+        vec![first, second, third, fourth, fifth, sixth]
     }
 
     #[test]

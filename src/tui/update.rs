@@ -24,7 +24,7 @@ use super::panes::form;
 use super::panes::teeth::TeethCommand;
 use super::tab::Tab;
 use super::theme::Look;
-use super::{header, rows, store};
+use super::{rows, store, view};
 use crate::case::Document;
 use crate::model::Stage;
 
@@ -299,7 +299,7 @@ fn in_panes(app: &mut App, at: Position) {
     let plan = app.layout.plan();
     let owner = plan.names_hidden();
     let hidden = owner.and_then(|owner| app.title(owner).hidden_at(plan.area(owner), at));
-    if let Some(tab) = header::tab_at(app, plan.header, at) {
+    if let Some(tab) = view::tab_at(app, plan.header, at) {
         files::go_to_tab(app, tab);
     } else if let Some(pane) = hidden {
         panes::show(app, pane);

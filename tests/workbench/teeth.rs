@@ -191,7 +191,7 @@ fn a_run_starts_before_d_and_ends_at_e() {
     assert!((10..30).contains(&closed), "closed after {closed} of {} pictures", screens.len());
     assert!(screens[closed..].iter().all(|screen| screen.contains("open 0 um")));
     assert!(screens.windows(2).all(|pair| pair[0] != pair[1]), "a picture repeats");
-    assert!(desk.app.cursor == Some(0.0) && desk.shows("θ_1 0 deg"));
+    assert!(desk.app.cursor == Some(0.0) && desk.shows("θ 0 deg"));
 }
 
 #[test]

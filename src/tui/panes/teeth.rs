@@ -12,7 +12,7 @@ use super::plot::{Plot, bounds, put};
 use crate::case::units::{System, shown};
 use crate::model::contact_state::{Phase, first_contact_of_driver, first_contact_point};
 use crate::model::outline::on_line_of_action;
-use crate::model::{ContactState, Geometry, Inputs, Interpolated, Solution};
+use crate::model::{ContactState, Geometry, Inputs, Interpolated, Quantity, Solution};
 use crate::report::chart::{Point, Span};
 use crate::report::charts::Pattern;
 use crate::report::stations::{COLUMNS, Column};
@@ -415,7 +415,21 @@ fn reading(
     let shown = value
         .map(|value| shown(column.resolved(value, inputs, solution), column.shown, digits, system));
     let (number, unit) = shown.map_or((None, ""), |(number, unit)| (Some(number), unit));
-    Some(Reading { symbol: column.symbol, number, unit })
+    Some(Reading { symbol: symbol_at(moment, column, solution), number, unit })
+}
+
+/// The symbol of a value: a roll angle has the symbol of the results at the first contact alone.
+fn symbol_at(moment: &ContactState, column: &Column, solution: &Solution) -> &'static str {
+    let (of_results, elsewhere) = match column.key {
+        "roll_angle_driver" => ("approach_angle_driver", "θ"),
+        "roll_angle_driven" => ("approach_angle_driven", "θ/i"),
+        _ => return column.symbol,
+    };
+    let contact = first_contact_of_driver(solution);
+    let is_first =
+        contact.is_some_and(|first| (first - moment.roll_angle_driver).abs() < 1e-9 * first);
+    let of_method = Quantity::find(of_results).and_then(|free| free.by(solution.method));
+    of_method.filter(|_| is_first).map_or(elsewhere, |quantity| quantity.symbol)
 }
 
 /// The value from the involutes, if the method has none.

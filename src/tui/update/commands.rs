@@ -273,6 +273,11 @@ const TYPED: &[Typed] = &[
         run: studies::keep_variant,
     },
     Typed {
+        name: "about",
+        about: |text| format!("Print {text} above the reports of the case."),
+        run: edit::set_about,
+    },
+    Typed {
         name: "sweep",
         about: |text| format!("Study a result over {text}."),
         run: studies::set_range,
@@ -532,6 +537,9 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::WORK, "", "variant", |app| type_command(app, "variant "),
         "Save the edits since the last save as a variant: type variant NAME. Without edits, load \
             that variant into the form."),
+    row(Place::WORK, "", "about", |app| type_command(app, "about "),
+        "Name the project, author or drawing number for the reports: type about project = GB 12. An \
+            empty text removes the line."),
     row(Place::WORK, "Alt-E", "next error", super::fault,
         "Go to the next field with an error or a missing required value."),
     row(Place::WORK, "Ctrl-Y Ctrl-R", "redo", edit::redo, "Redo the last undone edit."),

@@ -316,6 +316,21 @@ pub(super) fn set_spread(app: &mut App, text: &str) {
     replace_saying(app, case, &format!("spread of {}: {text}", FIELDS[field].full_label()));
 }
 
+/// Writes a line of `[about]`, such as `project = GB 12`; an empty text removes it.
+pub(super) fn set_about(app: &mut App, text: &str) {
+    let (name, value) = text.split_once('=').unwrap_or((text, ""));
+    let (name, value) = (name.trim(), value.trim());
+    let is_key = |letter: char| letter.is_ascii_alphanumeric() || "-_".contains(letter);
+    if name.is_empty() || !name.chars().all(is_key) || !text.contains('=') {
+        return app.complain("type a name of letters, digits, - and _, then =: project = GB 12");
+    }
+    let mut case = app.tab.case.clone();
+    if let Err(problem) = case.apply(&format!("about.{name}"), Some(value)) {
+        return app.complain(problem.for_form().to_string());
+    }
+    replace_saying(app, case, &format!("about: {name} = {}", session::shown(Some(value))));
+}
+
 /// Opens the dialog and starts the search with the default demand.
 pub(super) fn ask_relief(app: &mut App) {
     let Some(inputs) = app.tab.inputs().cloned() else {
