@@ -19,7 +19,7 @@ use super::panes::form::Form;
 use super::panes::results::Results;
 use super::panes::study::{StudyPane, StudyResults, StudyState};
 use super::panes::teeth::{Picture, TeethView};
-use super::panes::trade::{TradePane, TradeView};
+use super::panes::trade::TradePane;
 use super::rows;
 use super::session::{Access, NEWER, OpenCase};
 use super::settings::Settings;
@@ -70,8 +70,8 @@ pub struct App {
     pub(crate) shows_every_method: bool,
     /// Whether the results show the run time of each stage.
     pub(crate) shows_cost: bool,
-    /// The view of the trade pane.
-    pub(crate) trade_view: TradeView,
+    /// Whether the trade pane shows its table.
+    pub(crate) is_trade_table: bool,
     /// The cursor of charts and teeth: the driver's roll angle before E, in rad, negative after E.
     pub cursor: Option<f64>,
     /// The view of the teeth pane.
@@ -159,7 +159,7 @@ impl App {
             is_pinning: false,
             shows_every_method: false,
             shows_cost: false,
-            trade_view: TradeView::default(),
+            is_trade_table: false,
             cursor: None,
             teeth: TeethView::default(),
             chart: ChartPane::default(),
@@ -359,7 +359,7 @@ impl App {
         TradePane {
             traded: self.tab.traded.as_ref(),
             inputs: self.tab.inputs(),
-            view: self.trade_view,
+            is_table: self.is_trade_table,
             look: self.look,
             title: self.title(Pane::Trade),
             area: self.layout.plan().area(Pane::Trade),

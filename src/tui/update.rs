@@ -19,9 +19,8 @@ use super::app::actions::{Action, Effect, Running, Slot, Work};
 use super::app::dialogs::Prompt;
 use super::app::dialogs::browser::Browser;
 use super::layout::Pane;
-use super::panes::chart::{ChartCommand, cursor_at};
+use super::panes::chart::cursor_at;
 use super::panes::form;
-use super::panes::teeth::TeethCommand;
 use super::tab::Tab;
 use super::theme::Look;
 use super::{rows, store, view};
@@ -174,8 +173,8 @@ fn wheel(app: &mut App, at: Position, by: isize) {
     match pane_at(app, at) {
         Some(Pane::Form) => app.tab.form.top = form::scrolled(&app.form(), by),
         Some(Pane::Results) => app.tab.results.top = app.results().scrolled(by),
-        Some(Pane::Chart) => panes::run_chart(app, ChartCommand::Zoom(nearer)),
-        Some(Pane::Teeth) => panes::run_teeth(app, TeethCommand::Zoom(nearer)),
+        Some(Pane::Chart) => panes::zoom_chart(app, nearer),
+        Some(Pane::Teeth) => panes::zoom_teeth(app, nearer),
         Some(Pane::Study) if app.study.is_tolerance => studies::scroll(app, by),
         Some(Pane::Study) if app.study.is_table => studies::move_cursor(app, by, 0),
         Some(Pane::Study) => studies::zoom(app, nearer),

@@ -282,7 +282,7 @@ impl Surroundings<'_> {
         buffer: &mut Buffer,
     ) -> (Rect, Option<Position>) {
         let inner = self.frame(title, Size::new(width, lines.len() as u16 + 1), buffer);
-        let [line, below] = input_above(inner);
+        let [line, below] = text::split(inner, 1);
         text::draw_lines(lines, below, buffer);
         (line, text::edited(input, line, self.theme().focus, buffer))
     }
@@ -293,11 +293,6 @@ impl Surroundings<'_> {
         text::draw_lines(lines.get(top..).unwrap_or_default(), inner, buffer);
         text::scroll_bar_beside(top, lines.len(), inner, buffer);
     }
-}
-
-/// The first line of an area, and the area below it.
-fn input_above(area: Rect) -> [Rect; 2] {
-    Layout::vertical([Constraint::Length(1), Constraint::Fill(1)]).areas(area)
 }
 
 /// A list on the left and its details on the right.

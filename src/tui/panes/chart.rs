@@ -179,7 +179,7 @@ pub struct ChartPane {
 }
 
 /// The number of charts: those of the table, and those of the worker.
-const CHARTS: usize = GRAPHS.len() + OwnChart::ALL.len();
+pub(crate) const CHARTS: usize = GRAPHS.len() + OwnChart::ALL.len();
 
 impl ChartPane {
     /// The selected chart of the table; the first one beside a chart of the worker.
@@ -201,25 +201,6 @@ impl ChartPane {
     pub fn key(&self) -> &'static str {
         self.own_axes().map_or(GRAPHS[self.graph()].key, OwnChart::key)
     }
-}
-
-/// A command of the pane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ChartCommand {
-    /// Selects the chart `by` places further, wrapping around.
-    Step(isize),
-    /// Selects the chart with an index of the table, or after the table a chart of the worker.
-    Select(usize),
-    /// Zooms in by steps around the cursor, or around D without a cursor; zooms out if negative.
-    Zoom(i32),
-    /// Shows the whole contact.
-    Whole,
-    /// Switches between the strike and the whole contact.
-    Strike,
-    /// Switches the x axis between roll angle and time.
-    Time,
-    /// Moves the cursor of a chart with its own axes by points.
-    Move(isize),
 }
 
 /// The pane with the results that it shows.
@@ -263,7 +244,7 @@ impl Charts<'_> {
     }
 
     /// The view of the pane. A chart of the path or of the plane of contact starts with the whole contact.
-    fn view(&self) -> ChartView {
+    pub(crate) fn view(&self) -> ChartView {
         match self.pane.view {
             ChartView::Opening if self.is_by_model() || self.pane.is_pattern() => ChartView::Whole,
             view => view,
@@ -281,53 +262,11 @@ impl Charts<'_> {
         GRAPHS[self.pane.graph()].by_model.is_some()
     }
 
-    /// The state after a command, with a message.
-    pub(crate) fn run(&self, command: ChartCommand) -> (ChartPane, Option<&'static str>) {
-        const WHOLE: &str = "the charts show the whole contact";
-        let mut pane = *self.pane;
-        let message = match command {
-            ChartCommand::Step(by) => {
-                let all = CHARTS - usize::from(self.pattern().is_none());
-                let last = all - usize::from(by > 0);
-                let selected = (pane.selected.min(last) + all).saturating_add_signed(by) % all;
-                pane = ChartPane { selected, place: None, ..pane };
-                None
-            }
-            ChartCommand::Select(at) => {
-                pane = ChartPane { selected: at.min(CHARTS - 1), place: None, ..pane };
-                None
-            }
-            ChartCommand::Move(by) => {
-                pane.place = self.moved(by);
-                pane.place.is_none().then_some("no chart to move in")
-            }
-            ChartCommand::Zoom(steps) => {
-                let start = self.solution().and_then(first_contact);
-                let around = 0.0 - self.cursor.or(start).unwrap_or(0.0).to_degrees();
-                pane.view = self.view().zoomed(steps, around, &self.scale());
-                let end = if steps > 0 { "closest zoom" } else { WHOLE };
-                (pane.view == self.view()).then_some(end)
-            }
-            ChartCommand::Whole => {
-                pane.view = ChartView::Whole;
-                Some(WHOLE)
-            }
-            ChartCommand::Strike => {
-                pane.view = self.view().strike_or_whole(&self.scale());
-                let has_strike = !self.scale().strike.is_empty();
-                Some(match (pane.view, has_strike) {
-                    (ChartView::Strike, true) => "the charts show the strike",
-                    (ChartView::Strike, false) => "no corner contact: no strike to show",
-                    _ => WHOLE,
-                })
-            }
-            ChartCommand::Time => {
-                pane.by_time = !pane.by_time;
-                let [angle, time] = ["driver roll angle before E", "time after E"];
-                return (pane, Some(if pane.by_time { time } else { angle }));
-            }
-        };
-        (pane, message)
+    /// The view zoomed by steps around the cursor, or around D without a cursor.
+    pub(crate) fn zoomed(&self, steps: i32) -> ChartView {
+        let start = self.solution().and_then(first_contact);
+        let around = 0.0 - self.cursor.or(start).unwrap_or(0.0).to_degrees();
+        self.view().zoomed(steps, around, &self.scale())
     }
 
     /// The line load of the active method over the face width.
@@ -370,7 +309,7 @@ impl Charts<'_> {
     }
 
     /// The point or mark `by` places from the cursor of that chart; the first without a cursor.
-    fn moved(&self, by: isize) -> Option<f64> {
+    pub(crate) fn moved(&self, by: isize) -> Option<f64> {
         let chart = self.own_chart()?;
         let points = chart.series.iter().flat_map(|series| series.pieces.iter().flatten());
         let points = points.map(|point| point.0).chain(chart.marks.iter().map(|mark| mark.0));

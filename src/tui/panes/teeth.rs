@@ -55,59 +55,6 @@ const VALUES: [&str; 12] = [
 /// The text of a missing number.
 const NONE: &str = "–";
 
-/// A command of the pane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum TeethCommand {
-    /// Zooms in by steps; zooms out if negative.
-    Zoom(i32),
-    /// Restores the initial view.
-    Reset,
-    /// Selects the view `by` places further, wrapping around.
-    Centre(isize),
-    /// Switches the exaggeration of the gap.
-    Gap,
-}
-
-impl TeethView {
-    /// Runs a command on the view of a solved pair, if there is one. Returns a message.
-    ///
-    /// # Errors
-    /// Returns an error if the command needs a solved pair.
-    pub(crate) fn run(
-        &mut self,
-        command: TeethCommand,
-        solved: Option<(&Inputs, &Solution)>,
-    ) -> Result<Option<String>, &'static str> {
-        let before = *self;
-        Ok(match command {
-            TeethCommand::Zoom(steps) => {
-                let (inputs, solution) = solved.ok_or("no valid results to show")?;
-                *self = self.zoomed(steps, inputs, solution);
-                let end =
-                    if steps > 0 { "closest zoom" } else { "the teeth pane shows the whole pair" };
-                (*self == before).then(|| end.to_owned())
-            }
-            TeethCommand::Reset => {
-                *self = TeethView::default();
-                None
-            }
-            TeethCommand::Centre(by) => {
-                *self = TeethView { centre: self.centre.beside(by), zoom: 0, ..*self };
-                Some(format!("view: {}", self.centre.name()))
-            }
-            TeethCommand::Gap => {
-                self.has_true_gap = !self.has_true_gap;
-                let gap = if self.has_true_gap {
-                    "drawn true to scale"
-                } else {
-                    "exaggerated by the factor shown"
-                };
-                Some(format!("gap {gap}"))
-            }
-        })
-    }
-}
-
 /// The input of the picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Picture<'a> {
@@ -500,7 +447,7 @@ impl Centre {
     const ALL: [Centre; 3] = [Centre::Strike, Centre::PitchPoint, Centre::Pair];
 
     /// The centre `by` places further, wrapping around.
-    fn beside(self, by: isize) -> Centre {
+    pub(crate) fn beside(self, by: isize) -> Centre {
         let count = Centre::ALL.len();
         Centre::ALL[(self as usize + count).saturating_add_signed(by) % count]
     }

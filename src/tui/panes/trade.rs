@@ -37,26 +37,6 @@ pub struct Traded {
     pub marked: Option<Setting>,
 }
 
-/// The view of the trade pane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum TradeView {
-    /// Error against time of every setting.
-    #[default]
-    Chart,
-    /// Time and error of every method with every compliance.
-    Table,
-}
-
-impl TradeView {
-    /// The other view.
-    pub(crate) fn other(self) -> TradeView {
-        match self {
-            TradeView::Chart => TradeView::Table,
-            TradeView::Table => TradeView::Chart,
-        }
-    }
-}
-
 impl Traded {
     /// Whether the case has changed since the benchmark, apart from its setting.
     pub(crate) fn is_stale(&self, inputs: &Inputs) -> bool {
@@ -82,8 +62,8 @@ pub(crate) struct TradePane<'a> {
     pub(crate) traded: Option<&'a Traded>,
     /// The case in the form, if it is valid.
     pub(crate) inputs: Option<&'a Inputs>,
-    /// Chart or table.
-    pub(crate) view: TradeView,
+    /// Whether the table of methods and compliances is shown instead of the chart.
+    pub(crate) is_table: bool,
     /// The capabilities of the terminal.
     pub(crate) look: Look,
     /// The title line.
@@ -105,10 +85,8 @@ pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
     let lines = if inner.height > TALL { 2 } else { 1 };
     let [above, below] =
         Layout::vertical([Constraint::Fill(1), Constraint::Length(lines)]).areas(inner);
-    match pane.view {
-        TradeView::Table => draw_table(pane, traded, trade, above, buffer),
-        TradeView::Chart => draw_chart(pane, traded, trade, above, buffer),
-    }
+    let draw = if pane.is_table { draw_table } else { draw_chart };
+    draw(pane, traded, trade, above, buffer);
     let width = usize::from(below.width).saturating_sub(2);
     let about = text::fitted(&about(pane, traded, trade), width, lines.into()).join(" ");
     text::draw_words(&about, below, buffer);
@@ -116,32 +94,29 @@ pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
 
 /// The meaning of the signs in the pane.
 pub(crate) fn signs(pane: &TradePane<'_>) -> &'static str {
-    match pane.view {
-        TradeView::Table => {
-            "Time of a solve with 64 stations, and its greatest difference from \
-                the reference in %; * compliance of the case, ▸ selected."
-        }
-        TradeView::Chart => {
-            "Each letter is a setting of a method; on the dotted line, no other setting is both \
-                faster and more accurate."
-        }
+    if pane.is_table {
+        "Time of a solve with 64 stations, and its greatest difference from the reference in %; \
+            * compliance of the case, ▸ selected."
+    } else {
+        "Each letter is a setting of a method; on the dotted line, no other setting is both faster \
+            and more accurate."
     }
 }
 
 /// The visible setting nearest to the selected one: that setting itself, otherwise one of its
 /// method, preferably with its compliance.
-pub(crate) fn nearest(traded: &Traded, view: TradeView) -> Option<Setting> {
+pub(crate) fn nearest(traded: &Traded, is_table: bool) -> Option<Setting> {
     let (marked, trade) = (traded.marked?, traded.trade.as_ref()?);
     let distance = |setting: &Setting| {
         (*setting != marked, setting.method != marked.method, setting.models != marked.models)
     };
-    visible(trade, view).into_iter().min_by_key(distance)
+    visible(trade, is_table).into_iter().min_by_key(distance)
 }
 
 /// The setting `by` places from the selected one, in the order of the view.
-pub(crate) fn stepped(traded: &Traded, view: TradeView, by: isize) -> Option<Setting> {
+pub(crate) fn stepped(traded: &Traded, is_table: bool, by: isize) -> Option<Setting> {
     let settings: Vec<Setting> =
-        traded.trade.iter().flat_map(|trade| visible(trade, view)).collect();
+        traded.trade.iter().flat_map(|trade| visible(trade, is_table)).collect();
     let last = settings.len().checked_sub(1)?;
     let now =
         traded.marked.and_then(|marked| settings.iter().position(|setting| *setting == marked));
@@ -151,9 +126,10 @@ pub(crate) fn stepped(traded: &Traded, view: TradeView, by: isize) -> Option<Set
 
 fn title(pane: &TradePane<'_>) -> String {
     let is_stale = |traded: &Traded| pane.inputs.is_none_or(|inputs| traded.is_stale(inputs));
-    let words = match pane.view {
-        TradeView::Chart => "Accuracy against run time, both logarithmic",
-        TradeView::Table => "Run time and difference from the reference in %",
+    let words = if pane.is_table {
+        "Run time and difference from the reference in %"
+    } else {
+        "Accuracy against run time, both logarithmic"
     };
     if pane.traded.is_some_and(is_stale) {
         format!("OUTDATED, {} runs it again: {words}", pane.title.key_to("m"))
@@ -205,15 +181,12 @@ fn ordered(trade: &Trade) -> Vec<&MeasuredSetting> {
 
 /// The visible settings in the order of the arrow keys: by their times in the chart, row by row in
 /// the table.
-fn visible(trade: &Trade, view: TradeView) -> Vec<Setting> {
-    match view {
-        TradeView::Chart => ordered(trade).into_iter().map(|measured| measured.setting).collect(),
-        TradeView::Table => {
-            let rows = compliances(trade).into_iter();
-            let cells = rows.flat_map(|(_, cells)| cells);
-            cells.flatten().map(|cell| cell.setting).collect()
-        }
+fn visible(trade: &Trade, is_table: bool) -> Vec<Setting> {
+    if is_table {
+        let cells = compliances(trade).into_iter().flat_map(|(_, cells)| cells);
+        return cells.flatten().map(|cell| cell.setting).collect();
     }
+    ordered(trade).into_iter().map(|measured| measured.setting).collect()
 }
 
 fn own(pane: &TradePane<'_>) -> Option<Setting> {

@@ -19,9 +19,9 @@ use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::page::Page;
 use crate::tui::app::dialogs::picker::{Item, Picker, Typed};
 use crate::tui::layout::{Pane, Place};
-use crate::tui::panes::chart::{ChartCommand as Chart, OwnChart};
+use crate::tui::panes::chart::OwnChart;
 use crate::tui::panes::results::Results;
-use crate::tui::panes::teeth::TeethCommand as Teeth;
+use crate::tui::panes::teeth::TeethView;
 use crate::tui::rows;
 use crate::tui::settings::marker_name;
 
@@ -368,36 +368,36 @@ pub static BINDINGS: &[Binding] = &[
         "Move the cursor to E, where the normal path of contact begins."),
     row(Place::OUTSIDE, "a", "cursor to angle", panes::ask_cursor,
         "Move the cursor to a roll angle, a time, D, E, B, L or the peak."),
-    pair(Place::OWN_CHART, "l/h Right/Left", "point", |app, by| panes::run_chart(app, Chart::Move(by)),
+    pair(Place::OWN_CHART, "l/h Right/Left", "point", panes::step_point,
         "One point right or left in a chart with its own axes.").shown(),
-    pair(Place::OWN_CHART, "L/H Shift-Right/Shift-Left", "", |app, by| panes::run_chart(app, Chart::Move(10 * by)),
+    pair(Place::OWN_CHART, "L/H Shift-Right/Shift-Left", "", |app, by| panes::step_point(app, 10 * by),
         "Move that cursor ten points right or left."),
     row(Place::CURSOR.or(Place::OWN_CHART), "c", "hide cursor", panes::hide_cursor, "Hide the cursor."),
     pair(Place::PATTERN, "Up/Down", "slice", panes::step_slice,
         "Move the cursor along the face to the next slice.").shown(),
-    row(Place::CHARTS, "j Down", "next chart", |app| panes::run_chart(app, Chart::Step(1)),
+    row(Place::CHARTS, "j Down", "next chart", |app| panes::step_chart(app, 1),
         "Show the next chart.").shown(),
-    row(Place::CHARTS, "k Up", "previous chart", |app| panes::run_chart(app, Chart::Step(-1)),
+    row(Place::CHARTS, "k Up", "previous chart", |app| panes::step_chart(app, -1),
         "Show the previous chart."),
-    row(Place::CHART, "+ =", "zoom in", |app| panes::run_chart(app, Chart::Zoom(1)),
+    row(Place::CHART, "+ =", "zoom in", |app| panes::zoom_chart(app, 1),
         "Zoom the charts in, around the cursor or D.").shown(),
-    row(Place::CHART, "-", "zoom out", |app| panes::run_chart(app, Chart::Zoom(-1)),
+    row(Place::CHART, "-", "zoom out", |app| panes::zoom_chart(app, -1),
         "Zoom the charts out, up to the whole contact.").shown(),
-    row(Place::CHART, "0", "whole contact", |app| panes::run_chart(app, Chart::Whole),
+    row(Place::CHART, "0", "whole contact", panes::show_whole,
         "Show the whole contact in the charts, from D to the last contact.").shown(),
-    row(Place::CHART, "v", "strike", |app| panes::run_chart(app, Chart::Strike),
+    row(Place::CHART, "v", "strike", panes::show_strike,
         "Show the charts from D to shortly after E, or the whole contact.").shown(),
-    row(Place::CHART, "t", "time axis", |app| panes::run_chart(app, Chart::Time),
+    row(Place::CHART, "t", "time axis", panes::switch_time,
         "Switch the x axis of the charts: roll angle before E or time after E.").shown(),
-    row(Place::TEETH, "+ =", "closer", |app| panes::run_teeth(app, Teeth::Zoom(1)),
+    row(Place::TEETH, "+ =", "closer", |app| panes::zoom_teeth(app, 1),
         "Zoom the teeth in.").shown(),
-    row(Place::TEETH, "-", "farther", |app| panes::run_teeth(app, Teeth::Zoom(-1)),
+    row(Place::TEETH, "-", "farther", |app| panes::zoom_teeth(app, -1),
         "Zoom the teeth out, up to the whole pair.").shown(),
-    row(Place::TEETH, "0", "reset teeth", |app| panes::run_teeth(app, Teeth::Reset),
+    row(Place::TEETH, "0", "reset teeth", |app| app.teeth = TeethView::default(),
         "Show the teeth around the strike again."),
-    pair(Place::TEETH, "v j/k Down/Up", "view", |app, by| panes::run_teeth(app, Teeth::Centre(by)),
+    pair(Place::TEETH, "v j/k Down/Up", "view", panes::turn_teeth,
         "Switch the view of the teeth: strike, pitch point or whole pair.").shown(),
-    row(Place::TEETH, "x", "gap", |app| panes::run_teeth(app, Teeth::Gap),
+    row(Place::TEETH, "x", "gap", panes::switch_gap,
         "Draw the gap between the teeth enlarged by the printed factor, or true to scale."),
     row(Place::STUDY, "Enter", "use value", studies::take,
         "Use the value at the cursor in the case.").shown(),

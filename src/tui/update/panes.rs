@@ -18,11 +18,10 @@ use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::cursor_to::{CursorTo, Reach, cursor_range};
 use crate::tui::app::dialogs::page::{Explanation, Page};
 use crate::tui::layout::Pane;
-use crate::tui::panes::chart::{
-    self, ChartCommand, ChartRequest, ChartValues, OwnChart, first_contact,
-};
+use crate::tui::panes::chart::curves::ChartView;
+use crate::tui::panes::chart::{self, CHARTS, ChartRequest, ChartValues, OwnChart, first_contact};
 use crate::tui::panes::results as results_pane;
-use crate::tui::panes::teeth::TeethCommand;
+use crate::tui::panes::teeth::{Picture, TeethView};
 
 const NO_CURSOR: &str = "no valid results for a cursor";
 
@@ -153,32 +152,84 @@ pub(super) fn stray(app: &mut App, letter: char) {
     app.say(format!("{name} is not a command in {pane}: {meant}? lists the keys"));
 }
 
-/// Runs a command of the pane.
-pub(super) fn run_teeth(app: &mut App, command: TeethCommand) {
-    let mut view = app.teeth;
-    let solved = app.picture().map(|picture| (picture.inputs, picture.solution));
-    let result = view.run(command, solved);
-    app.teeth = view;
-    match result {
-        Ok(Some(message)) => app.say(message),
-        Ok(None) => (),
-        Err(reason) => app.complain(reason),
+/// Zooms the teeth in by steps, or out if negative.
+pub(super) fn zoom_teeth(app: &mut App, steps: i32) {
+    let zoomed = |picture: Picture<'_>| app.teeth.zoomed(steps, picture.inputs, picture.solution);
+    let Some(view) = app.picture().map(zoomed) else {
+        return app.complain("no valid results to show");
+    };
+    if std::mem::replace(&mut app.teeth, view) == view {
+        app.say(if steps > 0 { CLOSEST } else { "the teeth pane shows the whole pair" });
     }
 }
 
-/// Runs a command of the pane.
-pub(super) fn run_chart(app: &mut App, command: ChartCommand) {
-    let (pane, message) = app.charts().run(command);
-    app.chart = pane;
-    if let Some(message) = message {
-        app.say(message);
-    }
+/// Shows another view of the teeth.
+pub(super) fn turn_teeth(app: &mut App, by: isize) {
+    app.teeth = TeethView { centre: app.teeth.centre.beside(by), zoom: 0, ..app.teeth };
+    app.say(format!("view: {}", app.teeth.centre.name()));
+}
+
+/// Switches the exaggeration of the gap.
+pub(super) fn switch_gap(app: &mut App) {
+    app.teeth.has_true_gap = !app.teeth.has_true_gap;
+    let factor = ["exaggerated by the factor shown", "drawn true to scale"];
+    app.say(format!("gap {}", factor[usize::from(app.teeth.has_true_gap)]));
+}
+
+const WHOLE: &str = "the charts show the whole contact";
+const CLOSEST: &str = "closest zoom";
+
+/// Shows the next or previous chart, wrapping around.
+pub(super) fn step_chart(app: &mut App, by: isize) {
+    let all = CHARTS - usize::from(app.charts().pattern().is_none());
+    let last = all - usize::from(by > 0);
+    let selected = (app.chart.selected.min(last) + all).saturating_add_signed(by) % all;
+    (app.chart.selected, app.chart.place) = (selected, None);
 }
 
 /// Goes to the chart with an index.
 pub(super) fn select_chart(app: &mut App, at: usize) {
     show(app, Pane::Chart);
-    run_chart(app, ChartCommand::Select(at));
+    (app.chart.selected, app.chart.place) = (at, None);
+}
+
+/// Moves the cursor of a chart with its own axes by points.
+pub(super) fn step_point(app: &mut App, by: isize) {
+    app.chart.place = app.charts().moved(by);
+    if app.chart.place.is_none() {
+        app.say("no chart to move in");
+    }
+}
+
+/// Zooms the charts in by steps, or out if negative.
+pub(super) fn zoom_chart(app: &mut App, steps: i32) {
+    let (before, view) = (app.charts().view(), app.charts().zoomed(steps));
+    app.chart.view = view;
+    if view == before {
+        app.say(if steps > 0 { CLOSEST } else { WHOLE });
+    }
+}
+
+pub(super) fn show_whole(app: &mut App) {
+    app.chart.view = ChartView::Whole;
+    app.say(WHOLE);
+}
+
+/// Switches between the strike and the whole contact.
+pub(super) fn show_strike(app: &mut App) {
+    let scale = app.charts().scale();
+    app.chart.view = app.charts().view().strike_or_whole(&scale);
+    app.say(match app.chart.view {
+        ChartView::Strike if scale.strike.is_empty() => "no corner contact: no strike to show",
+        ChartView::Strike => "the charts show the strike",
+        _ => WHOLE,
+    });
+}
+
+/// Switches the x axis between roll angle and time.
+pub(super) fn switch_time(app: &mut App) {
+    app.chart.by_time = !app.chart.by_time;
+    app.say(if app.chart.by_time { "time after E" } else { "driver roll angle before E" });
 }
 
 /// Scrolls to a moved cursor.

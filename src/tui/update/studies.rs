@@ -565,17 +565,17 @@ pub(super) fn stop_unseen(app: &mut App) {
 
 /// Switches between chart and table. The selection moves to a setting that the view shows.
 pub(super) fn switch_view(app: &mut App) {
-    app.trade_view = app.trade_view.other();
+    app.is_trade_table = !app.is_trade_table;
     if let Some(traded) = app.tab.traded.as_mut() {
-        traded.marked = nearest(traded, app.trade_view).or(traded.marked);
+        traded.marked = nearest(traded, app.is_trade_table).or(traded.marked);
     }
 }
 
 /// Moves the selection by `by` settings, in the order of the view.
 pub(super) fn step_setting(app: &mut App, by: isize) {
-    let view = app.trade_view;
+    let is_table = app.is_trade_table;
     if let Some(traded) = app.tab.traded.as_mut() {
-        traded.marked = stepped(traded, view, by).or(traded.marked);
+        traded.marked = stepped(traded, is_table, by).or(traded.marked);
     }
 }
 

@@ -382,8 +382,8 @@ impl Dialog for Browser {
     }
 
     fn click(&mut self, at: Position, around: &Surroundings<'_>) -> bool {
-        let [above, mut recents] = self.windows(halves(below(around.inside(SIZE), 2))[0]);
-        recents.area = below(recents.area, 1);
+        let [above, mut recents] = self.windows(halves(text::split(around.inside(SIZE), 2)[1])[0]);
+        recents.area = text::split(recents.area, 1)[1];
         let recent = || recents.line_at(at).map(|line| above.count + line);
         let line = above.line_at(at).or_else(recent);
         line.is_some_and(|line| std::mem::replace(&mut self.selected, line) == line)
@@ -427,18 +427,14 @@ impl Dialog for Browser {
         let width = usize::from(inner.width);
         let folder = text::cut_front(&folder.unwrap_or_default(), width);
         buffer.set_stringn(inner.x, inner.y, folder, width, theme.title);
-        let [left, right] = halves(below(inner, 2));
+        let [left, right] = halves(text::split(inner, 2)[1]);
         self.draw_lists(left, theme, buffer);
         draw_details(|width| self.preview_lines(width, theme), right, buffer);
-        let line = Rect { height: inner.height.saturating_sub(1).min(1), ..below(inner, 1) };
+        let [line, _] = text::split(text::split(inner, 1)[1], 1);
         if self.input.value().is_empty() {
             let how = "  type part of a name or a path; ~ is the home folder";
             buffer.set_stringn(line.x, line.y, how, width, theme.faint);
         }
         text::edited(&self.input, line, theme.focus, buffer)
     }
-}
-
-fn below(inner: Rect, rows: u16) -> Rect {
-    Rect { y: inner.y + rows, height: inner.height.saturating_sub(rows), ..inner }
 }

@@ -10,9 +10,7 @@ use ratatui::text::Span;
 use ratatui::widgets::{Block, Borders, Widget};
 use unicode_width::UnicodeWidthStr;
 
-use super::{
-    Dialog, PreviewPane, Surroundings, Window, closing, draw_details, halves, input_above, said,
-};
+use super::{Dialog, PreviewPane, Surroundings, Window, closing, draw_details, halves, said};
 use crate::case::fields::{FIELDS, Field, Kind};
 use crate::model::{QUANTITIES, Quantity};
 use crate::tui::app::App;
@@ -264,7 +262,7 @@ impl Picker {
     // The input line, the list, and the details: beside the list of examples, otherwise below. The
     // longest description has room, so that the list does not move.
     fn areas(&self, items: &[Arc<Item>], inner: Rect) -> (Rect, Rect, Rect) {
-        let [line, list] = input_above(inner);
+        let [line, list] = text::split(inner, 1);
         if self.preview.is_some() {
             let [left, right] = halves(list);
             return (line, left, right);
