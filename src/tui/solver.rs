@@ -44,7 +44,7 @@ pub struct Request {
 
 /// The visible part of the results.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wanted {
+pub(crate) struct Wanted {
     pub(crate) stages: Stages,
     /// Whether the chart of the mesh stiffness is visible.
     pub(crate) stiffness: bool,
