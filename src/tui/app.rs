@@ -424,7 +424,7 @@ impl App {
         let plan = self.layout.plan();
         let is_by_model = GRAPHS[self.chart.graph()].by_model.is_some();
         let stiffness = plan.shows(Pane::Chart) && is_by_model;
-        let paper = self.shows_every_method;
+        let paper = self.shows_every_method || self.is_pinning;
         if self.is_pinning {
             return Wanted { stages: Stages::EVERY, stiffness, paper };
         }

@@ -10,7 +10,7 @@ use crate::case::fields::FIELDS;
 use crate::case::fields::index_of;
 use crate::case::{Evaluator, Problem, Variant};
 use crate::model::inputs::Method;
-use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Stages};
+use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
 use crate::report::page::{format_of, is_picture};
 use crate::report::studies::{Take, write};
 use crate::report::svg;
@@ -700,8 +700,9 @@ pub(super) fn toggle_baseline(app: &mut App) {
 
 /// Pins the requested results as soon as they are complete.
 pub(super) fn pin_baseline(app: &mut App) {
-    let answer = app.tab.answer.as_ref().filter(|answer| answer.stages.covers(Stages::EVERY));
-    if let Some(answer) = answer.filter(|_| app.is_pinning) {
+    let is_whole = app.has_results() && app.tab.requested.covers(&app.wanted());
+    let answer = app.tab.answer.as_ref().filter(|_| app.is_pinning && is_whole);
+    if let Some(answer) = answer {
         let baseline = Baseline { name: app.tab.short_name(), answer: answer.clone() };
         let words = format!("baseline: {} as it is now, for this session", baseline.name);
         (app.is_pinning, app.baseline) = (false, Some(baseline));

@@ -198,8 +198,7 @@ fn value(case: &Case, field: usize) -> f64 {
         }
         _ => known.example().parse().ok(),
     };
-    let derived = || case.derived(field, &case.read().0);
-    number(case, field).or_else(derived).or_else(example).unwrap_or(0.0)
+    number(case, field).or_else(example).unwrap_or(0.0)
 }
 
 fn module(case: &Case) -> Option<f64> {
