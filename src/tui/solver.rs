@@ -90,7 +90,7 @@ pub struct Answer {
     /// The mesh stiffness by every model, or the refusal; `None` until it is computed.
     pub stiffness: Option<MeshStiffness>,
     /// The fields without effect.
-    pub(crate) idle: Vec<usize>,
+    pub idle: Vec<usize>,
 }
 
 /// The mesh stiffness by every model, or the refusal.

@@ -140,3 +140,14 @@ fn the_dialog_names_the_file_that_a_save_would_replace() {
     desk.keys(&["Esc", "Ctrl-U", harness::name(&desk.path("case.toml")), "Enter"]);
     assert!(desk.shows("saved "), "its own file is not asked about: {}", desk.screen());
 }
+
+#[test]
+fn a_line_for_the_reports_is_typed_and_undone() {
+    let mut desk = Desk::new(LARGE);
+    let project = ("project".to_owned(), "GB 12".to_owned());
+    desk.keys(&["Esc", ":", "about project = GB 12", "Enter"]);
+    assert!(desk.app.tab.case.about.contains(&project) && desk.app.tab.is_unsaved());
+    desk.keys(&["u"]);
+    assert!(!desk.app.tab.case.about.contains(&project));
+    desk.keys(&[":", "about a b = c", "Enter"]).assert_shows("letters, digits, - and _");
+}
