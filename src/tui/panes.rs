@@ -59,21 +59,16 @@ impl Title {
     /// Draws the line and returns the area below it.
     pub(crate) fn draw(&self, words: &str, area: Rect, buffer: &mut Buffer) -> Rect {
         let (theme, names, width) = (self.theme, self.names(area.width), usize::from(area.width));
-        let [line, below] = text::split(area, 1);
-        if line.is_empty() {
-            return below;
-        }
-        text::put(&"─".repeat(width), line, width, theme.rule, buffer);
         let room = width.saturating_sub(text::width(&names) + 4);
-        let title = format!(" {} ", text::cut(&format!("{}{words}", self.key()), room));
-        let (mark, of_mark, style) = match self.has_focus {
-            true => ("▸", theme.title, theme.key),
-            false => ("─", theme.rule, theme.title),
-        };
-        let x = text::put(mark, line, width, of_mark, buffer);
-        text::put(&title, (x, line.y), width.saturating_sub(1), style, buffer);
-        let start = line.right().saturating_sub(text::width(&names) as u16 + 1).max(line.x);
-        text::put(&names, (start, line.y), width, Style::new(), buffer);
+        let title = text::cut(&format!("{}{words}", self.key()), room);
+        let style = if self.has_focus { theme.key } else { theme.title };
+        let below = text::titled(&title, style, area, theme, buffer);
+        if !area.is_empty() {
+            let mark = if self.has_focus { "▸" } else { "" };
+            text::put(mark, area, 1, theme.title, buffer);
+            let start = area.right().saturating_sub(text::width(&names) as u16 + 1).max(area.x);
+            text::put(&names, (start, area.y), width, Style::new(), buffer);
+        }
         below
     }
 

@@ -95,14 +95,20 @@ pub(super) fn fitted(text: &str, width: usize, rows: usize) -> Vec<String> {
     lines
 }
 
-/// Draws a rule with a title on the top line of an area. Returns the area below it.
-pub(super) fn titled(title: &str, area: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
+/// Draws a rule with a title in a style on the top line of an area. Returns the area below it.
+pub(super) fn titled(
+    title: &str,
+    style: Style,
+    area: Rect,
+    theme: &Theme,
+    buffer: &mut Buffer,
+) -> Rect {
     let width = usize::from(area.width);
     let [line, below] = split(area, 1);
     if !line.is_empty() {
         put(&"─".repeat(width), line, width, theme.rule, buffer);
         let title = format!(" {} ", cut(title, width.saturating_sub(4)));
-        put(&title, (area.x + 1, area.y), width.saturating_sub(1), theme.title, buffer);
+        put(&title, (area.x + 1, area.y), width.saturating_sub(1), style, buffer);
     }
     below
 }

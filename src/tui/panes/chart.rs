@@ -626,7 +626,10 @@ pub(crate) fn draw(charts: &Charts, title: Option<&Title>, buffer: &mut Buffer) 
     let draw = |(at, (shown, area)): (usize, (Shown, &Rect))| {
         let inner = match title {
             Some(title) if at == 0 => title.draw(&format!("{stale}{}", shown.title), *area, buffer),
-            _ => text::titled(&shown.title, *area, charts.look.theme, buffer),
+            _ => {
+                let theme = charts.look.theme;
+                text::titled(&shown.title, theme.title, *area, theme, buffer)
+            }
         };
         shown.draw(charts, inner, buffer)
     };

@@ -315,7 +315,7 @@ impl Browser {
         above.draw(in_folder, theme, buffer);
         self.draw_state(above.area, theme, buffer);
         if !below.area.is_empty() {
-            let area = text::titled("Recent cases", below.area, theme, buffer);
+            let area = text::titled("Recent cases", theme.title, below.area, theme, buffer);
             let recents = above.count;
             Window { area, ..below }.draw(|at| name(recents + at).to_owned(), theme, buffer);
         }
