@@ -37,15 +37,17 @@ pub struct Request {
     pub serial: u64,
     /// The pair.
     pub inputs: Inputs,
-    pub(crate) wanted: Wanted,
+    /// The visible part of the results.
+    pub wanted: Wanted,
     /// The known fields without effect.
     pub(crate) idle: Vec<usize>,
 }
 
 /// The visible part of the results.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Wanted {
-    pub(crate) stages: Stages,
+pub struct Wanted {
+    /// The stages of the visible results.
+    pub stages: Stages,
     /// Whether the chart of the mesh stiffness is visible.
     pub(crate) stiffness: bool,
     /// Whether method `paper` is visible beside another method.

@@ -14,7 +14,7 @@ pub use crate::tui::panes::teeth::{Centre, Picture, TeethView};
 pub use crate::tui::session::journal::{Journal, JournalWriter};
 pub use crate::tui::session::{Access, Autosave, Claim, Found, Next, Offer, SaveFault};
 pub use crate::tui::settings::Settings;
-pub use crate::tui::solver::{Answer, Request};
+pub use crate::tui::solver::{Answer, Request, Wanted};
 pub use crate::tui::store::State;
 pub use crate::tui::store::folder::SearchResult;
 pub use crate::tui::tab::{Origin, Tab};

@@ -348,10 +348,10 @@ impl Bench {
             let mut quick = request.clone();
             // Slices over the speed take seconds: the worker still computes them.
             if request.inputs.face().is_some() {
-                quick.stages = request.stages.without(Stage::SpeedRun);
+                quick.wanted.stages = request.wanted.stages.without(Stage::SpeedRun);
             }
             let answer = solver::answer(&quick);
-            self.app.take(Answer { requested: request.stages, ..answer });
+            self.app.take(Answer { requested: request.wanted.stages, ..answer });
             self.act(Action::Tick);
         }
     }
