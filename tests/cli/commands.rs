@@ -260,7 +260,7 @@ fn a_refusal_of_the_model_has_the_place_of_its_field_and_leaves_limits_open() {
     has(&errors, &[": pair.centre_distance: "]);
     let (code, text, errors) = run(&["check", &path]);
     let expected = format!(
-        "unknown {path}: impact_force cannot be computed: the centre distance jams the mesh"
+        "unknown {path}: impact force F_S cannot be computed: the centre distance jams the mesh"
     );
     assert!(code == 3 && text.starts_with(&expected), "{text}");
     has(&errors, &[": pair.centre_distance: "]);
@@ -278,7 +278,7 @@ fn each_limit_has_its_line_whether_or_not_another_can_be_computed() {
         (lines[0], format!("EXCEEDED {path}: contact ratio ε 1."), "> 1.5"),
         (
             lines[1],
-            format!("unknown {path}: impact_force cannot be computed: tooth number outside"),
+            format!("unknown {path}: impact force F_S cannot be computed: tooth number outside"),
             "(limit 2500 N)",
         ),
         (lines[2], format!("ok {path}: approach velocity at D ΔV_n "), "m/s"),

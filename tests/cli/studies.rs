@@ -114,7 +114,7 @@ fn refused_points_are_counted_and_named_with_those_of_one_reason_in_one_line() {
     assert!(refusal["cause"].is_string() && refusal["fix"].is_string());
     assert_eq!(ran("sweep TABLE_1 --vary 'driver.bore_radius=50,60 mm'").0, 3);
     let (code, rows, errors) = ran("sweep TABLE_1 --vary 'pair.module=0.5..5 mm' --points 200");
-    let refused = rows.lines().filter(|row| row.ends_with("refused")).count();
+    let refused = rows.lines().filter(|row| row.ends_with(",refused,exact")).count();
     assert!(code == 0 && refused > 50, "{rows}");
     assert_eq!(errors.lines().count(), 1, "{errors}");
     has(&errors, &[&format!("{refused} of 200 points refused, the first at pair.module = 0.5 mm")]);

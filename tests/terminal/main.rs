@@ -19,7 +19,6 @@ mod faults;
 mod files;
 mod first_frame;
 mod hostile;
-mod memory;
 mod pty;
 mod recovery;
 mod screen;

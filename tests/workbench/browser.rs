@@ -85,7 +85,7 @@ fn the_case_under_the_cursor_shows_its_verdict() {
         ),
         ("d-bad", &["It cannot be opened:", "11:10: pair.module", "teth"]),
         ("e-new", &["Newer format: opens read-only.", "Corner contact 1.366 deg"]),
-        ("f-ref", &["Not solved: ", "unknown impact_force"]),
+        ("f-ref", &["Not solved: ", "unknown impact force F_S"]),
         ("sub", &["A folder with 1 case, 0 folders."]),
     ] {
         desk.keys(&["Ctrl-U", file]);

@@ -25,6 +25,7 @@ mod export;
 mod form_aids;
 mod frozen;
 mod keys;
+mod memory;
 mod models;
 mod panes;
 mod picture;

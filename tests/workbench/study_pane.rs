@@ -128,7 +128,7 @@ fn the_table_has_a_row_for_each_point_and_its_cursor_follows_them() {
 #[test]
 fn the_shown_points_are_exported_as_by_the_command_that_is_named() {
     for (name, part) in [
-        ("a.csv", "operation.speed [rpm],impact_force [N],outcome\n1000,"),
+        ("a.csv", "operation.speed [rpm],impact_force [N],outcome,method\n1000,"),
         ("a.json", "{\"varied\":{\"operation.speed\":{\"value\":1000.0"),
         ("a.svg", "<svg"),
     ] {
