@@ -24,8 +24,7 @@ fn changed(from: &str, to: &str) -> (tempfile::TempDir, String) {
     assert!(text.contains(from));
     let path = folder.path().join("case.toml");
     fs::write(&path, text.replacen(from, to, 1)).unwrap();
-    let path = path.to_str().unwrap().to_owned();
-    (folder, path)
+    (folder, path.to_str().unwrap().to_owned())
 }
 
 /// Commands with a part of their pages; a part behind `!` is absent. The snapshots of `reports` have
@@ -272,17 +271,14 @@ fn each_limit_has_its_line_whether_or_not_another_can_be_computed() {
         "[limits]\ncontact_ratio = 1.5\nimpact_force = \"2500 N\"\nnormal_velocity = \"90 m/s\"\n";
     let (_folder, path) = changed("[limits]\nimpact_force = \"2500 N\"", limits);
     let (code, text, errors) = ran(&format!("check {path} --set driver.teeth=120"));
-    let lines: Vec<&str> = text.lines().skip(1).collect();
-    assert_eq!((code, lines.len()), (3, 3), "{lines:?}");
-    for (line, start, part) in [
-        (lines[0], format!("EXCEEDED {path}: contact ratio ε 1."), "> 1.5"),
-        (
-            lines[1],
-            format!("unknown {path}: impact force F_S cannot be computed: tooth number outside"),
-            "(limit 2500 N)",
-        ),
-        (lines[2], format!("ok {path}: approach velocity at D ΔV_n "), "m/s"),
-    ] {
+    assert_eq!((code, text.lines().count()), (3, 4), "{text}");
+    let force = "impact force F_S cannot be computed: tooth number outside";
+    for (line, (standing, says, part)) in text.lines().skip(1).zip([
+        ("EXCEEDED", "contact ratio ε 1.", "> 1.5"),
+        ("unknown", force, "(limit 2500 N)"),
+        ("ok", "approach velocity at D ΔV_n ", "m/s"),
+    ]) {
+        let start = format!("{standing} {path}: {says}");
         assert!(line.starts_with(&start) && line.contains(part), "{line}");
     }
     assert_eq!(errors.lines().count(), 1, "{errors}");

@@ -218,8 +218,7 @@ fn with_spread(lines: &str) -> (tempfile::TempDir, String) {
     let path = folder.path().join("case.toml");
     let text = fs::read_to_string(TABLE_1).unwrap();
     fs::write(&path, format!("{text}\n[spread]\n{lines}\n")).unwrap();
-    let path = path.to_str().unwrap().to_owned();
-    (folder, path)
+    (folder, path.to_str().unwrap().to_owned())
 }
 
 #[test]

@@ -143,14 +143,9 @@ fn no_setting_of_the_front_is_worse_than_another_in_both() {
 fn errors_fall_with_stations_and_are_below_the_tolerance() {
     let trade = traded_table_1();
     for method in METHODS {
+        let usual = Setting::usual(method, &table_1());
         let off = |stations| {
-            numerical(
-                of(
-                    trade,
-                    &Setting { stations: Some(stations), ..Setting::usual(method, &table_1()) },
-                ),
-                Subject::Curve,
-            )
+            numerical(of(trade, &Setting { stations: Some(stations), ..usual }), Subject::Curve)
         };
         for pair in STATIONS.windows(2) {
             assert!(off(pair[1]) < off(pair[0]), "{method:?} {pair:?} {:e}", off(pair[0]));

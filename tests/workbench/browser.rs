@@ -59,22 +59,9 @@ fn the_case_under_the_cursor_shows_its_verdict() {
     desk.keys(&["Ctrl-O"]);
     assert_eq!(marked(&desk), "case.toml", "the present case, among the others");
     for (file, expected) in [
-        (
-            "a-str",
-            &[
-                "Zhou & Chen 2014, Table 1",
-                "z 20/20, m 5 mm, α 20 deg, b 8 mm",
-                "15 kW at 2000 rpm",
-                "method exact",
-            ][..],
-        ),
-        (
-            "a-str",
-            &[
-                "Corner contact 1.366 deg before E: impact force 2191.0 N",
-                "ok impact force F_S 2191.0 N <= 2500 N",
-            ],
-        ),
+        ("a-str", &["Zhou & Chen 2014, Table 1", "z 20/20, m 5 mm, α 20 deg, b 8 mm"][..]),
+        ("a-str", &["15 kW at 2000 rpm", "method exact", "ok impact force F_S 2191.0 N <= 2500 N"]),
+        ("a-str", &["Corner contact 1.366 deg before E: impact force 2191.0 N"]),
         ("b-exc", &["EXCEEDED impact force F_S 2191.0 N > 2000 N (110 %)"]),
         (
             "c-rel",
