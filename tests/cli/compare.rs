@@ -7,7 +7,7 @@ use serde_json::Value;
 use tempfile::TempDir;
 use tipstrike::cli::Arguments;
 
-use crate::program::{has, run};
+use crate::program::{has, run, table_1_with as with};
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 
@@ -23,15 +23,6 @@ limits.impact_force = "900 N"
 [variants.far.pair]
 centre_distance = "200 mm"
 "#;
-
-/// Table 1 with variants, and its path.
-fn with(variants: &str) -> (TempDir, String) {
-    let folder = TempDir::new().unwrap();
-    let path = folder.path().join("gear.toml");
-    fs::write(&path, fs::read_to_string(TABLE_1).unwrap() + variants).unwrap();
-    let path = path.to_str().unwrap().to_owned();
-    (folder, path)
-}
 
 fn case() -> (TempDir, String) {
     with(VARIANTS)
@@ -152,7 +143,7 @@ fn every_command_that_takes_a_case_takes_a_variant() {
     assert!(code == 0 && own != varied);
     let (code, text, _) = run(&["check", &case, "--variant", "slow"]);
     assert_eq!(code, 0, "{text}");
-    has(&text, &["900", "gear.toml:slow"]);
+    has(&text, &["900", "case.toml:slow"]);
     let (code, _, errors) = run(&["solve", &case, "--variant", "far"]);
     assert_eq!(code, 3);
     has(&errors, &["variants.far.pair.centre_distance", "(with --variant far)\n"]);

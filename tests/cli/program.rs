@@ -4,6 +4,15 @@ use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 
+/// Table 1 with more lines, in a temporary folder.
+pub(crate) fn table_1_with(lines: &str) -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.toml");
+    let text = std::fs::read_to_string("cases/zhou-chen-2014.toml").unwrap();
+    std::fs::write(&path, text + lines).unwrap();
+    (folder, path.to_str().unwrap().to_owned())
+}
+
 /// The program with arguments, in the source folder.
 pub(crate) fn program(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tipstrike"));

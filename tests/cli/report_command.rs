@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::program::{has, prints, run, stdout_of};
+use crate::program::{has, prints, run, stdout_of, table_1_with};
 use roxmltree::Document;
 use tipstrike::report::stations::GRAPHS;
 
@@ -184,15 +184,12 @@ fn several_cases_are_side_by_side_in_every_format() {
 
 #[test]
 fn a_case_with_variants_and_spread_has_a_table_of_each_on_its_pages() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = folder.path().join("studied.toml");
-    let studied = "\n[spread]\n\
-        \"deviations.base_pitch\" = { normal = \"2 um\" }\n\n\
+    let (_folder, case) = table_1_with(
+        "\n[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\" }\n\n\
         [variants.relieved]\n\"driven.tip_relief\" = \"10 um\"\n\
-        [variants.jammed]\n\"pair.centre_distance\" = \"90 mm\"\n";
-    let text = fs::read_to_string(TABLE_1).unwrap();
-    fs::write(&case, text + studied).unwrap();
-    let case = case.to_str().unwrap();
+        [variants.jammed]\n\"pair.centre_distance\" = \"90 mm\"\n",
+    );
+    let case = case.as_str();
     for ending in ["html", "md"] {
         let page = report(&[case], ending);
         let variants = ["Studies", "Variants, with the differences from the case", "relieved"];
@@ -209,11 +206,9 @@ fn a_case_with_variants_and_spread_has_a_table_of_each_on_its_pages() {
 
 #[test]
 fn a_page_has_the_texts_about_the_case_and_leaves_out_its_appendix_on_request() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = folder.path().join("about.toml");
     let about = "\n[about]\nproject = \"Mill um <7>\"\ndate = 2026-11-26\n\"drawing no.\" = 4711\n";
-    fs::write(&case, fs::read_to_string(TABLE_1).unwrap() + about).unwrap();
-    let case = case.to_str().unwrap();
+    let (_folder, case) = table_1_with(about);
+    let case = case.as_str();
     let line = "Project: Mill um &#60;7&#62; · Date: 2026-11-26 · Drawing no.: 4711</p>";
     let page = report(&[case], "html");
     assert!(page.contains(line) && page.contains("<h2 class=\"appendix\">All results"), "{page}");

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::program::{has, json, page, ran};
+use crate::program::{has, json, page, ran, table_1_with};
 use serde_json::Value;
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
@@ -214,11 +214,7 @@ fn a_search_prints_its_crossing_with_bracket_and_segments() {
 
 /// Table 1 with distributions, in a temporary folder.
 fn with_spread(lines: &str) -> (tempfile::TempDir, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("case.toml");
-    let text = fs::read_to_string(TABLE_1).unwrap();
-    fs::write(&path, format!("{text}\n[spread]\n{lines}\n")).unwrap();
-    (folder, path.to_str().unwrap().to_owned())
+    table_1_with(&format!("\n[spread]\n{lines}\n"))
 }
 
 #[test]
