@@ -1,7 +1,7 @@
 //! Methods `static` and `dynamic`, compared with an independent computation of the same pairs.
 use serde_json::Value;
 
-use crate::support::{cases_with_answers, off, value};
+use crate::support::{cases_with_answers, off, range, value};
 use tipstrike::model::inputs::Method;
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::static_load::balance;
@@ -120,10 +120,8 @@ fn between(stations: &[Station], time: f64) -> (f64, f64) {
         });
         others.product::<f64>()
     };
-    let forces = four.iter().map(|station| station.force);
-    let spread =
-        forces.clone().fold(f64::NEG_INFINITY, f64::max) - forces.fold(f64::INFINITY, f64::min);
-    ((0..4).map(|own| weight(own) * four[own].force).sum(), spread)
+    let forces: Vec<f64> = four.iter().map(|station| station.force).collect();
+    ((0..4).map(|own| weight(own) * forces[own]).sum(), range(&forces))
 }
 
 #[test]

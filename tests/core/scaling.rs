@@ -212,11 +212,8 @@ fn check(pairs: u64, other: impl Fn(&Inputs, &mut Random) -> (Inputs, (f64, f64)
                 |what: &str| format!("pair {number} {} times {factors:?}: {what}", method.name());
             match (solved(&inputs, stages), solved(&scaled, stages)) {
                 (Ok(one), Ok(other)) => {
-                    found.extend(
-                        differences((&one, &other), factors, permitted)
-                            .iter()
-                            .map(|what| name(what)),
-                    );
+                    let all = differences((&one, &other), factors, permitted);
+                    found.extend(all.iter().map(|what| name(what)));
                     let codes = |inputs: &Inputs, solution: &Solution| -> Vec<&str> {
                         let all = notes(inputs, solution);
                         all.into_iter().map(|note| note.code).collect()

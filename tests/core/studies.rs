@@ -178,11 +178,8 @@ fn every_crossing_is_found_although_the_quantity_turns_back_between_points_of_th
     let rows = solved(&inputs, &grid, 2, &quantities);
     let most = rows.iter().filter_map(|row| row.values[0]).fold(0.0, f64::max);
     let limit = 0.999_99 * most;
-    let found = sought(
-        &inputs,
-        "operation.speed=3000..3600 rpm",
-        &format!("dynamic_peak_force<={limit} N"),
-    );
+    let until = format!("dynamic_peak_force<={limit} N");
+    let found = sought(&inputs, "operation.speed=3000..3600 rpm", &until);
     let count = found.crossings().len();
     assert!(count == 2, "{count} of {most} N");
 }
@@ -359,8 +356,8 @@ fn a_relative_limit_follows_the_result_of_each_sample() {
         case.set_limit("mesh_force", limit).unwrap();
         let (study, samples) = toleranced(&case, 200, 1, 2);
         let summary = study.summary(&samples);
-        let of =
-            summary.limits.iter().find(|limit| limit.limit.quantity.key == "mesh_force").unwrap();
+        let mut limits = summary.limits.iter();
+        let of = limits.find(|limit| limit.limit.quantity.key == "mesh_force").unwrap();
         assert_eq!(of.known, 200);
         of.probability.unwrap().value
     };

@@ -93,12 +93,8 @@ impl Table {
     pub(crate) fn markdown(&self) -> String {
         let mut text = "| setting | numbers | curve | total |\n|---|---|---|---|\n".to_owned();
         for row in &self.0 {
-            let errors = row.errors.map(|error| {
-                error.map_or_else(
-                    || "-".to_owned(),
-                    |(median, most)| format!("{median:.1e} / {most:.1e}"),
-                )
-            });
+            let shown = |(median, most)| format!("{median:.1e} / {most:.1e}");
+            let errors = row.errors.map(|error| error.map_or("-".to_owned(), shown));
             writeln!(text, "| {} | {} |", row.setting, errors.join(" | ")).expect("a string");
         }
         text
@@ -127,11 +123,8 @@ impl Table {
 }
 
 fn row(setting: &Setting, trades: &[(String, Trade)]) -> Row {
-    let found: Vec<_> = trades
-        .iter()
-        .flat_map(|(_, trade)| &trade.settings)
-        .filter(|measured| measured.setting == *setting)
-        .collect();
+    let all = trades.iter().flat_map(|(_, trade)| &trade.settings);
+    let found: Vec<_> = all.filter(|measured| measured.setting == *setting).collect();
     let figures = || found.iter().filter_map(|measured| measured.found.as_ref().ok());
     let numbers =
         figures().filter_map(|figures| greatest(&without_curve(&figures.numerical))).collect();

@@ -43,14 +43,8 @@ impl Row {
         Some(Row {
             corner,
             inputs,
-            answers: answers
-                .iter()
-                .map(|(&key, value)| (key.to_owned(), number::printed(value)))
-                .collect(),
-            conditions: conditions
-                .into_iter()
-                .map(|(key, condition)| (key.to_owned(), short(condition)))
-                .collect(),
+            answers: answers.iter().map(|(&key, one)| (key.into(), number::printed(one))).collect(),
+            conditions: conditions.into_iter().map(|(key, one)| (key.into(), short(one))).collect(),
         })
     }
 
@@ -92,13 +86,8 @@ pub(crate) fn frozen() -> Vec<Row> {
     let file: Value = serde_json::from_str(&text).expect("JSON");
     let keys: Vec<&str> =
         file["quantities"].as_array().expect("keys").iter().filter_map(Value::as_str).collect();
-    file["rows"]
-        .as_array()
-        .expect("rows")
-        .iter()
-        .map(|row| read(row, &keys))
-        .filter(|row| has_teeth(&row.inputs))
-        .collect()
+    let rows = file["rows"].as_array().expect("rows").iter().map(|row| read(row, &keys));
+    rows.filter(|row| has_teeth(&row.inputs)).collect()
 }
 
 /// Whether the reliefs leave something of the teeth. A relief that cancels a deviation of a
@@ -149,22 +138,14 @@ fn written_row(row: &Row, keys: &[&str]) -> String {
     let answers: Vec<Option<&String>> = keys.iter().map(|&key| row.answers.get(key)).collect();
     let conditions: Vec<Option<f64>> =
         keys.iter().map(|&key| row.conditions.get(key).copied()).collect();
-    serde_json::json!([
-        format!("{:?}", row.corner),
-        choices(&row.inputs),
-        fields,
-        answers,
-        conditions
-    ])
-    .to_string()
+    let corner = format!("{:?}", row.corner);
+    serde_json::json!([corner, choices(&row.inputs), fields, answers, conditions]).to_string()
 }
 
 fn read(row: &Value, keys: &[&str]) -> Row {
     let text = |value: &Value| value.as_str().map(str::to_owned);
-    let corner = Corner::ALL
-        .into_iter()
-        .find(|corner| Some(format!("{corner:?}")) == text(&row[0]))
-        .expect("a corner");
+    let is_own = |corner: &Corner| Some(format!("{corner:?}")) == text(&row[0]);
+    let corner = Corner::ALL.into_iter().find(is_own).expect("a corner");
     let mut inputs = chosen(row[1].as_str().expect("choices"));
     for ((_, slot), value) in FIELDS.iter().zip(row[2].as_array().expect("fields")) {
         slot(&mut inputs).read(value.as_str());
@@ -262,10 +243,7 @@ fn chosen(choices: &str) -> Inputs {
         drive: if words[1] == "power" { Drive::Power(0.0) } else { Drive::Torque(0.0) },
         method: Method::ALL.into_iter().find(|method| method.name() == words[0]).expect("a method"),
         tooth_compliance: ToothCompliance::ALL.into_iter().find(|tooth| tooth.name() == words[2]),
-        contact_compliance: ContactCompliance::ALL
-            .into_iter()
-            .find(named)
-            .expect("a contact compliance"),
+        contact_compliance: ContactCompliance::ALL.into_iter().find(named).expect("a compliance"),
         stations: Some(8),
         ..Inputs::default()
     }

@@ -81,12 +81,8 @@ impl Table {
             formula: formula.to_owned(),
             cells: errors.next().expect("a line").into_iter().map(cell).collect(),
         };
-        Table(
-            QUANTITIES
-                .iter()
-                .flat_map(|(symbol, _)| [line(symbol, "naive"), line(symbol, "tipstrike")])
-                .collect(),
-        )
+        let both = QUANTITIES.map(|(symbol, _)| [line(symbol, "naive"), line(symbol, "tipstrike")]);
+        Table(both.into_iter().flatten().collect())
     }
 
     pub(crate) fn stored() -> Table {
@@ -117,11 +113,8 @@ impl Table {
     pub(crate) fn median_at(&self, quantity: &str, decade: i32) -> (f64, f64) {
         let column = DECADES.iter().position(|&of| of == decade).expect("a decade");
         let of = |formula: &str| {
-            let line = self
-                .0
-                .iter()
-                .find(|line| line.quantity == quantity && line.formula == formula)
-                .expect("a line");
+            let is_it = |line: &&Line| line.quantity == quantity && line.formula == formula;
+            let line = self.0.iter().find(is_it).expect("a line");
             line.cells[column].expect("rows").median.max(ROUNDING)
         };
         (of("naive"), of("tipstrike"))
@@ -159,15 +152,9 @@ fn errors_of(row: &Row) -> [[Option<f64>; 2]; 7] {
     let deviation = row.answer("total_deviation").expect("a deviation");
     let naive_angle = naive.angle(deviation);
     let [radius, normal_radius, normal, sliding] = naive.at(naive_angle);
-    let found = [
-        None,
-        Some(naive_angle),
-        Some(radius),
-        Some(normal_radius),
-        Some(normal),
-        Some(sliding),
-        naive.force(naive_angle),
-    ];
+    let [u, radius, drop, normal, sliding] =
+        [naive_angle, radius, normal_radius, normal, sliding].map(Some);
+    let found = [None, u, radius, drop, normal, sliding, naive.force(naive_angle)];
     let mut errors = [[None; 2]; 7];
     for ((errors, (_, key)), found) in errors.iter_mut().zip(QUANTITIES).zip(found).skip(1) {
         let (Some(found), true) = (found, row.answers.contains_key(key)) else { continue };

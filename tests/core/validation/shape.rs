@@ -8,7 +8,7 @@ use tipstrike::model::inputs::{Drive, ToothCompliance};
 
 use super::sources::{exact, mesh_stiffness, of_slices};
 use super::with_model;
-use crate::support::inputs;
+use crate::support::{inputs, range as peak_to_peak};
 
 /// Even places over a base pitch.
 const PLACES: u32 = 400;
@@ -66,11 +66,6 @@ fn ours(inputs: &Inputs, contact: f64) -> Vec<f64> {
     let stiffness: Vec<f64> = (0..PLACES).map(at).collect();
     let mean = stiffness.iter().sum::<f64>() / f64::from(PLACES);
     stiffness.iter().map(|one| one / mean).collect()
-}
-
-fn peak_to_peak(values: &[f64]) -> f64 {
-    values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
-        - values.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 pub(super) fn section() -> String {
