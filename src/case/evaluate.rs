@@ -13,7 +13,7 @@ pub struct Evaluator {
 #[derive(Debug, Clone)]
 struct Solved {
     inputs: Inputs,
-    solution: Box<Solution>,
+    solution: Solution,
 }
 
 impl Evaluator {

@@ -76,7 +76,7 @@ pub enum Reason {
 /// decides.
 ///
 /// The choice depends on the pair alone, not on the limits and the selected quantities.
-pub fn choose(inputs: &Inputs, closed_form: Result<&Solution, &Refusal>) -> Choice {
+pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
     match closed_form {
         Err(Refusal::NotOverFace { .. }) => {
             let inertia = Some(Inertia::Between(0.0, f64::INFINITY));

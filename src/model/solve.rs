@@ -47,7 +47,7 @@ pub fn solve_while(
     wanted: Stages,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Solution, Refusal> {
-    solve_after(inputs, wanted, None, go_on).map(|solution| *solution)
+    solve_after(inputs, wanted, None, go_on)
 }
 
 /// Like [`solve_while`] after an earlier solve. Reuses valid earlier results; [`Solution::ran`]
@@ -60,7 +60,7 @@ pub fn solve_after(
     wanted: Stages,
     earlier: Option<Earlier<'_>>,
     go_on: &dyn Fn(f64) -> bool,
-) -> Result<Box<Solution>, Refusal> {
+) -> Result<Solution, Refusal> {
     match inputs.method {
         Method::Auto => solve_by_choice(inputs, wanted, earlier, go_on),
         _ => solve_by_method(inputs, wanted, earlier, go_on),
@@ -100,7 +100,7 @@ pub(crate) fn solve_by_method(
     wanted: Stages,
     earlier: Option<Earlier<'_>>,
     go_on: &dyn Fn(f64) -> bool,
-) -> Result<Box<Solution>, Refusal> {
+) -> Result<Solution, Refusal> {
     let face = inputs.face();
     if face.is_some() && inputs.method == Method::Paper {
         return Err(Refusal::NotOverFace { method: inputs.method });
@@ -118,7 +118,7 @@ pub(crate) fn solve_by_method(
     let lazy = Lazy::default();
     let mut solution = run.begin(&lazy)?;
     let figures = || {
-        let Solution { geometry, mesh_force, reduced_mass, .. } = &*solution;
+        let Solution { geometry, mesh_force, reduced_mass, .. } = &solution;
         Ok(Figures::of(inputs, geometry, *mesh_force, *reduced_mass))
     };
     solution.figures = run.stage(Stage::Figures, |s| s.figures, figures)?;
@@ -188,7 +188,7 @@ impl<'a> Run<'a> {
     }
 
     /// Geometry, load, masses and deviation.
-    fn begin(&mut self, lazy: &Lazy) -> Result<Box<Solution>, Refusal> {
+    fn begin(&mut self, lazy: &Lazy) -> Result<Solution, Refusal> {
         let inputs = self.inputs;
         let geometry =
             self.result(Stage::Geometry, |s| Some(s.geometry), || lazy.geometry(inputs))?;
@@ -216,7 +216,7 @@ impl<'a> Run<'a> {
         let deviation = || deviation(inputs, by_load);
         let deviation = self.result(Stage::Deviation, |s| Some(s.kept.deviation), deviation)?;
         let kept = Kept { masses, deviation, hertz: Hertz::of(inputs) };
-        let mut solution = Box::new(Solution::new(inputs.method, geometry, mesh_force, kept));
+        let mut solution = Solution::new(inputs.method, geometry, mesh_force, kept);
         solution.helix = inputs.helix(&geometry, mesh_force);
         Ok(solution)
     }
@@ -442,21 +442,20 @@ fn solve_by_choice(
     wanted: Stages,
     earlier: Option<Earlier<'_>>,
     go_on: &dyn Fn(f64) -> bool,
-) -> Result<Box<Solution>, Refusal> {
+) -> Result<Solution, Refusal> {
     let auto = Auto { inputs, go_on };
     let wanted = wanted.and(Method::Auto.deciding_stages());
     let before =
         earlier.filter(|earlier| earlier.inputs == inputs && earlier.solution.choice.is_some());
     let chosen = match before {
-        Some(earlier) => Box::new(Solution { ran: Stages::NONE, ..earlier.solution.clone() }),
+        Some(earlier) => Solution { ran: Stages::NONE, ..earlier.solution.clone() },
         None => auto.with_beside(auto.chosen(wanted.except(Stages::LATE))?)?,
     };
     if before.is_none() && wanted.within(Stages::LATE) == Stages::NONE {
         return Ok(chosen);
     }
-    let mut whole = auto.solve(chosen.method, wanted, Some(&chosen))?;
-    (whole.choice, whole.beside) = (chosen.choice, chosen.beside);
-    Ok(whole)
+    let whole = auto.solve(chosen.method, wanted, Some(&chosen))?;
+    Ok(Solution { choice: chosen.choice, beside: chosen.beside, ..whole })
 }
 
 /// A case that leaves the method open.
@@ -473,7 +472,7 @@ impl Auto<'_> {
         method: Method,
         wanted: Stages,
         known: Option<&Solution>,
-    ) -> Result<Box<Solution>, Refusal> {
+    ) -> Result<Solution, Refusal> {
         let inputs = auto::taken(self.inputs, method);
         let wanted = if method == Method::Static && wanted.has(Stage::Dynamic) {
             wanted.and(Stages::of(Stage::Static))
@@ -481,16 +480,15 @@ impl Auto<'_> {
             wanted
         };
         let earlier = known.map(|solution| Earlier { inputs: &inputs, solution });
-        let mut found = solve_by_method(&inputs, wanted, earlier, self.go_on)?;
-        found.ran = found.ran.and(known.map_or(Stages::NONE, |known| known.ran));
-        Ok(found)
+        let found = solve_by_method(&inputs, wanted, earlier, self.go_on)?;
+        let ran = known.map_or(Stages::NONE, |known| known.ran);
+        Ok(Solution { ran: found.ran.and(ran), ..found })
     }
 
     /// Adds the results that limits or selected quantities need from a slower method.
-    fn with_beside(&self, mut solution: Box<Solution>) -> Result<Box<Solution>, Refusal> {
+    fn with_beside(&self, solution: Solution) -> Result<Solution, Refusal> {
         let Some(method) = auto::beside(self.inputs, solution.method) else {
-            solution.beside = None;
-            return Ok(solution);
+            return Ok(Solution { beside: None, ..solution });
         };
         let missing = self.inputs.needs.except(solution.method.stages());
         let wanted = missing.iter().map(Stages::of).fold(Stages::NONE, Stages::and);
@@ -498,24 +496,23 @@ impl Auto<'_> {
         let known = solution.beside.as_ref().and_then(|known| known.as_deref().ok());
         let beside = match self.solve(method, wanted, known) {
             Err(Refusal::Stopped) => return Err(Refusal::Stopped),
-            found => found,
+            found => found.map(Box::new),
         };
         let ran = beside.as_ref().map_or(Stages::NONE, |beside| beside.ran);
-        (solution.ran, solution.beside) = (solution.ran.and(ran), Some(beside));
-        Ok(solution)
+        Ok(Solution { ran: solution.ran.and(ran), beside: Some(beside), ..solution })
     }
 
     /// Solves by the chosen method. Uses static balance if the speed is too low for a motion.
-    fn chosen(&self, wanted: Stages) -> Result<Box<Solution>, Refusal> {
+    fn chosen(&self, wanted: Stages) -> Result<Solution, Refusal> {
         let exact = auto::taken(self.inputs, Method::Exact);
         let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
         let closed_form = match self.inputs.face() {
             Some(_) => Err(Refusal::NotOverFace { method: Method::Exact }),
             None => solve_by_method(&exact, read, None, &|_| true),
         };
-        let choice = auto::choose(self.inputs, closed_form.as_deref());
+        let choice = auto::choose(self.inputs, &closed_form);
         let still = || self.solve(Method::Static, wanted, None);
-        let (mut solution, choice) = match (choice.method, &closed_form) {
+        let (solution, choice) = match (choice.method, &closed_form) {
             (Method::Exact, Ok(known)) => (self.solve(Method::Exact, wanted, Some(known))?, choice),
             (Method::Static, _) => (still()?, choice),
             _ => match self.solve(Method::Dynamic, wanted, None) {
@@ -530,28 +527,26 @@ impl Auto<'_> {
                 found => (found?, choice),
             },
         };
-        solution.choice = Some(Choice { method: solution.method, ..choice });
-        Ok(solution)
+        Ok(Solution { choice: Some(Choice { method: solution.method, ..choice }), ..solution })
     }
 
     /// The motion, or the static balance on the same mesh if the effect of inertia is small.
     fn decided(
         &self,
         choice: Choice,
-        moved: Box<Solution>,
+        moved: Solution,
         wanted: Stages,
-    ) -> Result<(Box<Solution>, Choice), Refusal> {
-        let known = Solution { method: Method::Static, ..(*moved).clone() };
+    ) -> Result<(Solution, Choice), Refusal> {
+        let known = Solution { method: Method::Static, ..moved.clone() };
         let at_rest = || self.solve(Method::Static, wanted, Some(&known));
         let still = moved.face_motion.as_ref().map(|_| at_rest()).transpose()?;
-        let adds = auto::added_by_inertia(&moved, still.as_deref());
+        let adds = auto::added_by_inertia(&moved, still.as_ref());
         let choice = adds.map_or(choice, |adds| choice.tried(self.inputs, adds));
         if choice.method == Method::Dynamic {
             return Ok((moved, choice));
         }
-        let mut found = still.map_or_else(at_rest, Ok)?;
-        found.beside = Some(Ok(moved));
-        Ok((found, choice))
+        let found = still.map_or_else(at_rest, Ok)?;
+        Ok((Solution { beside: Some(Ok(Box::new(moved))), ..found }, choice))
     }
 }
 
@@ -669,8 +664,8 @@ mod tests {
                     let earlier = Earlier { inputs: &before.0, solution: &before.1 };
                     let after = solve_after(&inputs, wanted, Some(earlier), &|_| true).unwrap();
                     let plain = solve(&inputs, wanted).unwrap();
-                    assert_eq!(Solution { ran: after.ran, ..plain }, *after, "{inputs:?}");
-                    before = (inputs.clone(), *after);
+                    assert_eq!(Solution { ran: after.ran, ..plain }, after, "{inputs:?}");
+                    before = (inputs.clone(), after);
                 }
             }
         }

@@ -118,7 +118,7 @@ fn solve(inputs: &Inputs) -> Result<Solution, Refusal> {
 /// The solution after another solve, with reuse of its results.
 fn resolved(before: &Solved, inputs: &Inputs) -> Solution {
     let earlier = Earlier { inputs: &few_stations(&before.inputs), solution: &before.solution };
-    *solve_after(&few_stations(inputs), wanted(inputs), Some(earlier), &|_| true).unwrap()
+    solve_after(&few_stations(inputs), wanted(inputs), Some(earlier), &|_| true).unwrap()
 }
 
 /// Every case with its variants, solved once for all tests.
