@@ -130,6 +130,9 @@ def test_an_error_has_place_cause_and_fix(folder):
     assert error.place.startswith(f"{bad}:") and error.field == "pair.module" and error.cause and error.fix
     assert str(error) == f"{error.place}: {error.field}: {error.cause}: {error.fix}"
     assert str(pickle.loads(pickle.dumps(error))) == str(error)
+    with pytest.raises(tipstrike.CaseError) as found:
+        tipstrike.case({"pair": {"module": (-3, "mm")}})
+    assert found.value.place == "case"
     with pytest.raises(tipstrike.CaseError, match="operation.speed=fast"):
         tipstrike.solve(TABLE_1, **{"operation.speed": "fast"})
     with pytest.raises(tipstrike.CaseError, match="did you mean operation.speed"):

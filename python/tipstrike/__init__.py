@@ -315,7 +315,13 @@ def read(path):
 
 def case(data, name="case"):
     """The case of a dict with the keys of a case file, or of its text."""
-    return Case.parse(name, data if isinstance(data, str) else _toml(data))
+    if isinstance(data, str):
+        return Case.parse(name, data)
+    try:
+        return Case.parse(name, _toml(data))
+    except CaseError as error:
+        # A dict has no lines.
+        raise CaseError([(name, *list(problem.values())[1:]) for problem in error.problems]) from None
 
 
 def examples():
