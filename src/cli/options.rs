@@ -363,4 +363,14 @@ mod tests {
         let list = QUANTITIES.iter().map(|quantity| quantity.symbol);
         assert!(list.clone().eq(names(&list.collect::<Vec<_>>().join(","))));
     }
+
+    #[test]
+    fn a_symbol_may_be_in_ascii_and_a_field_is_named_as_one() {
+        for name in ["K_Hβ", "K_Hbeta", "K_Hb", "KHbeta"] {
+            assert_eq!(quantity("", name).map(|known| known.key), Ok("face_load_factor"), "{name}");
+        }
+        assert_eq!(names("dV_tau,E,epsilon_beta"), ["dV_tau,E", "epsilon_beta"]);
+        let refused = quantity("", "torque").unwrap_err().to_string();
+        assert!(refused.contains("`torque` is the field operation.torque"), "{refused}");
+    }
 }
