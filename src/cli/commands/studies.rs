@@ -73,8 +73,8 @@ impl Sweep {
             quantities = headline(&opened.document.case, &methods);
             if methods.contains(&Method::Auto) {
                 streams.say(
-                    "auto selects the method of each point (last column); the quantities of the \
-                     other methods are empty there",
+                    "auto selects the method of each point (column method); an empty cell belongs \
+                     to another method",
                 );
             }
         }
