@@ -185,6 +185,7 @@ pub(super) const TABLE: &[Quantity] = &[
             without deviations.",
             Found("from the steady motion", STEADY),
         )
+        .equation("moment without contact")
         .checks(&[checks::teeth]),
     STEADY_MOTION
         .row(
