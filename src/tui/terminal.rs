@@ -356,10 +356,7 @@ fn changed<'n>(shown: &Buffer, next: &'n Buffer) -> Vec<(u16, u16, &'n Cell)> {
 
 /// Whether two cells look the same; `Cell::eq` takes five times as long.
 fn is_same(one: &Cell, other: &Cell) -> bool {
-    let is_same_text = match (one.symbol().as_bytes(), other.symbol().as_bytes()) {
-        ([one], [other]) => one == other,
-        (one, other) => one == other,
-    };
+    let is_same_text = one.symbol().bytes().eq(other.symbol().bytes());
     is_same_text && (one.fg, one.bg, one.modifier) == (other.fg, other.bg, other.modifier)
 }
 
