@@ -379,7 +379,7 @@ mod tests {
         };
         assert_eq!(changes(["5 mm", "ΔV"], ["5 um", "ΔV"]), cells(&[(2, 0, "u")]));
         assert_eq!(
-            changes(["歯a ", "b  "], ["xya", "b  "]),
+            changes(["歯a", "b  "], ["xya", "b  "]),
             cells(&[(0, 0, "x"), (1, 0, "y"), (2, 0, "a")])
         );
         assert_eq!(changes(["xya", "b  "], ["歯a", "b  "]), cells(&[(0, 0, "歯"), (2, 0, "a")]));
