@@ -558,13 +558,8 @@ fn legend(flanks: &Flanks) -> Vec<String> {
 fn gear_section(flanks: &Flanks, gear: &GearComparison) -> Vec<String> {
     let [form, tip] =
         [gear.form_radius, gear.tip_radius].map(|metres| significant(metres / MILLIMETRE, 6));
-    let section = gear.virtual_teeth.map_or_else(String::new, |teeth| {
-        format!(" (compliances of {teeth} virtual teeth at the same height)")
-    });
-    let mut lines = vec![format!(
-        "{}: z {}{section}, form circle {form} mm, tip {tip} mm",
-        gear.gear, gear.teeth
-    )];
+    let mut lines =
+        vec![format!("{}: z {}, form circle {form} mm, tip {tip} mm", gear.gear, gear.teeth)];
     if !gear.points.is_empty() {
         let table = flank_table(flanks, std::slice::from_ref(gear));
         let has_title = |at: &usize| !table.columns[*at].title.is_empty();
@@ -666,7 +661,12 @@ fn remarks(gear: &GearComparison) -> Vec<String> {
     };
     let gaps =
         gear.gaps.iter().map(|gap| format!("no value by {}: {}", gap.model.name(), gap.reason));
-    gear.no_field().into_iter().chain(body).chain(gaps).collect()
+    let section = gear.virtual_teeth.map(|teeth| {
+        format!(
+            "the compliances are those of the virtual gear with {teeth} teeth at the same height"
+        )
+    });
+    gear.no_field().into_iter().chain(section).chain(body).chain(gaps).collect()
 }
 
 /// The rows as objects with their members in the order of their names, without some columns.

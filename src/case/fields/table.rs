@@ -138,7 +138,7 @@ const PAIR: &[Field] = &[
     .reasons(&[Idle(|inputs| inputs.helix_angle == 0.0, NO_HAND)]),
     number!(
         "pair.face_offset",
-        "",
+        "o",
         "face offset",
         Length,
         -1000.0,
@@ -296,7 +296,7 @@ macro_rules! gear {
                 "mm",
                 Default("0 mm"),
                 |inputs, value| inputs.$gear.bore_radius = value,
-                "Radius of the bore: a radius, not a diameter."
+                "Radius of the bore: a radius, not a diameter. 0 for a gear in one piece with its shaft."
             )
             .instead_of(concat!($table, ".bore_diameter"), |inputs| Some(inputs.$gear.bore_radius))
             .reasons(&BORE),
