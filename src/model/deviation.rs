@@ -415,7 +415,7 @@ fn tolerance(class: u32, fifth: f64) -> f64 {
     (exact * step).round() / step / MICROMETRES
 }
 
-/// Base pitch tolerance f_pb = f_pT cos α, in m.
+/// Base pitch tolerance f_pb = f_pT cos α_t, in m.
 pub fn base_pitch_tolerance(class: u32, module: f64, diameter: f64, pressure_angle: f64) -> f64 {
     pitch_tolerance(class, module, diameter) * pressure_angle.cos()
 }

@@ -11,6 +11,7 @@ use super::explanation::tidy;
 use super::geometry::Circles;
 use super::inputs::{Gear, InertiaModel, Method};
 use super::profile::{Profile, Rack, normal_tip_thickness};
+use super::relief::{GearReliefs, Reliefs};
 use super::{Context, Inputs, Solution};
 use crate::numeric::decimal::significant;
 
@@ -130,6 +131,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
         Some(("stations-left-out", message))
     },
     barely_clear,
+    long_relief,
     // The printed equations put D so close to E that the tip has closed almost nothing of its gap.
     |k| {
         const CLOSED: f64 = 1e-6;
@@ -492,6 +494,27 @@ fn barely_clear(k: &Context) -> Found {
     (enough < (1.0 + CLOSE) * now || has_more_load).then_some(("barely-clear", message))
 }
 
+/// A relief covers the whole path of contact.
+fn long_relief(k: &Context) -> Found {
+    let Reliefs { driver, driven, .. } = k.inputs.reliefs();
+    let path = k.solution.geometry.end - k.solution.geometry.start;
+    let of = |name: &'static str, it: GearReliefs| {
+        let reliefs = [("tip", it.tip, it.tip_length), ("root", it.root, it.root_length)];
+        let long = |(place, amount, length): (&'static str, f64, Option<f64>)| {
+            let length = length.filter(|length| amount > 0.0 && *length > path)?;
+            Some(format!("{place} relief of the {name} is {} mm long", milli(length)))
+        };
+        reliefs.into_iter().find_map(long)
+    };
+    let found = of("driver", driver).or_else(|| of("driven gear", driven))?;
+    let message = format!(
+        "the {found} and covers the whole path of contact of {} mm: no part of the flank keeps the \
+            involute",
+        milli(path)
+    );
+    k.solution.method.shares_load().then_some(("relief-over-whole-path", message))
+}
+
 /// The contact leaves the tip radius at E, and the stiffness of the pair rises in one step.
 fn stiffness_step(k: &Context) -> Found {
     const LEAST: f64 = 0.02;
@@ -554,6 +577,19 @@ mod tests {
         (inputs.base_pitch_deviation, inputs.deflection) = (deviation, Some(24.7e-6));
         inputs.driven.tip_relief = relief;
         inputs
+    }
+
+    #[test]
+    fn a_note_names_a_relief_longer_than_the_path_of_contact() {
+        let of = |length| {
+            let mut inputs = Inputs { method: Method::Static, ..relieved(30e-6, 0.0) };
+            inputs.driven.tip_relief_length = Some(length);
+            let solution = solve(&inputs, Stages::EVERY).unwrap();
+            let found = notes(&inputs, &solution);
+            found.into_iter().find(|note| note.code == "relief-over-whole-path")
+        };
+        assert_eq!(of(20e-3), None);
+        assert!(of(50e-3).unwrap().message.contains("tip relief of the driven gear is 50 mm long"));
     }
 
     fn clears_barely(inputs: &Inputs) -> bool {

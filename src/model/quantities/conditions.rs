@@ -78,6 +78,11 @@ pub fn helical(inputs: &Inputs) -> bool {
     inputs.helix_angle > 0.0
 }
 
+/// The middles of the faces differ.
+pub fn offset(inputs: &Inputs) -> bool {
+    inputs.face_offset != 0.0
+}
+
 /// The driver has more teeth than the driven gear.
 pub fn driver_larger(inputs: &Inputs) -> bool {
     inputs.driver.teeth > inputs.driven.teeth

@@ -237,9 +237,13 @@ pub(super) const TABLE: &[Quantity] = &[
             ["face_load_factor", "K_Hβ", "face load factor"],
             ("1", "1", 5),
             |s| Some(cycle(s)?.face_load_factor),
-            "The greatest line load of all pairs, averaged over a base pitch without \
-            deviations, over its mean over the face.",
-            Found("b max w/F_0, w: line load of all pairs averaged over a base pitch", &["F_0"]),
+            "The greatest line load of all pairs, averaged over a base pitch without base pitch \
+            deviations, over its mean over the face. Misalignment, helix slopes and \
+            modifications of the flank lines count.",
+            Found(
+                "b max w/F_0, w: line load of all pairs averaged over a base pitch",
+                &["b", "F_0"],
+            ),
         )
         .equation("ISO 6336-1")
         .stage(StaticSpectrum)

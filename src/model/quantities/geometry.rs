@@ -2,7 +2,7 @@
 
 use super::checks;
 use super::conditions::{
-    always, deflection_used, distance_given, driven_rounded, driver_rounded, power_given,
+    always, deflection_used, distance_given, driven_rounded, driver_rounded, offset, power_given,
 };
 use super::{PLAIN, Quantity, Variant};
 use crate::model::Stage::{Geometry, Load};
@@ -239,7 +239,16 @@ pub(super) const STEPS: &[Step] = &[
         Cases(&[(power_given, Text("P/ω_1")), (always, Given("operation.torque"))]),
         |k| Some(k.inputs.torque()),
     ),
-    step("b", "common face width", "mm", Text("min(b1, b2)"), |k| Some(k.inputs.common_width())),
+    step(
+        "b",
+        "common face width",
+        "mm",
+        Cases(&[
+            (offset, Text("min(b1/2, b2/2 + o) + min(b1/2, b2/2 - o)")),
+            (always, Text("min(b1, b2)")),
+        ]),
+        |k| Some(k.inputs.common_width()),
+    ),
     DRIVER[4],
     DRIVEN[4],
 ];
