@@ -282,6 +282,17 @@ fn narrow_bracket(tried: Try<'_>, mut touching: Tried, mut clear: Tried) -> Resu
 }
 
 impl Solution {
+    /// Whether the driver's tip touches after B, by the load at rest or the motion of the method; `None`
+    /// if its stage did not run.
+    pub fn exit_outcome(&self) -> Option<Outcome> {
+        let last = match self.method {
+            Method::Static => self.static_load.as_ref()?.last_contact_angle,
+            Method::Dynamic => self.dynamic.as_ref()?.last_contact_angle,
+            Method::Paper | Method::Exact | Method::Auto => return None,
+        };
+        Some(if last.is_some() { Outcome::CornerContact } else { Outcome::NoCornerContact })
+    }
+
     /// The least gap before E, in m. `None` if a tooth touches before E, or if the method does not
     /// compute the gap.
     ///

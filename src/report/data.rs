@@ -6,7 +6,7 @@ use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
 use crate::case::{FIELDS, Field};
 use crate::model::inputs::Method;
-use crate::model::{Quantity, Solution, Stage};
+use crate::model::{Outcome, Quantity, Solution, Stage};
 use crate::report::digest::{differing, free_impact, sentence, whine};
 use crate::report::stations::columns;
 pub use crate::report::table::write_line;
@@ -214,6 +214,7 @@ pub fn write_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         "version": env!("CARGO_PKG_VERSION"),
         "method": solution.method.name(),
         "outcome": solution.outcome.name(),
+        "exit_outcome": solution.exit_outcome().map(Outcome::name),
         "quantities": object(quantities),
         "stations": stations,
         "stages": stages.iter().map(Stage::name).collect::<Vec<_>>(),

@@ -104,9 +104,11 @@ pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> St
     if solution.outcome == Outcome::NoCornerContact {
         let why = without_contact_in_full(solution, system);
         let most = most.map(|most| format!("; up to {most}")).unwrap_or_default();
-        let exit = at_exit(solution, 0.0, system);
-        let place = if exit.is_empty() { "" } else { " at the entry" };
-        return format!("No corner contact{place}: {why}{most}{exit}.");
+        let none = format!("{why}{most}.");
+        return match at_exit(solution, 0.0, system) {
+            Some(exit) => format!("{exit}. None at the entry: {none}"),
+            None => format!("No corner contact: {none}"),
+        };
     }
     let angle = own("approach_angle_driver", solution);
     let angle = angle.and_then(|own| printed(own.key, solution, system));
@@ -120,27 +122,28 @@ pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> St
         (Some((tip, ratio)), None) => format!(": impact force {tip}{ratio}"),
         _ => String::new(),
     };
-    let exit = at_exit(solution, of("static_force_at_start", solution).unwrap_or(0.0), system);
+    let entry = of("static_force_at_start", solution).unwrap_or(0.0);
+    let exit = at_exit(solution, entry, system).unwrap_or_default();
     let relief = relief(solution, system, pending).map(|relief| format!("; {relief}"));
     format!("Corner contact{angle}{forces}{}{exit}.", relief.unwrap_or_default())
 }
 
-/// The corner contact at the exit, if its force is clearly larger than the force at the entry; with
-/// its end and its remedy if there is none at the entry.
-fn at_exit(solution: &Solution, entry: f64, system: System) -> String {
+/// The corner contact at the exit, if its force is clearly larger than the force at the entry; a
+/// sentence with its end and its remedy if there is none at the entry.
+fn at_exit(solution: &Solution, entry: f64, system: System) -> Option<String> {
     const LARGER: f64 = 1.05;
     let shown = |key| printed(key, solution, system);
     let is_larger = of("static_force_at_end", solution).is_some_and(|it| it > LARGER * entry);
     let found = shown("static_last_contact_angle").zip(shown("static_force_at_end"));
-    let Some((angle, force)) = found.filter(|_| is_larger) else { return String::new() };
+    let (angle, force) = found.filter(|_| is_larger)?;
     if solution.outcome == Outcome::CornerContact {
-        return format!("; at the exit {force}");
+        return Some(format!("; at the exit {force}"));
     }
-    let at_rest = if solution.method == Method::Dynamic { ", at rest," } else { "" };
-    format!(
-        "; at the exit{at_rest} the driver's tip strikes until {angle} after B, with {force}: more tip \
-            relief on the driver prevents it"
-    )
+    let at_rest = if solution.method == Method::Dynamic { " at rest" } else { "" };
+    Some(format!(
+        "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's tip; more \
+            tip relief on the driver prevents it"
+    ))
 }
 
 /// A quantity of the free impact, or its counterpart in the method.
@@ -356,8 +359,8 @@ mod tests {
             digest(&[reliefs[0], reliefs[1], ("model.method", "static")]).outcome
         };
         let at_exit = of("0 um");
-        assert!(at_exit.starts_with("No corner contact at the entry: "), "{at_exit}");
-        assert!(at_exit.contains("at the exit the driver's tip strikes until "), "{at_exit}");
+        assert!(at_exit.starts_with("Corner contact at the exit, until "), "{at_exit}");
+        assert!(at_exit.contains(" prevents it. None at the entry: the tip clears "), "{at_exit}");
         let relieved = of("80 um");
         assert!(relieved.starts_with("No corner contact: "), "{relieved}");
         assert!(!relieved.contains("exit"), "{relieved}");

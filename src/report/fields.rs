@@ -201,6 +201,7 @@ pub fn write_results(out: &mut dyn Write) -> io::Result<()> {
             "version": {"type": "string"},
             "method": {"enum": methods},
             "outcome": {"enum": outcomes},
+            "exit_outcome": {"enum": outcomes},
             "quantities": object(help, quantities.collect()),
             "stations": {"type": "array", "items": object("One station.", columns.collect())},
             "stages": {"type": "array", "items": {"enum": stages}},
