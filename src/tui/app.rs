@@ -574,7 +574,7 @@ impl App {
 
     /// Solves the stages that became visible after the last request.
     pub(super) fn catch_up(&mut self) {
-        if self.tab.problems.is_empty() && !self.tab.requested.covers(&self.wanted()) {
+        if self.tab.problems.is_empty() && !self.tab.requested.covers(self.wanted()) {
             self.solve();
         }
     }

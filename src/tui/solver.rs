@@ -59,7 +59,7 @@ impl Wanted {
         Wanted { stages: Stages::NONE, stiffness: false, paper: false };
 
     /// Whether this part contains another one.
-    pub(crate) fn covers(&self, other: &Wanted) -> bool {
+    pub(crate) fn covers(self, other: Wanted) -> bool {
         self.stages.covers(other.stages)
             && self.stiffness >= other.stiffness
             && self.paper >= other.paper

@@ -17,7 +17,6 @@ use crate::model::{Inputs, Refusal, Solution};
 
 /// An open case.
 #[derive(Debug, Clone)]
-#[expect(clippy::struct_excessive_bools, reason = "the flags are independent")]
 pub struct Tab {
     /// Unique among all tabs, including closed ones.
     pub id: usize,

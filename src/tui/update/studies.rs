@@ -700,7 +700,7 @@ pub(super) fn toggle_baseline(app: &mut App) {
 
 /// Pins the requested results as soon as they are complete.
 pub(super) fn pin_baseline(app: &mut App) {
-    let is_whole = app.has_results() && app.tab.requested.covers(&app.wanted());
+    let is_whole = app.has_results() && app.tab.requested.covers(app.wanted());
     let answer = app.tab.answer.as_ref().filter(|_| app.is_pinning && is_whole);
     if let Some(answer) = answer {
         let baseline = Baseline { name: app.tab.short_name(), answer: answer.clone() };
