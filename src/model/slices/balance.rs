@@ -222,8 +222,8 @@ struct Contact {
     mean: f64,
     rise: f64,
     bend: f64,
-    /// The parts of the slice on both sides of an edge.
-    sides: Option<[Side; 2]>,
+    /// The number of its sides, if it has an edge.
+    sides: Option<usize>,
     /// Whether the pair can carry here.
     can_carry: bool,
     /// Compliance of the contact, q_c, less what the load takes from the mean of u.
@@ -250,8 +250,8 @@ impl Contact {
     };
 
     /// What carries with a mean lead, and its rise by the displacement of the teeth over the slice.
-    fn carried(&self, mean: f64, rise: f64) -> Carried {
-        let Some(sides) = self.sides else {
+    fn carried(&self, sides: &[[Side; 2]], mean: f64, rise: f64) -> Carried {
+        let Some(sides) = self.sides.and_then(|number| sides.get(number)) else {
             return Carried::of(mean, 0.5 * (rise - self.rise), -self.bend);
         };
         sides.iter().fold(Carried::NONE, |sum, side| {
@@ -279,6 +279,8 @@ pub(super) struct Position<'a> {
     error: f64,
     /// The pairs slice by slice.
     contacts: Vec<Contact>,
+    /// The sides of the slices with an edge.
+    sides: Vec<[Side; 2]>,
     /// κ, row by row.
     kappa: Vec<f64>,
 }
@@ -302,27 +304,29 @@ impl Face {
         let first = ((from - s - self.reach) / mesh.base_pitch).ceil() as i32;
         let last = ((to - s + self.reach) / mesh.base_pitch).floor() as i32;
         let pairs = (last - first + 1).max(0) as usize;
-        let mut contacts = vec![Contact::NONE; self.slices.len() * pairs];
+        let (mut contacts, mut sides) =
+            (vec![Contact::NONE; self.slices.len() * pairs], Vec::new());
         for (pair, ahead) in (first..).take(pairs).enumerate() {
             let path = s + f64::from(ahead) * mesh.base_pitch;
             let of_pair = contacts[pair..].iter_mut().step_by(pairs);
             let mut before = None;
             for (slice, contact) in self.slices.iter().zip(of_pair) {
-                (*contact, before) = self.contact(slice, path, before);
+                (*contact, before) = self.contact(slice, path, before, &mut sides);
             }
         }
         let kappa = self.kappa(s, first, pairs);
-        Position { face: self, s, first, pairs, error: 0.0, contacts, kappa }
+        Position { face: self, s, first, pairs, error: 0.0, contacts, sides, kappa }
     }
 
     /// A pair without deviation in a slice, with the middle of the face at a place of its path, and the
-    /// sections at the border to the next slice, which are those `before` it. The means over the slice
-    /// keep the ends of the path and of reliefs from exciting as they pass a slice.
+    /// sections at the border to the next slice, which are those `before` it. Its sides are added to the
+    /// `sides`. The means over the slice keep the ends of the path and of reliefs from exciting as they pass a slice.
     fn contact(
         &self,
         slice: &Slice,
         path: f64,
         before: Option<[f64; 6]>,
+        sides: &mut Vec<[Side; 2]>,
     ) -> (Contact, Option<[f64; 6]>) {
         /// Of a base pitch: below it, a difference of integrals has too few digits.
         const NARROW: f64 = 1e-6;
@@ -339,18 +343,20 @@ impl Face {
         let means = if is_narrow { self.section(place) } else { means(&one, &other, way) };
         let ([local, teeth], mean) = (self.compliances(slice, &means), means[0]);
         let (ends, gaps) = ([one, other], slice.border_gaps);
+        let found = self.sides(slice, borders, ends, (mean, local)).filter(|_| !is_narrow);
         let contact = Contact {
             width: slice.width,
             gap: self.sections.one(0, place) + slice.gap,
             mean: mean + slice.mean_gap,
             rise: other[0] - one[0] + gaps[1] - gaps[0],
             bend: bend([one[0] + gaps[0], other[0] + gaps[1]], mean + slice.mean_gap),
-            sides: if is_narrow { None } else { self.sides(slice, borders, ends, (mean, local)) },
+            sides: found.map(|_| sides.len()),
             can_carry: true,
             local,
             root: (teeth * (1.0 + self.excess)).sqrt(),
             weight: 1.0 - mesh.friction() * self.inputs.oblique * means[4],
         };
+        sides.extend(found);
         (contact, Some(other))
     }
 
@@ -424,14 +430,14 @@ impl Face {
         let teeth = |number: usize| {
             let (at, slice) = (number * loads.pairs + pair, &self.slices[number]);
             let path = self.path(loads, ahead, number) - slice.ahead;
-            let (contact, _) = self.contact(slice, path, None);
+            let (contact, _) = self.contact(slice, path, None, &mut Vec::new());
             let own = loads.leads[at] + self.own(&contact) * loads.line_loads[at];
             if contact.root > 0.0 { (ahead_of - contact.gap - own) / contact.root } else { 0.0 }
         };
         let [one, other] = [before, before + 1].map(teeth);
         let part = (z - self.slices[before].z) / self.slices[before].step;
         let slice = Slice::at(&self.inputs, z);
-        let (contact, _) = self.contact(&slice, path - slice.ahead, None);
+        let (contact, _) = self.contact(&slice, path - slice.ahead, None, &mut Vec::new());
         let lead = ahead_of - contact.gap - contact.root * (one + part * (other - one));
         Some((lead, contact.local + self.own(&contact), z))
     }
@@ -565,7 +571,7 @@ impl Position<'_> {
             let (allowed, mut is_right) = (precision * displacement.abs(), true);
             for (at, of) in self.contacts.iter().enumerate().filter(|(_, of)| of.can_carry) {
                 let (mean, old) = (means[at], carried[at]);
-                let new = of.carried(mean, self.rise(&means, at));
+                let new = of.carried(&self.sides, mean, self.rise(&means, at));
                 if (new.mean(mean) - old.mean(mean)).abs() > allowed {
                     (carried[at], is_right) = (new, false);
                     if round >= CORRECTIONS {
@@ -671,7 +677,7 @@ impl Position<'_> {
             }
             let guess = |(at, of): (usize, &Contact)| {
                 let rise = self.rise(&means, at);
-                if of.can_carry { of.carried(means[at], rise) } else { Carried::NONE }
+                if of.can_carry { of.carried(&self.sides, means[at], rise) } else { Carried::NONE }
             };
             let carried: Vec<Carried> = self.contacts.iter().enumerate().map(guess).collect();
             match until {

@@ -20,6 +20,9 @@ use crate::numeric::root::greatest_within;
 /// Steps of a motion times slices: some ten seconds of computation.
 const MOST_WORK: f64 = 4e6;
 
+/// Smaller errors of the balances and of the peaks are lost among those of the usual number of slices.
+const OF_SLICES: f64 = 1e-4;
+
 /// The force of the mesh at even places of a base pitch, for any displacement. What is known of a place
 /// serves again, since a motion returns to it in every base pitch.
 pub(in crate::model) struct Springs<'a> {
@@ -29,7 +32,7 @@ pub(in crate::model) struct Springs<'a> {
     /// The known points of the force over the displacement.
     points: RefCell<HashMap<Place, Vec<Point>>>,
     /// The pairs without deviations at the places.
-    positions: RefCell<HashMap<u64, Position<'a>>>,
+    positions: RefCell<HashMap<u64, Rc<Position<'a>>>>,
     /// The loads computed last, whose slices are likely to touch again.
     near: RefCell<Option<Rc<Loads>>>,
     /// Precision of the balances.
@@ -53,8 +56,15 @@ struct Point {
 }
 
 impl<'a> Springs<'a> {
-    /// The places for motions at this speed along the line of action and above.
+    /// The places for steady motions at this speed along the line of action and above.
     pub(in crate::model) fn new(face: &'a Face, settings: &Settings, speed: f64) -> Springs<'a> {
+        /// The harmonics of a motion at resonance are ten times as sensitive as its peaks.
+        const OF_HARMONICS: f64 = 1e-5;
+        Springs::within(OF_HARMONICS, face, settings, speed)
+    }
+
+    /// The places for motions whose steps need no smaller errors than `least`, with the usual slices.
+    fn within(least: f64, face: &'a Face, settings: &Settings, speed: f64) -> Springs<'a> {
         /// Least number of steps in a base pitch.
         const LEAST: f64 = 64.0;
         /// Greatest stiffness over the mean.
@@ -63,13 +73,13 @@ impl<'a> Springs<'a> {
         /// the tolerance with a margin.
         const SHARE: f64 = 800.0;
         const COARSEST: f64 = 0.5;
-        /// Smaller errors of the steps are lost among those of the usual number of slices.
-        const OF_SLICES: f64 = 1e-4;
         let mesh = &face.mesh;
         let frequency = (STIFFER * mesh.mean_stiffness() / settings.mass).sqrt();
-        let least = if face.inputs.slices.is_none() { OF_SLICES } else { 0.0 };
-        let tolerance = settings.tolerance.max(least);
-        let turn = (SHARE * tolerance).powf(0.25).min(COARSEST);
+        let at_least = |least: f64| {
+            settings.tolerance.max(if face.inputs.slices.is_none() { least } else { 0.0 })
+        };
+        let tolerance = at_least(OF_SLICES);
+        let turn = (SHARE * at_least(least)).powf(0.25).min(COARSEST);
         let step = turn / frequency * speed;
         let step = step.min(mesh.base_pitch / LEAST);
         let borders = mesh.borders(0.0, mesh.base_pitch);
@@ -91,14 +101,15 @@ impl<'a> Springs<'a> {
     }
 
     /// The pairs without deviations at a place.
-    fn position(&self, place: f64) -> Position<'a> {
+    fn position(&self, place: f64) -> Rc<Position<'a>> {
         /// Bounds the memory to some ten MB: pairs at slices in all positions.
         const MOST: usize = 400_000;
         let mut positions = self.positions.borrow_mut();
         if positions.values().next().is_some_and(|one| positions.len() * one.size() > MOST) {
             positions.clear();
         }
-        positions.entry(place.to_bits()).or_insert_with(|| self.face.position(place)).clone()
+        let position = || Rc::new(self.face.position(place));
+        Rc::clone(positions.entry(place.to_bits()).or_insert_with(position))
     }
 
     /// Force and stiffness of the mesh with the incoming pair `pitches` base pitches after the place.
@@ -128,7 +139,7 @@ impl<'a> Springs<'a> {
         self.solves.set(self.solves.get() + 1);
         let mut position = self.position(place);
         if deviates {
-            incoming.change(&mut position, pitches);
+            incoming.change(Rc::make_mut(&mut position), pitches);
         }
         let mut near = self.near.borrow_mut();
         let loads =
@@ -333,7 +344,7 @@ pub(in crate::model) fn dynamic(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<(Dynamic, Option<Arc<FaceLoad>>), Refusal> {
     let mesh = &face.mesh;
-    let springs = Springs::new(face, settings, mesh.speed);
+    let springs = Springs::within(OF_SLICES, face, settings, mesh.speed);
     let motion = Motion::new(&springs, settings, mesh.speed, Incoming::Deviates(mesh.error));
     let course = motion.passage(settings, mesh.ends().1 + face.reach, go_on)?;
     let passage = Passage::new(face, Some(&course), Incoming::Deviates(mesh.error));
@@ -377,7 +388,7 @@ pub(in crate::model) fn approach(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Approach, Refusal> {
     let mesh = &face.mesh;
-    let springs = Springs::new(face, settings, mesh.speed);
+    let springs = Springs::within(OF_SLICES, face, settings, mesh.speed);
     let motion = Motion::new(&springs, settings, mesh.speed, Incoming::AfterStart(mesh.error));
     let course = motion.passage(settings, face.reach, go_on)?;
     let lead = face.greatest_lead(Some(&course))?;
