@@ -568,7 +568,8 @@ impl App {
         let Tab { answer, serial, requested, .. } = &self.tab;
         answer.as_ref().is_some_and(|answer| {
             let has_stiffness = answer.stiffness.is_some() >= requested.stiffness;
-            answer.serial == *serial && answer.stages == requested.stages && has_stiffness
+            let is_present = answer.serial == *serial && answer.pending.is_none();
+            is_present && answer.stages == requested.stages && has_stiffness
         })
     }
 
