@@ -54,7 +54,7 @@ const BACK: Quantity = Quantity {
 
 /// A result of the mean stiffness.
 const RESONANCE: Quantity = Quantity {
-    equation: "ISO 6336-1",
+    equation: "ISO, by k_m",
     stage: Resonance,
     source: ISO,
     assumptions: RIGID,
