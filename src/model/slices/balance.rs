@@ -160,8 +160,9 @@ impl Carried {
         }
         let root = (rise * rise - 4.0 * bend * middle).max(0.0).sqrt();
         let turn = -0.5 * (rise + root.copysign(rise));
-        // A root that is none is at an end.
-        let [one, other] = [middle / turn, turn / bend].map(|root| root.max(-1.0).min(1.0));
+        // A root that is no number is at an end.
+        let within = |root: f64| if root > -1.0 { root.min(1.0) } else { -1.0 };
+        let [one, other] = [middle / turn, turn / bend].map(within);
         let ends = [-1.0, one.min(other), one.max(other), 1.0];
         let mut sum = Carried::NONE;
         for span in ends.windows(2) {
