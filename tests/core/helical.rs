@@ -205,6 +205,10 @@ fn a_corner_contact_is_found_and_relief_removes_it() {
     let face = solution.face_load.as_ref().expect("slices");
     assert!(face.before_start.is_some_and(|peak| peak.line_load < face.peak.line_load * 1.001));
     let more = solution.clearing.expect("a relief").relief.expect("a relief");
+    let many = Inputs { slices: Some(129), ..inputs.clone() };
+    let many = solve(&many, Stages::of(Stage::Clearing)).expect("a load").clearing;
+    let by_many = many.expect("a relief").relief.expect("a relief");
+    assert!((more / by_many - 1.0).abs() < 1e-4, "{more:e} for {by_many:e}");
     let mut relieved = inputs;
     relieved.driven.tip_relief += 1.001 * more;
     let outcome = solve(&relieved, STATIC).expect("a load").outcome;

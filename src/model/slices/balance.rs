@@ -449,19 +449,6 @@ impl Face {
         (lead > 0.0).then_some((lead / compliance, z))
     }
 
-    /// The greatest lead of the incoming tooth before E over the face, in m; infinitely negative if no
-    /// slice is before E.
-    pub(super) fn lead_before_start(&self, loads: &Loads) -> f64 {
-        /// Of the path of contact.
-        const INSIDE: f64 = 1e-9;
-        let before = |number: &usize| loads.s + self.slices[*number].ahead <= 0.0;
-        let at_slices = (0..self.slices.len()).filter(before);
-        let leads = at_slices
-            .filter_map(|number| Some(loads.leads[number * loads.pairs + loads.index(0)?]));
-        let border = self.lead_between(loads, 0, -INSIDE * self.mesh.length);
-        leads.chain(border.map(|(lead, ..)| lead)).fold(f64::NEG_INFINITY, f64::max)
-    }
-
     /// Number of slices that a pair passes on a path; 0 if it passes all at once.
     fn slices_in(&self, path: f64) -> f64 {
         let most = (self.slices.len() - 1) as f64;

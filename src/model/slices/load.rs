@@ -272,6 +272,23 @@ impl Face {
         Ok((cycle, StaticSpectrum { spectrum, tooth_force }))
     }
 
+    /// The greatest lead of the incoming tooth before E over the face, in m; infinitely negative if no
+    /// slice is before E.
+    fn lead_before_start(&self, loads: &Loads) -> f64 {
+        /// Parts of the step between two slices, and how many of them have the greatest lead, at E or
+        /// just before it.
+        const PARTS: (f64, u32) = (8.0, 16);
+        let before = |number: &usize| loads.s + self.slices[*number].ahead <= 0.0;
+        let at_slices = (0..self.slices.len()).filter(before);
+        let leads = at_slices.map(|number| loads.lead_at(0, number));
+        let step = self.slices.first().map_or(0.0, |slice| slice.step * self.inputs.lead.abs());
+        let near = (0..=PARTS.1).filter_map(|part| {
+            let path = -INSIDE * self.mesh.length - f64::from(part) / PARTS.0 * step;
+            self.lead_between(loads, 0, path).map(|(lead, ..)| lead)
+        });
+        leads.chain(near).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// The greatest lead of the incoming tooth before E over the face, in m, at rest or in a motion: the
     /// displacement under the loads after E and of the other pairs less its gap. Above 0 the tip touches
     /// before E.
