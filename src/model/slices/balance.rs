@@ -7,6 +7,7 @@ use crate::model::Refusal;
 use crate::model::budget::PAIRS;
 use crate::model::pair_forces::PITCHES;
 use crate::numeric::banded::{Banded, Rows};
+use smallvec::SmallVec;
 
 /// The line loads of all pairs at a position of the mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -188,7 +189,7 @@ impl Carried {
     }
 }
 
-/// A part of a slice on one side of an edge of the section.
+/// A part of a slice between edges of the section.
 #[derive(Debug, Clone, Copy)]
 struct Side {
     /// Its part of the slice, and its middle, from −1 to 1 along the slice.
@@ -201,6 +202,8 @@ struct Side {
     /// Compliance of the contact in the slice over that here.
     ratio: f64,
 }
+
+type Sides = SmallVec<[Side; 3]>;
 
 /// Means of the sections between two places that are so far apart, by their integrals.
 fn means(one: &[f64; 6], other: &[f64; 6], way: f64) -> [f64; 5] {
@@ -251,7 +254,7 @@ impl Contact {
     };
 
     /// What carries with a mean lead, and its rise by the displacement of the teeth over the slice.
-    fn carried(&self, sides: &[[Side; 2]], mean: f64, rise: f64) -> Carried {
+    fn carried(&self, sides: &[Sides], mean: f64, rise: f64) -> Carried {
         let Some(sides) = self.sides.and_then(|number| sides.get(number)) else {
             return Carried::of(mean, 0.5 * (rise - self.rise), -self.bend);
         };
@@ -281,7 +284,7 @@ pub(super) struct Position<'a> {
     /// The pairs slice by slice.
     contacts: Vec<Contact>,
     /// The sides of the slices with an edge.
-    sides: Vec<[Side; 2]>,
+    sides: Vec<Sides>,
     /// κ, row by row.
     kappa: Vec<f64>,
 }
@@ -321,13 +324,14 @@ impl Face {
 
     /// A pair without deviation in a slice, with the middle of the face at a place of its path, and the
     /// sections at the border to the next slice, which are those `before` it. Its sides are added to the
-    /// `sides`. The means over the slice keep the ends of the path and of reliefs from exciting as they pass a slice.
+    /// `sides`. The means over the slice keep the ends of the path and of reliefs from exciting as they
+    /// pass a slice.
     fn contact(
         &self,
         slice: &Slice,
         path: f64,
         before: Option<[f64; 6]>,
-        sides: &mut Vec<[Side; 2]>,
+        sides: &mut Vec<Sides>,
     ) -> (Contact, Option<[f64; 6]>) {
         /// Of a base pitch: below it, a difference of integrals has too few digits.
         const NARROW: f64 = 1e-6;
@@ -344,14 +348,14 @@ impl Face {
         let means = if is_narrow { self.section(place) } else { means(&one, &other, way) };
         let ([local, teeth], mean) = (self.compliances(slice, &means), means[0]);
         let (ends, gaps) = ([one, other], slice.border_gaps);
-        let found = self.sides(slice, borders, ends, (mean, local)).filter(|_| !is_narrow);
+        let found = if is_narrow { None } else { self.sides(slice, borders, ends, (mean, local)) };
         let contact = Contact {
             width: slice.width,
             gap: self.sections.one(0, place) + slice.gap,
             mean: mean + slice.mean_gap,
             rise: other[0] - one[0] + gaps[1] - gaps[0],
             bend: bend([one[0] + gaps[0], other[0] + gaps[1]], mean + slice.mean_gap),
-            sides: found.map(|_| sides.len()),
+            sides: found.as_ref().map(|_| sides.len()),
             can_carry: true,
             local,
             root: (teeth * (1.0 + self.excess)).sqrt(),
@@ -361,41 +365,44 @@ impl Face {
         (contact, Some(other))
     }
 
-    /// Both sides of an edge between two borders with their sections. `None` without an edge.
+    /// The parts of a slice between two borders with their sections and the edges between them. `None`
+    /// without an edge.
     fn sides(
         &self,
         slice: &Slice,
         [from, to]: [f64; 2],
         [one, other]: [[f64; 6]; 2],
         (mean, local): (f64, f64),
-    ) -> Option<[Side; 2]> {
+    ) -> Option<Sides> {
         /// Of a base pitch: a narrower side has too few digits.
         const NARROWEST: f64 = 1e-9;
-        let way = to - from;
-        let depth = |edge: f64| (edge - from).abs().min((edge - to).abs());
-        let is_inside = |edge: &&f64| {
-            (**edge - from) * (**edge - to) < 0.0
-                && depth(**edge) > NARROWEST * self.mesh.base_pitch
-        };
-        let edge = *self.edges.iter().find(is_inside)?;
-        let (part, between) = ((edge - from) / way, self.sections.at(edge));
+        let (way, least) = (to - from, NARROWEST * self.mesh.base_pitch);
+        let is_inside =
+            |edge: &f64| (edge - from).min(to - edge).max((from - edge).min(edge - to)) > least;
+        let inside = self.edges.iter().copied().filter(is_inside);
+        let mut cuts: SmallVec<[(f64, [f64; 6]); 4]> = SmallVec::new();
+        cuts.push((from, one));
+        cuts.extend(inside.map(|edge| (edge, self.sections.at(edge))));
+        if way < 0.0 {
+            cuts[1..].reverse();
+        }
+        cuts.push((to, other));
         let [first, last] = slice.border_gaps;
-        let gap = first + part * (last - first);
-        let side = |ends: [[f64; 6]; 2], gaps: [f64; 2], part: f64, middle: f64| {
-            let of_side = means(&ends[0], &ends[1], part * way);
+        let side = |ends: &[(f64, [f64; 6])]| {
+            let ((start, one), (end, other)) = (ends[0], ends[1]);
+            let of_side = means(&one, &other, end - start);
+            let parts = [start, end].map(|place| (place - from) / way);
+            let gaps = parts.map(|part| first + part * (last - first));
             Side {
-                part,
-                middle,
+                part: parts[1] - parts[0],
+                middle: parts[0] + parts[1] - 1.0,
                 mean: of_side[0] - mean + f64::midpoint(gaps[0], gaps[1]) - slice.mean_gap,
-                rise: ends[1][0] - ends[0][0] + gaps[1] - gaps[0],
-                bend: bend([ends[0][0], ends[1][0]], of_side[0]),
+                rise: other[0] - one[0] + gaps[1] - gaps[0],
+                bend: bend([one[0], other[0]], of_side[0]),
                 ratio: local / self.compliances(slice, &of_side)[0],
             }
         };
-        Some([
-            side([one, between], [first, gap], part, part - 1.0),
-            side([between, other], [gap, last], 1.0 - part, part),
-        ])
+        (cuts.len() > 2).then(|| cuts.windows(2).map(side).collect())
     }
 
     /// q_c − ε q_t and q_t of a slice by the means of its sections.
