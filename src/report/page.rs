@@ -379,7 +379,7 @@ fn inputs(cases: &[PageCase]) -> Table {
 /// Where a tip relief begins: label, symbol, unit and place.
 const BEGINS: [(&str, &str, &str, fn(&Begin) -> f64); 2] = [
     ("tip relief begins at roll angle", "ξ1 / ξ2", "deg", |at| at.roll_angle.to_degrees()),
-    ("tip relief begins at diameter", "d_Ca1 / d_Ca2", "mm", |at| at.diameter * 1e3),
+    ("tip relief begins at diameter", "dCa1 / dCa2", "mm", |at| at.diameter * 1e3),
 ];
 
 /// The text of a field, given, computed from other fields or by default, and whether the case does

@@ -152,7 +152,7 @@ impl Specification {
             row("begins at roll angle, deg", &|at| {
                 place(|begin| begin.roll_angle.to_degrees(), at)
             }),
-            row("begins at diameter d_Ca, mm", &|at| place(|begin| 1e3 * begin.diameter, at)),
+            row("begins at diameter dCa, mm", &|at| place(|begin| 1e3 * begin.diameter, at)),
             row("shape", &|_| name(reliefs.shape).to_owned()),
         ];
         if *is_over_face {

@@ -85,13 +85,25 @@ impl Results for SeekReport {
         }
         // JSON has every digit.
         let rounded = |number: f64| self.value(format!("{number:.5e}").parse().unwrap_or(number));
-        for [lower, upper] in self.found.crossings() {
+        // Several crossings at one number are rounding errors of the quantity.
+        let mut parts: Vec<[&Sample; 2]> = Vec::new();
+        for [first, last] in self.found.segments() {
+            let is_known = !matches!(first.state, State::Unknown(_));
+            let is_narrow = is_known && rounded(first.at) == rounded(last.at);
+            match parts.last_mut() {
+                Some(before) if before[0].state.is_like(&first.state) => before[1] = last,
+                Some(_) if is_narrow => {}
+                _ => parts.push([first, last]),
+            }
+        }
+        for pair in parts.windows(2) {
+            let [lower, upper] = [pair[0][1], pair[1][0]];
             let middle = rounded(lower.at + 0.5 * (upper.at - lower.at));
             let (below, above) = (word(&lower.state), word(&upper.state));
             let values = self.values(lower, upper);
             lines.push(format!("  crossing at {middle}: {below} below, {above} above{values}"));
         }
-        for [first, last] in self.found.segments() {
+        for [first, last] in parts {
             let reason = match &first.state {
                 State::Unknown(problem) => format!(": {problem}"),
                 _ => String::new(),
