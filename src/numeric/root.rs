@@ -218,8 +218,13 @@ pub fn greatest_within(
     (least, flat): (f64, f64),
     at: impl Fn(f64) -> f64,
 ) -> Sample {
+    /// Tops that differ by less, relative to the greatest, are searched in the order of their places:
+    /// rounding does not choose among the equal tops of a periodic function.
+    const EQUAL: f64 = 1e-9;
     let mut tops: Vec<Bracket> = brackets(known).collect();
-    tops.sort_by(|one, other| other.best.1.total_cmp(&one.best.1));
+    let size = tops.iter().map(|top| top.best.1.abs()).fold(0.0, f64::max);
+    let rank = |top: &Bracket| (top.best.1 / (EQUAL * size)).round();
+    tops.sort_by(|one, other| rank(other).total_cmp(&rank(one)));
     let mut best = tops.first().map_or((0.0, f64::NEG_INFINITY), |top| top.best);
     for bracket in tops {
         if bracket.limit > best.1 + ROUNDING * best.1.abs() {
