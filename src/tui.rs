@@ -7,6 +7,7 @@
 
 mod app;
 mod form_aids;
+mod header;
 mod input;
 mod layout;
 mod panes;

@@ -589,7 +589,9 @@ mod tests {
             found.into_iter().find(|note| note.code == "relief-over-whole-path")
         };
         assert_eq!(of(20e-3), None);
-        assert!(of(50e-3).unwrap().message.contains("tip relief of the driven gear is 50 mm long"));
+        assert!(
+            of(50e-3).unwrap().message.contains("tip relief of the driven gear is 50.00 mm long")
+        );
     }
 
     fn clears_barely(inputs: &Inputs) -> bool {

@@ -503,7 +503,7 @@ mod tests {
         assert!(text.contains("a &lt; b") && text.contains("exact &amp; &lt;co&gt;"), "{text}");
         let row = |name: &str| text.lines().find(|line| line.contains(name)).unwrap();
         assert!(
-            row(">E</text>").contains("y=\"49\"") && row(">D</text>").contains("y=\"35\""),
+            row(">E</text>").contains("y=\"50\"") && row(">D</text>").contains("y=\"36\""),
             "{text}"
         );
         assert_eq!(text.matches("<polyline").count(), 1);

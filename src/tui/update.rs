@@ -23,7 +23,7 @@ use super::panes::chart::cursor_at;
 use super::panes::form;
 use super::tab::Tab;
 use super::theme::Look;
-use super::{rows, store, view};
+use super::{header, rows, store};
 use crate::case::Document;
 use crate::model::Stage;
 
@@ -298,7 +298,7 @@ fn in_panes(app: &mut App, at: Position) {
     let plan = app.layout.plan();
     let owner = plan.names_hidden();
     let hidden = owner.and_then(|owner| app.title(owner).hidden_at(plan.area(owner), at));
-    if let Some(tab) = view::tab_at(app, plan.header, at) {
+    if let Some(tab) = header::tab_at(app, plan.header, at) {
         files::go_to_tab(app, tab);
     } else if let Some(pane) = hidden {
         panes::show(app, pane);

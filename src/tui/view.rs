@@ -1,7 +1,5 @@
 //! Draws the screen from the state: the open cases, the panes, the hint and the keys.
 
-use std::ops::Range;
-
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
@@ -11,6 +9,7 @@ use super::app::App;
 use super::app::actions::Binding;
 use super::app::dialogs::Surroundings;
 use super::form_aids::materials;
+use super::header;
 use super::layout::{self, Pane, SMALLEST};
 use super::panes::chart::{self, Charts};
 use super::panes::form::{self, Form};
@@ -19,7 +18,6 @@ use super::panes::study::{self, StudyPane};
 use super::panes::teeth;
 use super::panes::trade::{self, TradePane};
 use super::rows::{self, Row};
-use super::tab::{Origin, Tab};
 use super::text::{self, symbol};
 use super::update::commands::BINDINGS;
 use crate::case::fields::{Absent, Field, Kind, index_of};
@@ -96,7 +94,7 @@ fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
 
 fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     let plan = app.layout.plan_on(area.as_size());
-    header(app, plan.header, buffer);
+    header::draw(app, plan.header, buffer);
     let mut cursor = None;
     for pane in Pane::ALL {
         let area = plan.area(pane);
@@ -253,89 +251,4 @@ fn progress(app: &App) -> Option<(String, f64)> {
     }
     let method = app.tab.answer.as_ref().and_then(|answer| answer.pending).map_or("", Method::name);
     app.tab.solving.map(|part| (format!("solving {method}"), part))
-}
-
-/// The start of the header.
-const HEAD: &str = "tipstrike";
-/// Precedes the visible tabs if there are others before them.
-const BEFORE: &str = "‹ ";
-/// A longer name is cut if there are several tabs.
-const LONGEST_NAME: usize = 24;
-/// The open cases, the current one with its path and title, with marks for unsaved edits.
-fn header(app: &App, area: Rect, buffer: &mut Buffer) {
-    let mut spans = vec![Span::styled(HEAD, app.look.theme.title), Span::raw("  ")];
-    if app.others.is_empty() {
-        spans.extend(only_case(app, area.width));
-    } else {
-        spans.extend(tabs(app, area.width));
-    }
-    text::draw_lines(&[Line::from(spans)], area, buffer);
-}
-
-fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
-    let tab = &app.tab;
-    let is_last = tab.origin == Origin::LastCase;
-    let last = if is_last { " (last case; Alt-T: Table 1)" } else { "" };
-    let unsaved = if tab.is_unsaved() { " *unsaved*" } else { "" };
-    let mark = format!("{unsaved}{}{last}", tab.marks());
-    let room = usize::from(width).saturating_sub(11 + text::width(&mark));
-    let instead = tab.in_place_of.as_ref();
-    let instead = instead.map(|path| format!(" ({} cannot be opened)", path.display()));
-    let name = text::cut(&format!("{}{}", tab.name(), instead.unwrap_or_default()), room);
-    let left = room.saturating_sub(text::width(&name) + 3);
-    let title = Some(tab.case.title()).filter(|title| !title.is_empty() && left > 8);
-    let title = title.map(|title| format!("   {}", text::cut(title, left))).unwrap_or_default();
-    vec![Span::raw(name), Span::styled(mark, app.look.theme.note), Span::raw(title)]
-}
-
-/// The index of the open case whose name is at a cell, if any.
-pub(super) fn tab_at(app: &App, area: Rect, at: Position) -> Option<usize> {
-    if app.others.is_empty() || !area.contains(at) {
-        return None;
-    }
-    let (names, Range { start, end }) = shown_tabs(app, area.width);
-    let mut right = usize::from(area.x)
-        + text::width(HEAD)
-        + 2
-        + if start > 0 { text::width(BEFORE) } else { 0 };
-    (start..end).find(|&tab| {
-        let left = right;
-        right += text::width(&names[tab]) + 2;
-        (left..right).contains(&at.x.into())
-    })
-}
-
-// The open cases with their numbers, as many around the current one as fit, and a mark at each end
-// with hidden ones.
-fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
-    let (names, Range { start, end }) = shown_tabs(app, width);
-    let mut spans = vec![Span::raw(if start > 0 { BEFORE } else { "" })];
-    for (at, name) in names.iter().enumerate().take(end).skip(start) {
-        spans.push(if at == app.place_of_tab {
-            Span::styled(format!("[{name}]"), app.look.theme.key)
-        } else {
-            Span::raw(format!(" {name} "))
-        });
-    }
-    spans.push(Span::raw(if end < names.len() { " ›" } else { "" }));
-    spans
-}
-
-/// The names of the open cases, and the range of names that fit: from the current one on, then before
-/// it.
-fn shown_tabs(app: &App, width: u16) -> (Vec<String>, Range<usize>) {
-    const OTHER_TEXT: usize = 15;
-    let name = |(at, tab): (usize, &Tab)| {
-        let (name, marks) = (text::cut(&tab.short_name(), LONGEST_NAME), tab.marks());
-        format!("{} {name}{}{marks}", at + 1, if tab.is_unsaved() { "*" } else { "" })
-    };
-    let names: Vec<String> = app.tabs().enumerate().map(name).collect();
-    let room = usize::from(width).saturating_sub(OTHER_TEXT);
-    let fits = |from: usize, to: usize| {
-        names[from..to].iter().map(|name| text::width(name) + 2).sum::<usize>() <= room
-    };
-    let at = app.place_of_tab;
-    let to = (at + 1..=names.len()).rev().find(|&to| fits(at, to)).unwrap_or(at + 1);
-    let from = (0..at).find(|&from| fits(from, to)).unwrap_or(at);
-    (names, from..to)
 }

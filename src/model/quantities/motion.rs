@@ -54,7 +54,7 @@ const BACK: Quantity = Quantity {
 
 /// A result of the mean stiffness.
 const RESONANCE: Quantity = Quantity {
-    equation: "ISO, by k_m",
+    equation: "ISO by k_m",
     stage: Resonance,
     source: ISO,
     assumptions: RIGID,
