@@ -136,6 +136,11 @@ impl Answer {
         self.requested.has(stage) && !self.stages.has(stage)
     }
 
+    /// Whether a stage was solved by a method.
+    pub(crate) fn has(&self, method: Method, stage: Stage) -> bool {
+        self.of(method).is_some() && method.stages().has(stage) && self.stages.has(stage)
+    }
+
     /// The value of every quantity by the active method.
     pub(crate) fn values(&self) -> Values {
         let solution = self.of(self.active);

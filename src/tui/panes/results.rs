@@ -387,6 +387,8 @@ const CHANGED: &str = "←";
 const EXCEEDED: &str = "!";
 /// The text of an absent value.
 const NONE: &str = "–";
+/// The text of a value that the baseline did not compute.
+const NOT_SOLVED: &str = "not solved";
 /// A longer name of a variant is cut.
 const LONGEST_NAME: usize = 18;
 /// The width of all but a few symbols, and of all but a few numbers.
@@ -490,15 +492,20 @@ pub(crate) fn compared(pane: &Results<'_>, quantity: &'static Quantity) -> Optio
         let case = case.unwrap_or_else(|| NONE.to_owned());
         return Some(format!("Case {case}; {}.", variants.join("; ")));
     }
-    let (method, base) = base(pane, answer, quantity)?;
+    let (method, base) = base(pane, answer, quantity);
+    let active = pane.baseline?.answer.active;
     let printed = |value: Option<f64>| match value {
         Some(value) => report::shown_in(quantity, value, pane.units).to_string(),
         None => "none".to_owned(),
     };
-    let whose =
-        if method == answer.active { String::new() } else { format!(" ({})", method.name()) };
+    let is_same = method == answer.active && method == active;
+    let whose = if is_same { String::new() } else { format!(" ({})", method.name()) };
     let own = printed(value(answer, answer.active, quantity));
-    Some(format!("{own}; baseline{whose}: {}.", printed(base)))
+    let base = match base {
+        None if !pane.baseline?.answer.has(answer.active, quantity.stage) => NOT_SOLVED.to_owned(),
+        base => printed(base),
+    };
+    Some(format!("{own}; baseline{whose}: {base}."))
 }
 
 /// The columns of the visible rows that fit, each after a blank. Texts have the room of all rows, so
@@ -619,11 +626,15 @@ fn columns(
             columns.push(Column::numbers(ranks[1], String::new(), differences, plain));
         }
     } else if pane.baseline.is_some() {
-        let difference = |at: usize| match (own(at), base(pane, answer, known[at])) {
-            (Some(now), Some((_, Some(base)))) => difference(known[at], now, base, units[at]),
-            (None, Some((_, Some(base)))) => format!("was {}", number(at, Some(base))),
-            (Some(_), _) => "was none".to_owned(),
-            (None, _) => String::new(),
+        let is_solved = |at: usize| {
+            pane.baseline.is_some_and(|base| base.answer.has(active, known[at].stage))
+        };
+        let difference = |at: usize| match (own(at), base(pane, answer, known[at]).1) {
+            (Some(now), Some(base)) => difference(known[at], now, base, units[at]),
+            (None, Some(base)) => format!("was {}", number(at, Some(base))),
+            (Some(_), None) if is_solved(at) => "was none".to_owned(),
+            (Some(_), None) => NOT_SOLVED.to_owned(),
+            (None, None) => String::new(),
         };
         let heading = "baseline".to_owned();
         columns.push(Column::numbers(1, heading, cells(&difference), [theme.baseline; 2]));
@@ -672,9 +683,12 @@ fn value(answer: &Answer, method: Method, quantity: &Quantity) -> Option<f64> {
     value_as_in(quantity, answer.of(method)?, answer.active)
 }
 
-// The method and the value of the baseline.
-fn base(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> Option<(Method, Option<f64>)> {
-    let base = &pane.baseline?.answer;
+// The method and the value of the baseline: by its own method what the compared one lacks, except
+// the required relief, which each method defines by its own force.
+fn base(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> (Method, Option<f64>) {
+    let Some(Baseline { answer: base, .. }) = pane.baseline else { return (answer.active, None) };
+    let of = |method| value_as_in(quantity, base.of(method)?, answer.active);
     let method = base.beside(answer.active);
-    Some((method, value_as_in(quantity, base.of(method)?, answer.active)))
+    let other = (base.active, of(base.active).filter(|_| quantity.stage != Stage::Clearing));
+    of(method).map_or(other, |found| (method, Some(found)))
 }
