@@ -164,19 +164,30 @@ pub(crate) fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
     if let Some(row) = row.filter(|_| pane.title.has_focus && !body.is_empty()) {
         text::put("▸", (body.x, body.y + row as u16), 1, base.patch(theme.focus), buffer);
     }
+    let columns = fitting(pane, answer, &listed, rows);
+    let units = columns.iter().position(|column| column.rank == UNITS).unwrap_or(0);
     let mut x = body.x + 1;
-    for column in fitting(pane, answer, &listed, rows) {
+    for (at, column) in columns.iter().enumerate() {
         let width = column.width();
-        let mut put = |text: &str, y: u16, style: Style| {
+        let mut put = |text: &str, y: u16, style: Style, back: usize| {
             let gap = if column.is_number { width.saturating_sub(text::width(text)) } else { 0 };
-            let (x, style) = (x + gap as u16, base.patch(style));
+            let (x, style) = ((x + gap as u16).saturating_sub(back as u16), base.patch(style));
             text::put(text, (x, y), body.right().saturating_sub(x).into(), style, buffer);
         };
         if !header.is_empty() {
-            put(&column.heading, header.y, column.styles[0]);
+            put(&column.heading, header.y, column.styles[0], 0);
         }
-        for (y, text) in (body.y..body.bottom()).zip(&column.cells) {
-            put(text, y, column.styles[1]);
+        for (line, (y, text)) in (body.y..body.bottom()).zip(&column.cells).enumerate() {
+            // A long unit moves the numbers of its row to the left and cuts the name.
+            let unit = &columns[units];
+            let over = text::width(&unit.cells[line]).saturating_sub(unit.width());
+            match column.rank {
+                NAMES => put(&text::cut(text, width - over.min(width)), y, column.styles[1], 0),
+                _ if at == units || at < units && column.is_number => {
+                    put(text, y, column.styles[1], over);
+                }
+                _ => put(text, y, column.styles[1], 0),
+            }
         }
         x += width as u16 + 1;
     }
@@ -394,6 +405,11 @@ const LONGEST_NAME: usize = 18;
 /// The width of all but a few symbols, and of all but a few numbers.
 const SYMBOL: usize = 8;
 const NUMBER: usize = 8;
+/// The width of the usual units, which a pane narrower than `WIDE` has room for, and of a mark with
+/// its blank.
+const UNIT: usize = 4;
+const MARK: usize = 2;
+const WIDE: u16 = 56;
 
 /// A column with a cell for each quantity. In a narrow pane, the columns of the highest rank are
 /// removed first, and those of rank 0 remain; a column is cut to its least width before.
@@ -414,6 +430,8 @@ struct Column {
 const OF_CASE: usize = 1;
 /// The rank of the units, which are cut but not removed.
 const UNITS: usize = 2;
+/// The rank of the names.
+const NAMES: usize = 90;
 
 impl Column {
     fn words(rank: usize, least: usize, room: usize, cells: Vec<String>, style: Style) -> Column {
@@ -426,7 +444,7 @@ impl Column {
     }
 
     fn width(&self) -> usize {
-        let texts = self.cells.iter().chain([&self.heading]);
+        let texts = self.cells.iter().filter(|_| self.rank != UNITS).chain([&self.heading]);
         texts.map(|text| text::width(text)).max().unwrap_or(0).max(self.room)
     }
 }
@@ -519,7 +537,7 @@ fn fitting(
     let mut columns = columns(pane, answer, listed, rows);
     if pane.variants.is_some() {
         for column in &mut columns {
-            column.room = 0;
+            column.room = if column.rank == UNITS { column.room } else { 0 };
         }
     }
     loop {
@@ -540,7 +558,9 @@ fn fitting(
                     ["static: ", "dynamic: "].iter().find_map(|by| cell.strip_prefix(by));
                 text::cut(stripped.unwrap_or(cell), room)
             };
-            columns[at].cells.iter_mut().for_each(|cell| *cell = short(cell));
+            if last.rank != UNITS || pane.variants.is_some() {
+                columns[at].cells.iter_mut().for_each(|cell| *cell = short(cell));
+            }
             columns[at].room = room;
         } else {
             columns.remove(at);
@@ -585,9 +605,13 @@ fn columns(
     };
     let symbols = |of: &'static Quantity| symbol(of.symbol_in(active), pane.look.ascii);
     let symbols = words(0, 0, Style::new(), &symbols);
+    // In a narrow pane the difference from the baseline leaves room for the symbols or for the names.
+    let is_narrow = pane.area.width < WIDE;
+    let gives_way = is_narrow && pane.baseline.is_some() && pane.variants.is_none();
+    let rank = if gives_way { NAMES + 1 } else { 0 };
     let mut columns = vec![
-        Column { room: symbols.room.min(SYMBOL), ..symbols },
-        words(90, 9, Style::new(), &|of| label(of, active)),
+        Column { room: symbols.room.min(SYMBOL), rank, least: usize::MAX, ..symbols },
+        words(NAMES, 9, Style::new(), &|of| label(of, active)),
     ];
     for (at, &method) in methods.iter().enumerate() {
         let numbers = cells(&|at| number(at, value(answer, method, known[at])));
@@ -610,8 +634,12 @@ fn columns(
         [unit, mark].join(" ").trim().to_owned()
     };
     let of_units = cells(&of_unit);
-    let widths = of_units.iter().map(|cell| text::width(cell.trim_end_matches([' ', '←', '!'])));
-    let room = widths.max().unwrap_or(0) + 2;
+    let width = |of: &&'static Quantity| text::width(named(unit(of)));
+    let room = match pane.variants {
+        Some(_) => known.iter().map(width).max().unwrap_or(0),
+        None if is_narrow => UNIT + MARK,
+        None => all.iter().map(width).max().unwrap_or(0) + MARK,
+    };
     columns.push(Column::words(UNITS, 5, room, of_units, Style::new()));
     if let Some((variants, first)) = pane.variants {
         let plain = [theme.other, Style::new()];
@@ -626,9 +654,8 @@ fn columns(
             columns.push(Column::numbers(ranks[1], String::new(), differences, plain));
         }
     } else if pane.baseline.is_some() {
-        let is_solved = |at: usize| {
-            pane.baseline.is_some_and(|base| base.answer.has(active, known[at].stage))
-        };
+        let is_solved =
+            |at: usize| pane.baseline.is_some_and(|base| base.answer.has(active, known[at].stage));
         let difference = |at: usize| match (own(at), base(pane, answer, known[at]).1) {
             (Some(now), Some(base)) => difference(known[at], now, base, units[at]),
             (None, Some(base)) => format!("was {}", number(at, Some(base))),
