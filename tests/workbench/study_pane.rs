@@ -158,6 +158,17 @@ fn the_tolerance_fills_its_page_and_needs_distributions() {
     desk.keys(&["d"]).lacks(&["10000 samples"]);
 }
 
+#[test]
+fn a_tolerance_of_an_earlier_case_is_outdated_until_its_successor_arrives() {
+    let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));
+    desk.fill("driven.tip_relief", "20 um").keys(&["Esc", "6", "z", "d"]).assert_shows("P50");
+    desk.lacks(&["OUTDATED"]);
+    let (number, work) = requested(desk.effects("u"), Slot::Study).expect("a study");
+    desk.has(&["OUTDATED, the new result is computed: Tolerance", "P50"]);
+    desk.take(results(number, work));
+    desk.assert_shows("P50").lacks(&["OUTDATED"]);
+}
+
 fn is_stop(effect: &Effect) -> bool {
     matches!(effect, Effect::Cancel(Slot::Study))
 }

@@ -205,6 +205,12 @@ impl Study {
         self.is_shown() && self.shown.as_ref().is_some_and(|shown| shown.end.is_some())
     }
 
+    /// Whether the visible results are those of an earlier case, field or quantity.
+    fn is_stale(&self) -> bool {
+        let shown = self.shown.as_ref().map(|shown| &shown.request.parameters);
+        shown.is_some() && shown != self.request.as_ref().map(|request| &request.parameters)
+    }
+
     fn is_shown(&self) -> bool {
         let serial = |request: &StudyRequest| request.serial;
         let shown = self.shown.as_ref().map(|shown| shown.request.serial);
@@ -433,7 +439,9 @@ fn title(pane: &StudyPane<'_>) -> String {
             )
         }
     };
-    symbol(&words, pane.look.ascii).into_owned()
+    let outdated =
+        if pane.study.is_stale() { "OUTDATED, the new result is computed: " } else { "" };
+    symbol(&format!("{outdated}{words}"), pane.look.ascii).into_owned()
 }
 
 /// The visible lines of a tolerance, if some do not fit.
