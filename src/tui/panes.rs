@@ -37,7 +37,8 @@ pub(crate) fn draw_table(
         row if row == marked => theme.focus,
         _ => Style::new(),
     };
-    let lines = lines.iter().enumerate().map(|(at, line)| Line::styled(line.as_str(), style(at)));
+    let line = |line: &String| text::cut(line, area.width.into());
+    let lines = lines.iter().enumerate().map(|(at, text)| Line::styled(line(text), style(at)));
     text::draw_lines(&lines.collect::<Vec<_>>(), area, buffer);
 }
 

@@ -126,6 +126,16 @@ fn the_table_has_a_row_for_each_point_and_its_cursor_follows_them() {
 }
 
 #[test]
+fn a_table_in_a_narrow_pane_has_fewer_columns_and_whole_numbers() {
+    let mut desk = study(Size::new(60, 20), "operation.speed");
+    desk.keys(&["v"]).has(&["n1 in rpm", "exact F_S in N"]).lacks(&["F_d,DE in"]);
+    let found = &desk.app.tab.study.shown.as_ref().expect("a study").layers[0];
+    let value = found.values[50].expect("a value");
+    let row = desk.line_with(" 2000  ");
+    desk.assert(row.contains(&format!(" {value:.1} ")));
+}
+
+#[test]
 fn the_shown_points_are_exported_as_by_the_command_that_is_named() {
     for (name, part) in [
         ("a.csv", "operation.speed [rpm],impact_force [N],outcome,method\n1000,"),

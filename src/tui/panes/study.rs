@@ -743,32 +743,48 @@ fn draw_table(
     area: Rect,
     buffer: &mut Buffer,
 ) {
-    let layers = || grid.layers.iter().zip(&shown.layers);
-    let curves = layers().filter_map(|(layer, found)| {
-        let known = layer.quantity()?;
-        let unit = common_unit(known, found.values.iter().flatten().copied(), pane.units);
-        let name = format!("{} {}", layer.name(), known.symbol_in(layer.inputs.method));
-        Some(Axis::new(name, unit))
-    });
-    let column = |name: Axis| {
-        let title = symbol(&name.in_unit(), pane.look.ascii).into_owned();
-        Column::text("", title).to_the_right().wide(2, 0)
-    };
-    let columns = grid.axes.iter().map(field_axis).chain(curves).map(column).collect();
+    let layers: Vec<_> = grid.layers.iter().zip(&shown.layers).collect();
     let (width, (x, y)) =
         (grid.axes.last().map_or(1, |axis| axis.points.len()), cursor(pane, shown));
-    let row = |at: usize| {
-        let places = [at / width, at % width];
-        let axes = grid.axes.iter().zip(&places[2 - grid.axes.len()..]);
-        let fields = axes.map(|(axis, at)| axis.points[*at].text.clone());
-        let values = layers().map(|(layer, found)| {
-            value_words(layer, found, at, pane.units, false).unwrap_or_default()
-        });
-        fields.chain(values).map(Cell::from).collect()
-    };
     let count: usize = grid.axes.iter().map(|axis| axis.points.len()).product();
     let (marked, rows) = (y * width + x, usize::from(area.height.saturating_sub(1)));
     let top = marked.saturating_sub(rows / 2).min(count.saturating_sub(rows));
-    let table = Table::new("", columns).with((top..count.min(top + rows)).map(row));
-    super::draw_table(&table.lines(), Some(marked - top), pane.look.theme, area, buffer);
+    let lines = |layers: &[(&Layer, &LayerFound)], is_short: bool| {
+        let curves = layers.iter().filter_map(|(layer, found)| {
+            let known = layer.quantity()?;
+            let unit = common_unit(known, found.values.iter().flatten().copied(), pane.units);
+            let symbol = known.symbol_in(layer.inputs.method);
+            Some(Axis::new(format!("{} {symbol}", layer.name()), unit))
+        });
+        let field = |axis: &StudyAxis| match FIELDS[axis.field].symbol {
+            symbol if is_short && !symbol.is_empty() => Axis::new(symbol, axis.unit.clone()),
+            _ => field_axis(axis),
+        };
+        let column = |name: Axis| {
+            let title = symbol(&name.in_unit(), pane.look.ascii).into_owned();
+            Column::text("", title).to_the_right().wide(2, 0)
+        };
+        let columns = grid.axes.iter().map(field).chain(curves).map(column).collect();
+        let row = |at: usize| {
+            let places = [at / width, at % width];
+            let axes = grid.axes.iter().zip(&places[2 - grid.axes.len()..]);
+            let fields = axes.map(|(axis, at)| axis.points[*at].text.clone());
+            let values = layers.iter().map(|(layer, found)| {
+                value_words(layer, found, at, pane.units, false).unwrap_or_default()
+            });
+            fields.chain(values).map(Cell::from).collect()
+        };
+        Table::new("", columns).with((top..count.min(top + rows)).map(row)).lines()
+    };
+    // Short names of the fields, then fewer curves, where the pane is too narrow.
+    let fits =
+        |lines: &Vec<String>| lines.iter().all(|line| text::width(line) <= usize::from(area.width));
+    let counts = (1..=layers.len()).rev().map(|count| (count, true));
+    let mut forms = [(layers.len(), false)].into_iter().chain(counts);
+    let lines = forms.find_map(|(count, is_short)| {
+        let lines = lines(&layers[..count], is_short);
+        (count == 1 && is_short || fits(&lines)).then_some(lines)
+    });
+    let lines = lines.unwrap_or_default();
+    super::draw_table(&lines, Some(marked - top), pane.look.theme, area, buffer);
 }
