@@ -26,8 +26,8 @@ const SMALLEST: (u16, u16) = (12, 4);
 /// depend on the values, so that the picture keeps its size.
 const TWO_LINES_FROM: u16 = 13;
 const THREE_LINES_FROM: u16 = 20;
-/// Cells of a value with its symbol and unit.
-const VALUE: u16 = 18;
+/// Cells of a value with its symbol, unit and a blank.
+const VALUE: u16 = 19;
 /// The least distance of points with names, in columns.
 const APART: f64 = 5.0;
 /// The greatest length of the scale bar, as a fraction of the width.
@@ -145,7 +145,7 @@ pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
     for (values, row) in values.chunks(in_line).zip(below.rows()) {
         let values = values.iter().map(|value| {
             let text = symbol(&value.to_string(), picture.look.ascii).into_owned();
-            text::padded(&text, usize::from(VALUE))
+            text::padded(&text, usize::from(VALUE) - 1) + " "
         });
         text::put(
             &values.collect::<String>(),
