@@ -52,6 +52,10 @@ const VALUES: [&str; 12] = [
     "roll_angle_driven",
     "time",
 ];
+/// The signs of the lines in ASCII, in the order of the layers: base circles, line of action, path of
+/// contact, path of the tip, driven gear, its incoming tooth, driver, its struck tooth, named points,
+/// contacts.
+const SIGNS: [char; 10] = ['.', '-', '=', ':', '*', '*', '#', '#', '+', 'X'];
 /// The text of a missing number.
 const NONE: &str = "–";
 
@@ -192,7 +196,13 @@ impl<'a> Painter<'a> {
         let scene = Scene::of(inputs, solution, moment, lead, &self.window);
         let curves = self.layers(&scene);
         let curves: Vec<_> = curves.iter().map(|(pieces, style)| (&pieces[..], *style)).collect();
-        put(&self.plot().layer(&curves, self.marker), buffer);
+        if self.picture.look.ascii {
+            for (curve, sign) in curves.iter().zip(SIGNS) {
+                put(&self.plot().layer(&[*curve], Marker::Custom(sign)), buffer);
+            }
+        } else {
+            put(&self.plot().layer(&curves, self.marker), buffer);
+        }
         for (at, word, style) in self.words(&scene, moment.map(|_| factor)) {
             let room = self.area.right().saturating_sub(at.x).into();
             text::put(&word, at, room, Style::reset().patch(style), buffer);
@@ -223,6 +233,8 @@ impl<'a> Painter<'a> {
         let [driven, driver] = [theme.driven, theme.driver];
         let styles = [
             theme.faint,
+            theme.faint,
+            theme.path,
             theme.path,
             driven,
             bold(driven),
@@ -235,13 +247,13 @@ impl<'a> Painter<'a> {
         for (ink, points) in &scene.lines {
             let (at, dash) = match ink {
                 Ink::BaseCircle => (0, Some((0.0, 4.0))),
-                Ink::LineOfAction => (0, Some((5.0, 4.0))),
-                Ink::PathOfContact => (1, None),
-                Ink::TipPath => (1, Some((0.0, 2.0))),
-                Ink::DrivenBore | Ink::Driven => (2, None),
-                Ink::IncomingTooth => (3, None),
-                Ink::DriverBore | Ink::Driver => (4, None),
-                Ink::StruckTooth => (5, None),
+                Ink::LineOfAction => (1, Some((5.0, 4.0))),
+                Ink::PathOfContact => (2, None),
+                Ink::TipPath => (3, Some((0.0, 2.0))),
+                Ink::DrivenBore | Ink::Driven => (4, None),
+                Ink::IncomingTooth => (5, None),
+                Ink::DriverBore | Ink::Driver => (6, None),
+                Ink::StruckTooth => (7, None),
             };
             match dash {
                 None => layers[at].0.push(points.iter().map(|point| (point.x, point.y)).collect()),
@@ -255,9 +267,9 @@ impl<'a> Painter<'a> {
             [vec![(at.x - x, at.y), (at.x + x, at.y)], vec![(at.x, at.y - y), (at.x, at.y + y)]]
         };
         let marks = scene.distinct_points(&self.window, 2.0 * self.column());
-        layers[6].0.extend(marks.into_iter().flat_map(|(_, at)| cross(at)));
+        layers[8].0.extend(marks.into_iter().flat_map(|(_, at)| cross(at)));
         let contacts = scene.contacts.iter().filter(|at| self.window.sees(**at));
-        layers[7].0.extend(contacts.flat_map(|at| cross(*at)));
+        layers[9].0.extend(contacts.flat_map(|at| cross(*at)));
         if self.picture.is_stale {
             for (_, style) in &mut layers {
                 *style = style.patch(theme.faint);

@@ -57,7 +57,7 @@ const SIGNS: [&str; 6] = [
     "Signs after a result: ← changed by the last edit; ! above its limit; – no value. ▸ marks the \
         column of the case's method.",
     "Column vs baseline: the difference from the baseline; b pins the baseline. \"was none\": the \
-        baseline has no value. \"was\" and a value: the program prints no percentage.",
+        baseline has no value; \"not solved\": its method does not compute one. \"was\" and a value: the program prints no percentage.",
     "Chart curves: dots or * the method of the case; · paper; ∘ exact; × static; + the baseline; \
         ╌ a reference value, such as Δ in the gap chart. Compared stiffness models alternate in the \
         columns that several of them cross. Points on the x axis: D first contact; E \
@@ -65,7 +65,9 @@ const SIGNS: [&str; 6] = [
         contact of another method.",
     "Lines of the teeth: solid: flanks (bold: incoming pair) and, from E to B, the path of \
         contact; dashed: line of action; dotted: base circles and the path of the driven tip \
-        before E. Crosses: named points. Bold dots: contacts.",
+        before E. Crosses: named points. Bold dots: contacts. In ASCII: * driven and # driving \
+        flanks, = path of contact, - line of action, . base circles, : path of the tip, + points, \
+        X contacts.",
 ];
 
 const PLACES: [(&str, Place); 16] = [
