@@ -74,7 +74,7 @@ impl ComparedCase {
     /// The outcome, or the reason for its absence.
     fn described(&self) -> String {
         sanitize(&match &self.found {
-            Ok(report) => digest::sentence(&report.solution, System::Metric, None),
+            Ok(report) => digest::sentence(&report.solution, System::Metric, false),
             Err(problems) => {
                 let problems: Vec<String> = problems.iter().map(ToString::to_string).collect();
                 format!("Refused: {}.", problems.join("; "))

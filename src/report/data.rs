@@ -57,7 +57,7 @@ fn beside(quantity: &Quantity, solution: &Solution) -> Option<&'static str> {
 /// The verdict in a sentence, followed by the results of other methods and the resonance.
 pub(super) fn verdict(report: &Report) -> Vec<String> {
     let (solution, system) = (&report.solution, System::Metric);
-    let mut sentences = vec![sentence(solution, system, None)];
+    let mut sentences = vec![sentence(solution, system, false)];
     if report.selection.is_whole() {
         let all: Vec<&Solution> = report.others.iter().collect();
         let exact = all.iter().find(|other| other.method == Method::Exact);

@@ -49,7 +49,7 @@ impl Digest {
             Ok(solution) => {
                 let own = solution.method.name();
                 let by = if own == asked { "" } else { ", chosen by auto" };
-                let outcome = sentence(solution, system, None);
+                let outcome = sentence(solution, system, false);
                 (verdict::verdicts(case, solution), format!("{own}{by}"), outcome)
             }
             Err(refusal) => {
@@ -88,9 +88,9 @@ fn text(case: &Case, key: &str) -> String {
 }
 
 /// The verdict in one sentence: whether the tip strikes, its force before E, the greatest force of
-/// a tooth, and the relief that prevents the contact, each if its stage ran. `pending` is the
-/// present relief of the driven gear, in m, while the required relief is being computed.
-pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> String {
+/// a tooth, and the relief that prevents the contact, each if its stage ran; `is_pending` while the
+/// relief is being computed.
+pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String {
     let most = match solution.method {
         Method::Static => printed("static_peak_force", solution, system),
         Method::Dynamic => printed("dynamic_peak_force", solution, system),
@@ -124,7 +124,7 @@ pub fn sentence(solution: &Solution, system: System, pending: Option<f64>) -> St
     };
     let entry = of("static_force_at_start", solution).unwrap_or(0.0);
     let exit = at_exit(solution, entry, system).unwrap_or_default();
-    let relief = relief(solution, system, pending).map(|relief| format!("; {relief}"));
+    let relief = relief(solution, system, is_pending).map(|relief| format!("; {relief}"));
     format!("Corner contact{angle}{forces}{}{exit}.", relief.unwrap_or_default())
 }
 
@@ -216,14 +216,17 @@ const RELIEF_DIGITS: i32 = 3;
 /// Its unit.
 const RELIEF_UNIT: &str = "um";
 
-/// The tip relief of the driven gear that prevents the contact; `None` without corner contact, or
-/// if it is unknown.
-pub fn relief(solution: &Solution, system: System, pending: Option<f64>) -> Option<String> {
+/// The tip relief of the driven gear that prevents the contact, or that it is being computed; `None`
+/// without corner contact, or if it is unknown.
+pub fn relief(solution: &Solution, system: System, is_pending: bool) -> Option<String> {
     let unit = system.unit(RELIEF_UNIT);
     let least = of("clearing_relief", solution).zip(solution.clearing);
     let (given, [more, all]) = match least {
         Some((least, clearing)) => (clearing.given, rounded_up(least, clearing.given, system)),
-        None => (pending?, ["...", "..."].map(str::to_owned)),
+        None if is_pending => {
+            return Some("tip relief that prevents it: being computed".to_owned());
+        }
+        None => return None,
     };
     Some(if given > 0.0 {
         format!(

@@ -133,7 +133,7 @@ fn the_required_relief_prevents_contact_when_it_is_typed_in() {
                 continue;
             };
             for system in System::ALL {
-                let Some(words) = relief_words(&solution, system, None) else { continue };
+                let Some(words) = relief_words(&solution, system, false) else { continue };
                 let read = |text: &str| parse(text, Dimension::Length, "").expect("a length");
                 let (more, total) = figures(&words);
                 let in_all = total.as_deref().map(read);

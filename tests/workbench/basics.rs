@@ -368,7 +368,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
         found.as_mut().expect("a solution").clearing = None;
     }
     desk.show(first);
-    desk.assert_shows("... um of tip relief on the driven");
+    desk.assert_shows("being");
     let mut stopped = desk.app.clone();
     let cancel = of_key(harness::event("Ctrl-C"), stopped.place()).expect("a key");
     let effects = update(&mut stopped, cancel);
@@ -376,7 +376,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
     // It is waited for no more.
     assert!(!stopped.tab.answer.expect("an answer").lacks(Stage::Clearing));
     desk.show(whole);
-    desk.assert_shows("40.1 um of tip relief on the driven").lacks(&["..."]);
+    desk.assert_shows("40.1 um of tip relief on the driven").lacks(&["being"]);
 }
 
 #[test]

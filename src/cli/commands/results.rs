@@ -151,7 +151,7 @@ fn solve_limited(case: &Case, inputs: &Inputs) -> Result<(Solution, Option<Strin
     let needed = stages(case);
     match model::solve(inputs, needed.and(STAGES).and(Stages::of(Stage::Clearing))) {
         Ok(solution) => {
-            let outcome = sentence(&solution, System::Metric, None);
+            let outcome = sentence(&solution, System::Metric, false);
             Ok((solution, Some(outcome)))
         }
         Err(_) => Ok((model::solve(inputs, needed)?, None)),

@@ -233,7 +233,10 @@ fn parts(pane: &Results<'_>) -> (Vec<Line<'static>>, usize) {
         head.truncate(most);
         head.iter_mut().last().into_iter().for_each(|line| line.push_span("…"));
     }
-    let notes = (hidden > 0).then(|| format!("{hidden} more ({}n)", pane.title.leave()));
+    let notes = (hidden > 0).then(|| {
+        let ending = if hidden == 1 { "" } else { "s" };
+        format!("{hidden} note{ending} ({}n)", pane.title.leave())
+    });
     let folded = pane.answer.and_then(|answer| folded(pane, answer));
     // Between variants the results need the line; the key of the notes is in the line of keys.
     let has_room = pane.variants.is_none() || head.len() < kept(USUAL_ROWS);
@@ -287,8 +290,7 @@ fn sentences(pane: &Results<'_>) -> Vec<Sentence> {
         let place = if has_fault { Place::Room } else { Place::Pane };
         let age = if pane.shows_last_valid() { "LAST VALID: " } else { "" };
         let is_pending = answer.strikes() && answer.lacks(Stage::Clearing);
-        let pending = is_pending.then_some(answer.inputs.driven.tip_relief);
-        let verdict = digest::sentence(solution, pane.units, pending);
+        let verdict = digest::sentence(solution, pane.units, is_pending);
         add(format!("{age}{verdict}"), fresh(theme.focus), place);
         let figures = [differing(answer, solution), digest::whine(solution)];
         for figure in figures.into_iter().flatten() {
