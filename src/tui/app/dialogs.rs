@@ -401,12 +401,15 @@ impl PreviewPane {
     }
 
     /// The lines of the preview in a width.
-    fn lines(&self, width: u16, theme: &Theme) -> Vec<Words<'static>> {
+    fn lines(&self, width: u16, look: Look) -> Vec<Words<'static>> {
+        let theme = look.theme;
         match (&self.target, &self.preview) {
             (None, _) => Vec::new(),
             (_, None) => vec![Words::styled("reading ...", theme.faint)],
             (_, Some(preview)) => {
-                preview.iter().flat_map(|(text, tone)| said(text, tone(theme), width)).collect()
+                let spelled = |text| text::symbol(text, look.ascii);
+                let lines = preview.iter();
+                lines.flat_map(|(text, tone)| said(&spelled(text), tone(theme), width)).collect()
             }
         }
     }

@@ -19,7 +19,7 @@ use crate::tui::store::folder::{
 };
 use crate::tui::text;
 use crate::tui::text::Line;
-use crate::tui::theme::Theme;
+use crate::tui::theme::{Look, Theme};
 
 /// The full width, and a limited number of lines.
 const SIZE: Size = Size { width: u16::MAX, height: 34 };
@@ -340,14 +340,14 @@ impl Browser {
         text::draw_lines(&lines, below, buffer);
     }
 
-    fn preview_lines(&self, width: u16, theme: &Theme) -> Vec<Words<'static>> {
+    fn preview_lines(&self, width: u16, look: Look) -> Vec<Words<'static>> {
         let mut lines = Vec::new();
         if let Some((Recents, Entry { target: Target::File(path), .. })) = self.line(self.selected)
         {
             let path = text::cut_front(&path.display().to_string(), width.into());
-            lines.push(Words::styled(path, theme.faint));
+            lines.push(Words::styled(path, look.theme.faint));
         }
-        lines.extend(self.preview.lines(width, theme));
+        lines.extend(self.preview.lines(width, look));
         lines
     }
 }
@@ -429,7 +429,7 @@ impl Dialog for Browser {
         buffer.set_stringn(inner.x, inner.y, folder, width, theme.title);
         let [left, right] = halves(text::split(inner, 2)[1]);
         self.draw_lists(left, theme, buffer);
-        draw_details(|width| self.preview_lines(width, theme), right, buffer);
+        draw_details(|width| self.preview_lines(width, around.look), right, buffer);
         let [line, _] = text::split(text::split(inner, 1)[1], 1);
         if self.input.value().is_empty() {
             let how = "  type part of a name or a path; ~ is the home folder";

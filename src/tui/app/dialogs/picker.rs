@@ -236,7 +236,7 @@ impl Dialog for Picker {
         let (line, list, details) = self.areas(&items, inner);
         if let Some(preview) = &self.preview {
             self.window(&items, list).draw(|at| items[at].name.clone(), theme, buffer);
-            draw_details(|width| preview.lines(width, theme), details, buffer);
+            draw_details(|width| preview.lines(width, around.look), details, buffer);
         } else {
             self.draw_items(&items, list, theme, buffer);
             if let Some(item) = items.get(self.selected) {
