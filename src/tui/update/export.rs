@@ -70,8 +70,8 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) {
     };
     let target = at_home(&path);
     let target = std::path::absolute(&target).unwrap_or(target);
+    app.say(format!("writing {}", path.display()));
     app.exporting = Some(path);
-    app.say("exporting");
     let write = move |running: &Running<'_>| {
         let path = running.path.to_owned();
         let found = write(&path, content, replaces, running);
