@@ -535,6 +535,7 @@ fn put_tab(app: &mut App, tab: Tab, replaces: bool) {
         app.others.insert(app.place_of_tab, before);
         app.place_of_tab += 1;
     }
+    app.layout.zoom(false);
     app.layout.focus_on(Pane::Form);
     app.cursor = None;
     app.solve();
