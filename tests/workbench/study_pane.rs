@@ -94,7 +94,7 @@ fn a_typed_range_makes_a_curve_or_a_map_and_a_usual_range_replaces_it() {
     desk.keys(&["Ctrl-U", map, "Enter"]);
     let expected = ["operation.speed 1 rpm 2 rpm 1", "driven.tip_relief 0 um 40 um 4"];
     assert_eq!(key_and_ends(&desk), expected);
-    desk.keys(&["s", "p", "+"]);
+    desk.keys(&["s", "p", "Enter", "+"]);
     assert!(key_and_ends(&desk)[0].starts_with("operation.speed 1500 rpm"));
 }
 
@@ -110,7 +110,9 @@ fn the_sweep_command_studies_any_field_and_result_from_every_pane() {
     let usual = key(&desk);
     desk.keys(&["o", "friction_ratio", "Enter"]);
     assert_eq!(key(&desk), "friction_ratio");
-    desk.keys(&["p", "o"]);
+    desk.keys(&["o", "F_d,max", "Enter"]);
+    assert_eq!(key(&desk), "dynamic_peak_force", "the typed keys again choose another result");
+    desk.keys(&["p", "Enter", "o", "Enter"]);
     assert_eq!(key(&desk), usual);
     assert!(!key_and_ends(&desk)[0].starts_with("driven.tip_relief"));
 }

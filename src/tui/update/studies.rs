@@ -23,9 +23,9 @@ use crate::study::tolerance::Design;
 use crate::study::tolerance::{Samples, Size, Tolerance, USUAL_RANKED};
 use crate::study::trade::{Trade, trade};
 use crate::tui::app::App;
-use crate::tui::app::actions::{Content, Running, Slot, Work};
+use crate::tui::app::actions::{Choice, Content, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
-use crate::tui::app::dialogs::picker::Picker;
+use crate::tui::app::dialogs::picker::{Item, Picker};
 use crate::tui::app::dialogs::question::PathDialog;
 use crate::tui::layout::{Pane, is_too_small};
 use crate::tui::panes::results;
@@ -247,15 +247,15 @@ fn show_grid(app: &mut App) {
     }
 }
 
-/// Chooses the field of the study, or follows the focused field again.
+/// Opens the list of fields for the study. Its first line follows the focused field again.
 pub(super) fn first(app: &mut App) {
-    if app.study.field.take().is_none() {
-        let picker = Picker::fields("Field of the study", false, |app, field| {
-            (app.study.field, app.study.is_tolerance) = (Some(field), false);
-            app.study.second = app.study.second.filter(|second| *second != field);
-        });
-        app.pick(picker);
-    }
+    let follow = Choice::of(|app| app.study.field = None);
+    let about = "the study follows the focused field of the form".to_owned();
+    let picker = Picker::fields("Field of the study", false, |app, field| {
+        (app.study.field, app.study.is_tolerance) = (Some(field), false);
+        app.study.second = app.study.second.filter(|second| *second != field);
+    });
+    app.pick(picker.after(Item::named(follow, "focused field".to_owned(), about)));
 }
 
 /// Chooses a second field, or leaves the map.
@@ -271,13 +271,14 @@ pub(super) fn second(app: &mut App) {
     }
 }
 
-/// Chooses the result of the study, or follows the selected result again.
+/// Opens the list of results for the study. Its first line follows the selected result again.
 pub(super) fn result(app: &mut App) {
-    if app.study.quantity.take().is_none() {
-        app.pick(Picker::results("Result of the study", |app, quantity| {
-            app.study.quantity = Some(quantity.key);
-        }));
-    }
+    let follow = Choice::of(|app| app.study.quantity = None);
+    let about = "the study follows the selected result of pane 2".to_owned();
+    let picker = Picker::results("Result of the study", |app, quantity| {
+        app.study.quantity = Some(quantity.key);
+    });
+    app.pick(picker.after(Item::named(follow, "selected result".to_owned(), about)));
 }
 
 /// Shows the points as a table, or the curve or map again.

@@ -100,6 +100,12 @@ impl Picker {
         Picker::new(title, valued.map(item), &[])
     }
 
+    /// The list with a first line before it.
+    pub(crate) fn after(mut self, first: Item) -> Picker {
+        self.items.insert(0, Arc::new(first));
+        self
+    }
+
     /// Every result.
     pub(crate) fn results(title: &'static str, choose: fn(&mut App, &'static Quantity)) -> Picker {
         let item = |quantity: &'static Quantity| {
