@@ -89,6 +89,20 @@ fn a_new_limit_starts_at_the_result_and_an_empty_one_is_removed() {
 }
 
 #[test]
+fn a_field_without_distribution_names_another_field_and_opens_no_list() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    for (key, fix) in [
+        ("driver.grade", "go to the base pitch deviation f_pb, then Alt-D"),
+        ("driver.teeth", "is a whole number and has no distribution"),
+        ("model.method", "is a choice and has no distribution"),
+    ] {
+        desk.go_to(key).keys(&["Alt-D"]).assert_shows(fix).lacks(&["Distribution of a field"]);
+        desk.assert(desk.app.tab.case.spread.is_empty());
+    }
+    desk.keys(&["Esc", "2", "Alt-D"]).assert_shows("Distribution of a field");
+}
+
+#[test]
 fn a_distribution_of_a_field_is_a_row_that_the_tolerance_samples() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.go_to("deviations.base_pitch").keys(&["Alt-D"]).assert_shows("(no distribution)");

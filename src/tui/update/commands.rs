@@ -444,8 +444,8 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::WORK, "Alt-L", "limit", edit::ask_limit,
         "Set a limit on the selected result, or on a result from a list.").shown_in(Place::RESULTS),
     row(Place::WORK, "Alt-D", "spread", edit::ask_spread,
-        "Give the focused field a distribution for the tolerance, or a field from a list; an empty \
-            distribution is removed."),
+        "Give the focused field a distribution for the tolerance, outside the form a field from a list; \
+            an empty distribution is removed."),
     row(Place::COMMANDED, ":", "commands", |app| type_command(app, ""),
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
             there.").shown_in(Place::OUTSIDE),

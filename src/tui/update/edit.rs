@@ -275,13 +275,32 @@ fn edit_row(app: &mut App, row: usize) {
     app.focus_on(row);
 }
 
-/// Goes to the distribution of the focused field if it is a number, otherwise opens the list of
-/// fields.
+/// Goes to the distribution of the focused field, if it is a number; outside the form, opens the
+/// list of fields.
 pub(super) fn ask_spread(app: &mut App) {
     match spread_field(app) {
         Some(field) if app.layout.focus() == Pane::Form => begin_spread(app, field),
+        None if app.layout.focus() == Pane::Form => app.complain(no_spread(app)),
         _ => app.pick(Picker::fields("Distribution of a field", true, begin_spread)),
     }
+}
+
+// Why the focused row has no distribution, with the fix.
+fn no_spread(app: &App) -> String {
+    let Some(known) = rows::field(&app.tab.case, app.tab.form.focus) else {
+        return "a limit has no distribution: go to a field with a number, then Alt-D".to_owned();
+    };
+    let kind = match known.kind {
+        Kind::Count(..) => "a whole number",
+        Kind::Choice(..) => "a choice",
+        Kind::List(_) => "a list",
+        Kind::Number(..) | Kind::Text => "a text",
+    };
+    let other = match known.name() {
+        "grade" => "the base pitch deviation f_pb",
+        _ => "a field with a number",
+    };
+    format!("{} is {kind} and has no distribution: go to {other}, then Alt-D", known.full_label())
 }
 
 // The focused field, or the field of the focused distribution, if it can have a distribution.
@@ -306,7 +325,7 @@ fn begin_spread(app: &mut App, field: usize) {
 /// Gives the focused field a distribution such as `normal 4 um`; `none` removes it.
 pub(super) fn set_spread(app: &mut App, text: &str) {
     let Some(field) = spread_field(app) else {
-        return app.complain("no distribution here: go to a field with a number");
+        return app.complain(no_spread(app));
     };
     let mut case = app.tab.case.clone();
     let key = format!("spread.{}", FIELDS[field].key);
