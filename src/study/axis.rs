@@ -170,7 +170,8 @@ impl AxisRange {
         }
         let (from, to) = values.split_once(TO).unwrap_or((values, ""));
         let unit = unit_of(known, [from, to])?;
-        let [from, to] = [number_in(field, from, &unit)?, number_in(field, to, &unit)?];
+        let end = |end| number_in(field, end, &unit).map_err(|problem| in_limits(problem, known));
+        let [from, to] = [end(from)?, end(to)?];
         let [first, last] = [from, to].map(|end| with_unit(&shortest(end), &unit));
         let (cause, fix) = if from < to {
             return Ok(AxisRange { field, unit, from, to });
@@ -299,6 +300,14 @@ fn unit_of<'t>(
         }
     }
     Ok(String::new())
+}
+
+/// The problem of an end of a range, with a range that the field accepts as its fix.
+fn in_limits(problem: Problem, known: &Field) -> Problem {
+    let Some(limits) = known.range() else { return problem };
+    let [from, to] = [limits.from, limits.to].map(shortest);
+    let to = with_unit(&to, limits.unit);
+    Problem { fix: format!("write a range within {from}..{to}").into(), ..problem }
 }
 
 /// The value in `unit`; a bare number is already in that unit.

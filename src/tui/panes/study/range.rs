@@ -385,6 +385,9 @@ mod tests {
             assert!(typed_axes([torque, None], wrong).is_err(), "{wrong}");
         }
         assert!(typed_axes([torque, None], "50..200 N m, 30000 points").is_err());
+        let damping = index_of("model.damping_ratio");
+        let wrong = typed_axes([damping, None], "100..400 N m").expect_err("a wrong unit");
+        assert!(wrong.ends_with("write a range within 0..1"), "{wrong}");
     }
 
     #[test]
