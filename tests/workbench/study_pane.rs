@@ -253,6 +253,17 @@ fn variants_are_shown_beside_the_case_with_their_differences() {
     desk.keys(&["Esc", "2", "v"]).assert_shows("the case has no variants");
 }
 
+/// `auto` chooses `static`, and `dynamic` only computes the peak force.
+#[test]
+fn a_result_that_auto_lacks_is_one_curve_with_the_present_value() {
+    let text = TABLE_1.replace("method = \"exact\"", "method = \"auto\"");
+    let mut desk = Desk::on(LARGE, "case.toml", &text.replace("2000 rpm", "100 rpm"));
+    desk.go_to("operation.speed").keys(&["Esc", "6", "o", "F_d,max", "Enter"]);
+    let shown = desk.app.tab.study.shown.as_ref().expect("a study");
+    assert_eq!(shown.layers.len(), 1);
+    desk.assert_shows("● now");
+}
+
 /// `auto` would choose `static` for the variant alone, without a value of the motion.
 #[test]
 fn variants_are_compared_by_the_method_that_auto_chose_for_the_case() {

@@ -30,6 +30,8 @@ pub(crate) const CURVE_POINTS: usize = 101;
 const MOST_CELLS: (u16, u16) = (60, 30);
 /// Columns and rows of a map outside its cells.
 const MAP_MARGIN: (u16, u16) = (12, 6);
+/// Relative difference of a point from the present value by rounding.
+const SAME: f64 = 1e-5;
 /// Least height of a pane with two rows for the texts.
 const TALL: u16 = 8;
 /// The texts below a plot get at most this fraction of the rows.
@@ -639,7 +641,14 @@ fn curves(
         let series_of = Series { name: name.to_owned(), pieces, kind: Kind::Marks(None) };
         series.push((series_of, (Marker::Custom(look.0), look.1)));
     };
-    let now = present(pane, axis).zip(pane.present).map(|(x, value)| (x, value / factor));
+    let now = present(pane, axis);
+    // A quantity that only the study computes has its present value at the point of the case.
+    let of_point = || {
+        let at = range::nearest(axis, pane.case)?;
+        let is_present = (x(axis, at) - now?).abs() <= SAME * now?.abs();
+        shown.layers.first()?.values.get(at).copied().flatten().filter(|_| is_present)
+    };
+    let now = now.zip(pane.present.or_else(of_point)).map(|(x, value)| (x, value / factor));
     let now = now.filter(|now| ends(axis).covers(Span::new(now.0, now.0)));
     if let Some(now) = now {
         mark("now", vec![now], ('●', theme.focus));

@@ -143,9 +143,14 @@ fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer>
         Some(Layer { is_baseline, inputs, quantity })
     };
     let first = Layer { is_baseline: false, inputs: inputs.clone(), quantity: quantity.key };
+    // A quantity that the choice of `auto` lacks is computed by the fastest method that has it.
+    let has_it = |method: &Method| method.stages().has(quantity.stage);
+    let computes = Some(solved_by).filter(|method| active != Method::Auto || has_it(method));
+    let computes = computes.or_else(|| METHODS.into_iter().find(has_it));
     let is_other = |method: &Method| {
         (*method != Method::Paper || app.shows_every_method)
             && ![active, solved_by].contains(method)
+            && computes != Some(*method)
     };
     let others = METHODS.into_iter().filter(is_other);
     let others =

@@ -387,7 +387,7 @@ mod tests {
         assert!(typed_axes([torque, None], "50..200 N m, 30000 points").is_err());
         let damping = index_of("model.damping_ratio");
         let wrong = typed_axes([damping, None], "100..400 N m").expect_err("a wrong unit");
-        assert!(wrong.ends_with("write a range within 0..1"), "{wrong}");
+        assert!(wrong.ends_with("write a range within 0..2"), "{wrong}");
     }
 
     #[test]
