@@ -1,6 +1,6 @@
 //! Varied fields with their values in the user's unit and in SI, and the grid of a sweep over them.
 
-use crate::case::fields::{AUTO, FIELDS, Field, Kind, Value, index_of};
+use crate::case::fields::{AUTO, FIELDS, Field, Kind, Range, Value, index_of};
 use crate::case::units::{self, Dimension};
 use crate::case::{Case, Problem, field_value, unknown_key};
 use crate::model::Inputs;
@@ -170,7 +170,8 @@ impl AxisRange {
         }
         let (from, to) = values.split_once(TO).unwrap_or((values, ""));
         let unit = unit_of(known, [from, to])?;
-        let end = |end| number_in(field, end, &unit).map_err(|problem| in_limits(problem, known));
+        let limits = known.range().filter(|_| !unit.is_empty());
+        let end = |end| number_in(field, end, &unit).map_err(|problem| within(problem, limits));
         let [from, to] = [end(from)?, end(to)?];
         let [first, last] = [from, to].map(|end| with_unit(&shortest(end), &unit));
         let (cause, fix) = if from < to {
@@ -302,9 +303,9 @@ fn unit_of<'t>(
     Ok(String::new())
 }
 
-/// The problem of an end of a range, with a range that the field accepts as its fix.
-fn in_limits(problem: Problem, known: &Field) -> Problem {
-    let Some(limits) = known.range() else { return problem };
+/// The problem of an end of a range with a unit; its fix is a range that the field accepts.
+fn within(problem: Problem, limits: Option<Range>) -> Problem {
+    let Some(limits) = limits else { return problem };
     let [from, to] = [limits.from, limits.to].map(shortest);
     let to = with_unit(&to, limits.unit);
     Problem { fix: format!("write a range within {from}..{to}").into(), ..problem }
