@@ -291,6 +291,27 @@ fn the_baseline_is_common_to_tabs_and_has_its_curve_even_if_no_chart_was_visible
 }
 
 #[test]
+fn a_baseline_of_another_method_has_the_values_that_both_methods_compute() {
+    let mut desk = Desk::new(LARGE);
+    desk.run("method dynamic");
+    desk.keys(&["Alt-B"]);
+    desk.run("method static");
+    desk.assert_shows("unchanged").lacks(&["was none", "not solved"]);
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Alt-B"]);
+    desk.run("method dynamic");
+    desk.assert_shows("not solved").lacks(&["was none"]);
+}
+
+#[test]
+fn an_opened_case_shows_all_panes() {
+    let mut desk = Desk::new(LARGE);
+    let path = desk.write("other.toml", TABLE_1);
+    desk.keys(&["Esc", "3", "z"]).lacks(&["Corner contact"]);
+    desk.keys(&["Ctrl-O", "Ctrl-U", name(&path), "Enter"]).assert_shows("Corner contact");
+}
+
+#[test]
 fn values_that_an_edit_changed_are_marked_until_the_next_visit() {
     let mut desk = Desk::new(LARGE);
     let marked = |desk: &Desk, symbol: &str| desk.line_with(symbol).contains('←');
