@@ -46,8 +46,7 @@ pub struct FieldInput {
 ///
 /// A load acts on a flank at a radius, along the tangent to the base circle. Displacements are
 /// along the same tangent of the tooth on which they are measured. They exclude the twist of the
-/// body about its bore, and without a bore the shift of the body, which [increases](hold) with a small
-/// bore.
+/// body about its bore, and without a bore the shift of the body.
 ///
 /// Radii outside of [`Field::radii`] use the nearest radius inside, so that the patch of a load
 /// does not extend beyond the tip's corner.
@@ -287,8 +286,8 @@ impl ElasticGear {
     /// q = q_n/cos β_b,   z_n = z/(cos² β_b cos β), rounded
     /// ```
     /// q_n is the compliance of the gear with z_n teeth, the normal module and pressure angle, the
-    /// same heights and the same rim, under a load at the same height. The rounding of z_n keeps the
-    /// ratio of bore and root circle. The force on the transverse width is that on the length of the contact line, and the displacement in the transverse plane is
+    /// same heights and the same rim, under a load at the same height. The force on the transverse
+    /// width is that on the length of the contact line, and the displacement in the transverse plane is
     /// that along the normal over cos β_b.
     ///
     /// # Source
@@ -308,15 +307,11 @@ impl ElasticGear {
             return spur;
         }
         let (teeth, cosine) = (f64::from(gear.teeth), inputs.base_helix_angle().cos());
-        let (all, whole) = (inputs.virtual_teeth(gear), inputs.virtual_teeth(gear).round());
-        let reference = 0.5 * inputs.transverse_module() * teeth;
-        let [rise_of_all, rise] = [all, whole].map(|it| 0.5 * inputs.module * it - reference);
+        let virtual_teeth = inputs.virtual_teeth(gear).round();
+        let rise = 0.5 * (inputs.module * virtual_teeth - inputs.transverse_module() * teeth);
         let tip_chamfer = gear.tip_chamfer;
         let (addendum, dedendum) = (inputs.addendum_of(gear), inputs.dedendum_of(gear));
-        let (teeth, profile_shift) = (whole as u32, gear.profile_shift);
-        let root = reference + inputs.module * (profile_shift - dedendum);
-        // A small bore stays small.
-        let bore_of_all = bore_radius + hold(bore_radius / root) * rise_of_all;
+        let (teeth, profile_shift) = (virtual_teeth as u32, gear.profile_shift);
         ElasticGear {
             rack: Rack {
                 module: inputs.module,
@@ -336,7 +331,7 @@ impl ElasticGear {
                 tip_chamfer,
                 tip_radius: None,
             },
-            bore_radius: bore_of_all * (root + rise) / (root + rise_of_all),
+            bore_radius: if bore_radius > 0.0 { bore_radius + rise } else { 0.0 },
             oblique: cosine.recip(),
             rise,
             ..spur
@@ -494,13 +489,6 @@ fn folded(element: usize, mesh: &Mesh) -> FieldRefusal {
 /// Two ratios r_f/r_h from which the field of a smaller bore is extrapolated.
 const RATIOS: [f64; 2] = [5.0, 7.0];
 
-/// The part of the body's shift that a bore of this ratio r_h/r_f determines: 7 r_h/r_f, up to 1. The
-/// shift of a body that is held at its bore grows without limit as the bore becomes small; a gear
-/// without a bore is one piece with its shaft, and its shift is that of the shaft.
-pub fn hold(ratio: f64) -> f64 {
-    (RATIOS[1] * ratio).min(1.0)
-}
-
 /// Whether the field of a bore in modules is extrapolated from larger bores.
 fn is_extrapolated(bore: f64, boundary: &Boundary) -> bool {
     bore * RATIOS[1] < boundary.root
@@ -510,8 +498,7 @@ fn is_extrapolated(bore: f64, boundary: &Boundary) -> bool {
 /// shift.
 ///
 /// A small bore affects the field only by twist and shift, up to the square of its radius. Its
-/// field is extrapolated from two larger bores, because the twist would be most of the result, with
-/// the [part](hold) of the shift at the smaller one.
+/// field is extrapolated from two larger bores, because the twist would be most of the result.
 fn without_twist(
     input: &FieldInput,
     boundary: &Boundary,
@@ -532,8 +519,7 @@ fn without_twist(
         *value += share * (*far - *value);
     }
     if bore > 0.0 {
-        let part = hold(bore / boundary.root);
-        add_shift(&mut values, &loads, input, part * RATIOS[1].ln());
+        add_shift(&mut values, &loads, input, (boundary.root / bore).ln());
     }
     Ok((loads, values))
 }

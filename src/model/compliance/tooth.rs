@@ -306,39 +306,6 @@ mod tests {
         }
     }
 
-    /// The compliance of the driver's tooth at mid height with a bore of a part of the root radius.
-    fn compliance(model: ToothCompliance, helix_angle: f64, part: f64) -> f64 {
-        let mut inputs = Inputs { helix_angle, ..standard_pair(20, 30, 5e-3) };
-        let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
-        inputs.driver.bore_radius = part * circles.root;
-        let tooth = Tooth::of(model, &inputs.elasticity().driver, &circles).unwrap();
-        tooth.at(circles.reference).unwrap()
-    }
-
-    #[test]
-    fn a_gear_without_a_bore_is_the_limit_of_small_bores() {
-        for model in [ToothCompliance::BEAM, ToothCompliance::FINITE_ELEMENT] {
-            for helix_angle in [0.0, 0.02, 0.3] {
-                let at = |part| compliance(model, helix_angle, part);
-                let change = |part: f64, other: f64| (at(part) / at(other) - 1.0).abs();
-                assert!(change(1e-5, 0.0) < 1e-4, "{} {helix_angle}", model.name());
-                assert!(change(0.999_99 / 7.0, 1.000_01 / 7.0) < 1e-3, "{helix_angle}");
-            }
-        }
-    }
-
-    #[test]
-    fn rounding_of_the_virtual_teeth_keeps_the_support_of_the_body() {
-        let inputs = |helix_angle| Inputs { helix_angle, ..standard_pair(20, 30, 5e-3) };
-        let teeth = |angle| inputs(angle).virtual_teeth(&inputs(angle).driver);
-        let step = crate::numeric::root::between(0.1, 0.3, |angle| teeth(angle) - 21.5);
-        for part in [0.0, 0.3, 0.6] {
-            let of = |angle| compliance(ToothCompliance::FINITE_ELEMENT, angle, part);
-            let jump = of(step + 1e-9) / of(step - 1e-9) - 1.0;
-            assert!(jump.abs() < 1e-2, "{part}: {jump}");
-        }
-    }
-
     #[test]
     fn every_pair_is_covered_by_a_model() {
         for teeth in [5, 12, 20, 100, 1000] {

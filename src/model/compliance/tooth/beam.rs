@@ -253,7 +253,7 @@ impl Foundation {
 /// ```text
 /// q_f E = (1 − ν²)/0.91 cos² a1 (L (u/S)² + M (u/S) + P (1 + Q tan² a1)) − q_T − q_V,
 /// X = A/θ² + B h² + C h/θ + D/θ + E h + F,   q_T = r_b² (1 + ν)/(2π) (1/r_h² − 1/r_f²),
-/// q_V = (3 − 4ν)(1 + ν)/(4π (1 − ν)) ln h without a bore, 0 from r_h = r_f/7
+/// q_V = (3 − 4ν)(1 + ν)/(4π (1 − ν)) ln h without a bore, else 0
 /// ```
 /// q_T is the twist of the body about its bore, which belongs to the shaft, and q_V the shift of
 /// the body. u is the distance from the root circle to the line of force along the centre line. S =
@@ -266,7 +266,7 @@ impl Foundation {
 ///
 /// # Valid for
 /// h = 1.4..7 and θ = 0.01..0.12. Outside, L, M, P, Q and q_T use the nearest value of the range. A
-/// gear without a bore uses h = 3, and a bore below r_f/7 the line between both.
+/// gear without a bore uses h = 3.
 fn foundation(profile: &Profile, gear: &ElasticGear, circles: &Circles, angle: f64) -> f64 {
     const L: [f64; 6] = [-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045];
     const M: [f64; 6] = [60.111e-5, 28.100e-3, -83.431e-4, -9.9256e-3, 0.1624, 0.9086];
@@ -274,22 +274,18 @@ fn foundation(profile: &Profile, gear: &ElasticGear, circles: &Circles, angle: f
     const Q: [f64; 6] = [-6.2042e-5, 9.0889e-3, -4.0964e-4, 7.8297e-3, -0.1472, 0.6904];
     let (sine, cosine) = angle.sin_cos();
     let half_angle = profile.root_half_angle();
+    let held_at = if gear.bore_radius > 0.0 { gear.bore_radius } else { circles.root / SOLID_BODY };
+    let ratio = (circles.root / held_at).clamp(FOUNDATION_BODY.0, FOUNDATION_BODY.1);
     let theta = half_angle.clamp(FOUNDATION_ANGLE.0, FOUNDATION_ANGLE.1);
+    let [l, m, p, q] = [L, M, P, Q].map(|[a, b, c, d, e, f]| {
+        a / (theta * theta) + b * ratio * ratio + c * ratio / theta + d / theta + e * ratio + f
+    });
     let arm = (circles.base / cosine - circles.root) / (2.0 * half_angle * circles.root);
-    let held = |ratio: f64| {
-        let [l, m, p, q] = [L, M, P, Q].map(|[a, b, c, d, e, f]| {
-            a / (theta * theta) + b * ratio * ratio + c * ratio / theta + d / theta + e * ratio + f
-        });
-        let held = cosine * cosine * (l * arm * arm + m * arm + p) + p * q * sine * sine;
-        let bore = circles.root / ratio;
-        let twist = field::body_twist(circles.base, circles.root, bore, gear.poisson);
-        plane_strain(gear.poisson) / plane_strain(FOUNDATION_POISSON) * held - twist
-    };
-    let (from, to) = FOUNDATION_BODY;
-    let bored = || held((circles.root / gear.bore_radius).clamp(from, to));
-    let solid = || held(SOLID_BODY) - field::body_shift(gear.poisson) * SOLID_BODY.ln();
-    let part = field::hold(gear.bore_radius / circles.root);
-    if part < 1.0 { solid() + part * (bored() - solid()) } else { bored() }
+    let held = cosine * cosine * (l * arm * arm + m * arm + p) + p * q * sine * sine;
+    let twist = field::body_twist(circles.base, circles.root, circles.root / ratio, gear.poisson);
+    let shift =
+        if gear.bore_radius > 0.0 { 0.0 } else { field::body_shift(gear.poisson) * ratio.ln() };
+    plane_strain(gear.poisson) / plane_strain(FOUNDATION_POISSON) * held - twist - shift
 }
 
 #[cfg(test)]
