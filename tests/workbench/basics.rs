@@ -397,7 +397,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
     // It is waited for no more.
     assert!(!stopped.tab.answer.expect("an answer").lacks(Stage::Clearing));
     desk.show(whole);
-    desk.assert_shows("40.1 um of tip relief on the driven").lacks(&["being"]);
+    desk.assert_shows("40.1 um of").lacks(&["being"]);
 }
 
 #[test]
