@@ -247,8 +247,9 @@ fn brackets(known: &[Sample]) -> impl Iterator<Item = Bracket> {
 
 /// The range about a sample of a smooth part. `None` if a neighbour is above it.
 fn bracket(part: &[Sample], index: usize) -> Option<Bracket> {
-    /// Of a second difference. A parabola rises above its best sample by at most an eighth.
-    const RISE: f64 = 0.5;
+    /// Of a second difference. Above its best sample a parabola rises by at most an eighth of it, two lines
+    /// that meet between samples by less than the whole.
+    const RISE: f64 = 1.0;
     let best = part[index];
     let before = index.checked_sub(1).map_or(best, |before| part[before]);
     let after = part.get(index + 1).copied().unwrap_or(best);
