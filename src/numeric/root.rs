@@ -127,7 +127,7 @@ impl Bracket {
         /// Of the rise of a parabola.
         const SAFETY: f64 = 4.0;
         let least = least * self.width();
-        if self.is_at_best(at) {
+        if self.is_at_best(flat, at) {
             return self.best;
         }
         let (mut step, mut earlier) = (self.width(), self.width());
@@ -158,15 +158,19 @@ impl Bracket {
     }
 
     /// Whether the best sample is the peak itself: an end of the range, or a bend. Narrows the
-    /// range.
-    fn is_at_best(&mut self, at: &impl Fn(f64) -> f64) -> bool {
+    /// range. Values that differ by less than a tenth of their tolerance do not decide.
+    fn is_at_best(&mut self, flat: f64, at: &impl Fn(f64) -> f64) -> bool {
         const NEAR: f64 = 1e-5;
-        let peak = self.best.0;
+        let (peak, noise) = (self.best.0, 0.1 * flat * self.best.1.abs());
         for _ in 0..2 {
             for end in [self.from, self.to] {
                 let place = peak + NEAR * (end - peak);
                 if place.to_bits() != peak.to_bits() {
-                    self.add((place, at(place)));
+                    let value = at(place);
+                    if (value - self.best.1).abs() < noise {
+                        return false;
+                    }
+                    self.add((place, value));
                 }
                 if self.best.0.to_bits() != peak.to_bits() {
                     return false;
