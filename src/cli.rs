@@ -575,7 +575,7 @@ impl Failure {
     }
 
     /// Wrong usage, with the reason.
-    fn usage(line: String) -> Failure {
+    fn usage(line: impl fmt::Display) -> Failure {
         Failure::new(Exit::Usage, format!("error: {line}"))
     }
 

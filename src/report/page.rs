@@ -376,8 +376,10 @@ fn inputs(cases: &[PageCase]) -> Table {
     Table::new("", columns("input", titles(cases))).with(rows.chain(begins))
 }
 
+type PlaceOf = fn(&Begin) -> f64;
+
 /// Where a tip relief begins: label, symbol, unit and place.
-const BEGINS: [(&str, &str, &str, fn(&Begin) -> f64); 2] = [
+const BEGINS: [(&str, &str, &str, PlaceOf); 2] = [
     ("tip relief begins at roll angle", "ξ1 / ξ2", "deg", |at| at.roll_angle.to_degrees()),
     ("tip relief begins at diameter", "dCa1 / dCa2", "mm", |at| at.diameter * 1e3),
 ];

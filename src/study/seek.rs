@@ -279,7 +279,7 @@ pub fn seek(
     inputs: &Inputs,
     range: &AxisRange,
     condition: &Condition,
-    scan: Axis,
+    scan: &Axis,
     control: &Control,
 ) -> Result<Found, Stopped> {
     let quantities = condition.quantities();

@@ -114,7 +114,7 @@ fn sought(inputs: &Inputs, range: &str, condition: &str) -> Found {
     let range = AxisRange::parse(range).unwrap();
     let condition = Condition::parse(condition).unwrap();
     let scan = range.axis(Sampling { points: Some(41), is_log: false }).unwrap();
-    seek(inputs, &range, &condition, scan, &Control::PLAIN).unwrap()
+    seek(inputs, &range, &condition, &scan, &Control::PLAIN).unwrap()
 }
 
 #[test]
