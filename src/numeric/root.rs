@@ -131,18 +131,19 @@ impl Bracket {
             return self.best;
         }
         let (mut step, mut earlier) = (self.width(), self.width());
+        let mut was_flat = false;
         for _ in 0..STEPS {
             if self.width() <= 4.0 * least || self.is_flat() {
                 break;
             }
             let top = self.top();
-            let is_done = |(_, rise): (f64, f64)| {
-                let rise = SAFETY * rise;
-                self.best.1 + rise < least_value || rise < flat * self.best.1.abs()
-            };
-            if top.is_some_and(is_done) {
+            let rise = top.map_or(f64::INFINITY, |(_, rise)| SAFETY * rise);
+            // The parabola may hide a bend: the next one must be as flat.
+            let is_flat = rise < flat * self.best.1.abs();
+            if self.best.1 + rise < least_value || is_flat && was_flat {
                 break;
             }
+            was_flat = is_flat;
             let next = top.map(|(step, _)| step);
             let next = next.filter(|next| next.abs() < 0.5 * earlier.abs());
             let next = next.unwrap_or_else(|| {
