@@ -417,7 +417,8 @@ impl Case {
         }
         let batch = Batch { inputs: &inputs, points: &grid, quantities: &quantities };
         let (rows, notes) = solved(py, &batch, jobs, progress)?;
-        Ok((columns(py, &table(&grid, &quantities, 0, &rows))?, notes))
+        let points = (&grid as &dyn Points, &grid.methods(&inputs)[..]);
+        Ok((columns(py, &table(points, &quantities, 0, &rows))?, notes))
     }
 
     #[expect(clippy::too_many_arguments, reason = "the options of the command")]
@@ -446,6 +447,7 @@ impl Case {
         let report =
             ToleranceReport { case, method: inputs.method, study: &study, samples: &found };
         let (_, json, text, _) = self.found(py, &report)?;
+        let points = (points as &dyn Points, &[inputs.method][..]);
         Ok((columns(py, &table(points, quantities, 0, &rows))?, json, text, notes))
     }
 

@@ -4,7 +4,7 @@ use super::{Case, Limit, Spread};
 use crate::case::fields::{
     AUTO, Absent, FIELDS, Field, Kind, List, Range, Value, index_of, key_of,
 };
-use crate::case::sanitize::{cut, quoted, sanitize, spelled, suggestion};
+use crate::case::sanitize::{cut, nearest, quoted, sanitize, spelled, suggestion};
 use crate::case::units::{self, Dimension};
 use crate::model::inputs::{Gear, Method, ToothCompliance};
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
@@ -599,43 +599,71 @@ pub fn unknown_key(key: &str) -> Problem {
 /// # Errors
 /// The refusal of an unknown name.
 pub fn quantity(field: &str, name: &str) -> Result<&'static Quantity, Problem> {
-    let plain = |text: &str| text.trim().replace('_', "").replace("epsilon", "eps");
+    named(name).map_err(|_| unknown_quantity(field, name))
+}
+
+/// The quantity of a key or symbol; otherwise the one of a symbol in other letters.
+fn named(name: &str) -> Result<&'static Quantity, Option<&'static Quantity>> {
+    let name = name.trim();
+    let plain = |text: &str| text.replace('_', "").replace("epsilon", "eps");
     let initial = |letter: char| spelled(&letter.to_string()).chars().next();
     let is_spelled = |known: &&Quantity| {
         let initials = known.symbol.chars().filter_map(initial).collect::<String>();
         [spelled(known.symbol), initials].iter().any(|symbol| plain(symbol) == plain(name))
     };
+    let is_symbol = |known: &&Quantity| !name.is_empty() && known.symbol.eq_ignore_ascii_case(name);
     let mut spelled = QUANTITIES.iter().filter(is_spelled);
-    Quantity::named(name.trim())
+    Quantity::named(name)
         .or_else(|| spelled.next().filter(|_| spelled.next().is_none()))
-        .ok_or_else(|| unknown_quantity(field, name))
+        .ok_or_else(|| QUANTITIES.iter().find(is_symbol))
 }
 
-/// The refusal of a limit on a quantity that does not exist.
-pub(super) fn unknown_quantity(field: &str, quantity: &str) -> Problem {
-    let name = quantity.trim();
+/// The refusal of a name that is no key of a quantity, with the quantities that it may mean.
+pub(super) fn unknown_quantity(field: &str, written: &str) -> Problem {
+    let name = written.trim();
+    let is = |what: &str, fix: &str| {
+        Problem::new(field, format!("{} is {what}", quoted(written)), fix.to_owned())
+    };
     let unknown =
-        |fix: String| Problem::new(field, format!("unknown quantity {}", quoted(quantity)), fix);
+        |fix: String| Problem::new(field, format!("unknown quantity {}", quoted(written)), fix);
     let is_field = |known: &&Field| [known.key, known.name(), known.symbol].contains(&name);
-    let is_symbol = |known: &&Quantity| !name.is_empty() && known.symbol.eq_ignore_ascii_case(name);
-    match QUANTITIES.iter().find(is_symbol) {
-        Some(known) if known.symbol == name => {
-            let cause = format!("{} is the symbol of {}", quoted(quantity), known.key);
-            Problem::new(field, cause, format!("write {}", known.key))
-        }
-        Some(known) => unknown(format!("did you mean {}, {}?", known.symbol, known.key)),
-        None if name.is_empty() => Problem::new(
-            field,
-            "no quantity is named",
-            "write names with commas between them, such as impact_force,contact_ratio",
-        ),
-        None if name.contains(' ') => unknown("put commas between names".to_owned()),
-        None if let Some(known) = FIELDS.iter().find(is_field) => {
-            let cause = format!("{} is the field {}", quoted(quantity), known.key);
-            Problem::new(field, cause, "name a result; `tipstrike fields --results` lists them")
-        }
-        None => unknown(suggestion(quantity, QUANTITIES.iter().map(|known| known.key), || {
-            "`tipstrike fields --results` lists every quantity".to_owned()
-        })),
+    let near = match named(name) {
+        Ok(known) => return is(&format!("the symbol of {}", known.key), &format!("write {}", known.key)),
+        Err(Some(known)) => return unknown(format!("did you mean {}, {}?", known.symbol, known.key)),
+        Err(None) => nearest(name, QUANTITIES.iter().map(|known| known.key)),
+    };
+    if name.is_empty() {
+        let fix = "write names with commas between them, such as impact_force,contact_ratio";
+        return Problem::new(field, "no quantity is named", fix);
     }
+    if let Some(known) = FIELDS.iter().find(is_field) {
+        let what = format!("the field {}", known.key);
+        return is(&what, "name a result; `tipstrike fields --results` lists them");
+    }
+    if ["outcome", "exit_outcome"].contains(&name) {
+        return is("no number", &format!("as a condition write {name}=no-corner-contact"));
+    }
+    // Two letters are a misprint; more can be another name in the same words.
+    let is_misprint = |near: &&str| strsim::damerau_levenshtein(name, near) <= 2;
+    let words = if near.is_some_and(|near| is_misprint(&near)) { Vec::new() } else { by_words(name) };
+    let meant = if words.is_empty() { near.into_iter().collect() } else { words };
+    unknown(match &meant[..] {
+        _ if name.contains(' ') => "put commas between names".to_owned(),
+        [] => "`tipstrike fields --results` lists every quantity".to_owned(),
+        meant => format!("did you mean {}?", meant.join(" or ")),
+    })
+}
+
+/// The keys of the first quantities with every word of a name in their key, label or meaning.
+fn by_words(name: &str) -> Vec<&'static str> {
+    const MOST: usize = 3;
+    let has_words = |known: &&Quantity| {
+        let text = [known.key, known.label, known.meaning].join(" ");
+        let is_in = |word: &str| {
+            let mut words = text.split(|c: char| !c.is_alphanumeric());
+            words.any(|own| own.eq_ignore_ascii_case(word))
+        };
+        name.split(['_', '-']).all(is_in)
+    };
+    QUANTITIES.iter().filter(has_words).map(|known| known.key).take(MOST).collect()
 }

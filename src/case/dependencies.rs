@@ -31,11 +31,12 @@ pub struct Step {
 /// quantity reads and whose change alters `own`, the value of the quantity with these inputs. A
 /// flag, a quantity without a value, and a quantity over the face width depend on every field that
 /// these stages read: a trial of the slices takes too long to try several values of every field.
+/// `go_on` receives the number of tried fields and of all, and ends the trials by returning false.
 pub fn fields_of(
     quantity: &Quantity,
     case: &Case,
-    inputs: &Inputs,
-    own: Option<f64>,
+    (inputs, own): (&Inputs, Option<f64>),
+    go_on: &dyn Fn(usize, usize) -> bool,
 ) -> Vec<Dependence> {
     let behind = Stages::of(quantity.stage);
     let is_behind = |&field: &usize| stages_of(field, inputs).within(behind) != Stages::NONE;
@@ -64,7 +65,9 @@ pub fn fields_of(
         moves.then_some(Dependence { field, step })
     };
     let fields = (0..FIELDS.len()).filter(|&field| !case.is_replaced(field));
-    fields.filter(is_behind).filter_map(dependence).collect()
+    let fields: Vec<usize> = fields.filter(is_behind).collect();
+    let tried = fields.iter().enumerate().take_while(|(at, _)| go_on(*at, fields.len()));
+    tried.filter_map(|(_, &field)| dependence(field)).collect()
 }
 
 /// The pair that the trials change, and its solution, whose stages they use again.

@@ -54,19 +54,27 @@ impl Spread {
     /// If the field cannot have a distribution, the shape is unknown, or the width is not a value
     /// of the field's dimension.
     pub fn new(key: &str, text: &str) -> Result<Spread, Problem> {
-        Spread::read(key, text).map_err(|problem| problem.at(&place(key)))
+        Spread::read(key, text).map_err(|mut problems| problems.swap_remove(0))
     }
 
-    fn read(key: &str, text: &str) -> Result<Spread, Problem> {
-        let (field, dimension) = spreadable(key)?;
+    /// The same with every problem, of which there is one at least.
+    pub(super) fn read(key: &str, text: &str) -> Result<Spread, Vec<Problem>> {
+        let at = |problem: Problem| problem.at(&place(key));
+        let (field, dimension) = spreadable(key).map_err(|problem| vec![at(problem)])?;
         let (shape, written) = parts(text);
-        let shape = named(shape)?;
-        let width = if shape == Shape::Grade {
-            grade(field, written)?
-        } else {
-            width(dimension, field, written)?
+        let (shape, is_bare) = (named(shape), written.trim().parse::<f64>().is_ok());
+        let width = match shape {
+            Ok(Shape::Grade) => grade(field, written),
+            // It may be a grade.
+            Err(_) if is_bare => Ok(0.0),
+            _ => width(dimension, field, written),
         };
-        Ok(Spread { field: field.key, text: text.to_owned(), shape, width })
+        match (shape, width) {
+            (Ok(shape), Ok(width)) => {
+                Ok(Spread { field: field.key, text: text.to_owned(), shape, width })
+            }
+            (shape, width) => Err(shape.err().into_iter().chain(width.err()).map(at).collect()),
+        }
     }
 
     /// The width as the user wrote it.
@@ -163,7 +171,7 @@ pub(super) fn place(key: &str) -> String {
     format!("{PREFIX}\"{key}\"")
 }
 
-fn named(name: &str) -> Result<Shape, Problem> {
+pub(super) fn named(name: &str) -> Result<Shape, Problem> {
     Shape::ALL.into_iter().find(|shape| shape.name() == name).ok_or_else(|| {
         let known = Shape::ALL.into_iter().map(Shape::name);
         let all: Vec<&str> = known.clone().collect();

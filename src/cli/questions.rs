@@ -106,8 +106,8 @@ pub struct Seek {
     /// The field and its range, such as 'deviations.base_pitch=0..40 um'
     #[arg(long, value_name = "KEY=FROM..TO")]
     pub vary: String,
-    /// The condition, such as 'impact_force<=2500 N', 'dynamic_contact_lost=true' or
-    /// 'outcome=no-corner-contact'
+    /// The condition, such as 'impact_force<=2500 N', 'dynamic_contact_lost=true',
+    /// 'outcome=no-corner-contact' or, at the end of contact, 'exit_outcome=no-corner-contact'
     #[arg(long, value_name = "CONDITION")]
     pub until: String,
     /// Number of points of the first scan; a finer scan finds narrower regions
@@ -145,9 +145,7 @@ impl Question for Seek {
 
     fn answer(&self, inputs: &Inputs, go_on: &dyn Fn(usize, usize) -> bool) -> Answer {
         let (range, condition) = self.parsed()?;
-        let inputs = inputs
-            .clone()
-            .needing(condition.quantities().into_iter().map(|quantity| quantity.stage));
+        let inputs = inputs.clone().needing(condition.stages());
         condition.check(inputs.method).map_err(|problem| self.wrong_condition(problem))?;
         let scan = range.axis(Sampling { points: Some(self.points), is_log: false });
         let scan = scan.map_err(|problem| self.wrong_range(problem))?;

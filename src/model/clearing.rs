@@ -10,9 +10,10 @@ use super::inputs::{Inputs, Method};
 use super::mesh::MeshInputs;
 use super::mesh::build::Meshes;
 use super::position::printed_relief_to_clear;
+use super::relief::Reliefs;
 use super::slices::{self, Face};
-use super::static_load::{lead_before_start, places_before_start};
-use super::{Outcome, Refusal, Solution};
+use super::static_load::{lead_after_end, lead_before_start, places_before_start};
+use super::{Outcome, Refusal, Solution, Stage};
 
 /// Limit of the search, relative to the sum of deflection, deviation and given relief.
 const MOST: f64 = 8.0;
@@ -27,6 +28,9 @@ pub struct Clearing {
     pub relief: Option<f64>,
     /// The reason why the relief of a tooth with contact is unknown.
     pub withheld: Option<Refusal>,
+    /// Given and required additional tip relief of the driver, in m, with which its tip does not touch
+    /// after B at rest. `None` without contact there, or if the relief is unknown.
+    pub at_exit: Option<(f64, f64)>,
     /// Number of balances or motions solved.
     pub runs: u32,
     /// Work of the search, in units of the [budget](super::budget).
@@ -44,7 +48,7 @@ pub struct Clearing {
 /// dynamic:  C with max over t ≤ 0 of x(t) + e − S(t) = 0
 /// ```
 /// x is the displacement by the other pairs, in static balance or in the motion without the
-/// incoming tooth. S includes the reliefs of both flanks, with C along its whole length. Relief on
+/// incoming tooth. The relief of the driver follows from the same balance over s ≥ B. S includes the reliefs of both flanks, with C along its whole length. Relief on
 /// the pair ahead at F makes the incoming tooth earlier, and each base pitch excites the mesh
 /// differently.
 ///
@@ -64,7 +68,7 @@ pub fn clearing(
     solution: &Solution,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Clearing, Refusal> {
-    let search = Search { meter: Meter::new(SEARCH_WORK), tries: RefCell::default() };
+    let search = Search::new(false);
     let given = inputs.driven.tip_relief;
     let found = match (solution.outcome, inputs.method) {
         (Outcome::NoCornerContact, _) => Ok(None),
@@ -81,7 +85,14 @@ pub fn clearing(
         Err(Refusal::Stopped) => return Err(Refusal::Stopped),
         Err(refusal) => (None, Some(refusal)),
     };
-    Ok(Clearing { given, relief, withheld, runs: search.runs(), work: search.meter.spent() })
+    let at_exit = inputs.method.shares_load().then(|| {
+        Search::new(true).least(&inputs.mesh(), None, inputs.face(), solution, go_on).ok()
+    });
+    let at_exit = at_exit.flatten().filter(|relief| *relief > 0.0);
+    let of_driver = inputs.driver.tip_relief;
+    let at_exit = at_exit.map(|relief| (of_driver, enough(relief, of_driver)));
+    let (runs, work) = (search.runs(), search.meter.spent());
+    Ok(Clearing { given, relief, withheld, at_exit, runs, work })
 }
 
 /// The relief, rounded up so far that the sum with the given relief is enough after its conversion
@@ -92,11 +103,17 @@ fn enough(relief: f64, given: f64) -> f64 {
 
 /// The tested reliefs and the work of the search.
 struct Search {
+    /// Whether the driver's tip after B is searched in place of the driven tip before E.
+    at_exit: bool,
     meter: Meter,
     tries: RefCell<Vec<Tried>>,
 }
 
 impl Search {
+    fn new(at_exit: bool) -> Search {
+        Search { at_exit, meter: Meter::new(SEARCH_WORK), tries: RefCell::default() }
+    }
+
     /// The least additional relief, in m, by the static balance or by a motion.
     fn least(
         &self,
@@ -110,7 +127,7 @@ impl Search {
             if self.runs() >= SEARCH_TRIES || !self.meter.spend(0) {
                 return Err(self.ended(motion.is_some()));
             }
-            let tried = relieved(relief, (mesh, motion, face), solution, &self.meter, go_on);
+            let tried = self.relieved(relief, (mesh, motion, face), solution, go_on);
             if let Ok(tried) = tried {
                 self.tries.borrow_mut().push(tried);
             }
@@ -122,10 +139,41 @@ impl Search {
             })
         };
         let deviation = &solution.deviation;
-        let size = deviation.loaded_deflection()
-            + deviation.equivalent_error.abs()
-            + mesh.reliefs.driven.tip;
+        let reliefs = &mesh.reliefs;
+        let given = if self.at_exit { reliefs.driver.tip } else { reliefs.driven.tip };
+        let size = deviation.loaded_deflection() + deviation.equivalent_error.abs() + given;
         least(&tried, motion.is_none(), MOST * size)
+    }
+
+    /// The lead of the incoming tooth with `relief` more tip relief, in m, in static balance or in
+    /// motion.
+    fn relieved(
+        &self,
+        relief: f64,
+        (mesh, motion, face): (&MeshInputs, Option<&Settings>, Option<FaceInputs>),
+        solution: &Solution,
+        go_on: &dyn Fn(f64) -> bool,
+    ) -> Result<Tried, Refusal> {
+        let mut relieved = *mesh;
+        let Reliefs { driver, driven } = &mut relieved.reliefs;
+        (if self.at_exit { driver } else { driven }).tip += relief;
+        Meshes::new(&relieved, solution, solution.mesh.as_ref(), None).find(|mesh| {
+            let meter = &self.meter;
+            meter.spend(mesh.work());
+            let at_rest = |lead: f64| Approach { lead, contact_lost: false };
+            let over_face = face.map(|face| Face::new(&face, &solution.geometry, mesh)).transpose()?;
+            let Approach { lead, contact_lost } = match (over_face, motion) {
+                (Some(face), Some(motion)) => slices::motion::approach(&face, motion, go_on)?,
+                (Some(face), None) => at_rest(face.lead_at_rest(self.at_exit)?),
+                (None, Some(motion)) => approach(mesh, motion, meter, go_on)?,
+                (None, None) => {
+                    meter.spend(places_before_start(mesh));
+                    let lead = if self.at_exit { lead_after_end } else { lead_before_start };
+                    at_rest(lead(mesh)?)
+                }
+            };
+            Ok(Tried { relief, lead, contact_lost })
+        })
     }
 
     fn runs(&self) -> u32 {
@@ -147,34 +195,6 @@ impl Search {
             clear: clear.map(|tried| tried.relief).reduce(f64::min),
         }
     }
-}
-
-/// The lead of the incoming tooth with `relief` more tip relief, in m, in static balance or in
-/// motion.
-fn relieved(
-    relief: f64,
-    (mesh, motion, face): (&MeshInputs, Option<&Settings>, Option<FaceInputs>),
-    solution: &Solution,
-    meter: &Meter,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Result<Tried, Refusal> {
-    let mut relieved = *mesh;
-    relieved.reliefs.driven.tip += relief;
-    Meshes::new(&relieved, solution, solution.mesh.as_ref(), None).find(|mesh| {
-        meter.spend(mesh.work());
-        let at_rest = |lead: f64| Approach { lead, contact_lost: false };
-        let over_face = face.map(|face| Face::new(&face, &solution.geometry, mesh)).transpose()?;
-        let Approach { lead, contact_lost } = match (over_face, motion) {
-            (Some(face), Some(motion)) => slices::motion::approach(&face, motion, go_on)?,
-            (Some(face), None) => at_rest(face.lead_at_rest()?),
-            (None, Some(motion)) => approach(mesh, motion, meter, go_on)?,
-            (None, None) => {
-                meter.spend(places_before_start(mesh));
-                at_rest(lead_before_start(mesh)?)
-            }
-        };
-        Ok(Tried { relief, lead, contact_lost })
-    })
 }
 
 /// Larger reliefs, relative to the result, that the search tests for contact.
@@ -285,9 +305,10 @@ impl Solution {
     /// Whether the driver's tip touches after B, by the load at rest or the motion of the method; `None`
     /// if its stage did not run.
     pub fn exit_outcome(&self) -> Option<Outcome> {
-        let last = match self.method {
-            Method::Static => self.static_load.as_ref()?.last_contact_angle,
-            Method::Dynamic => self.dynamic.as_ref()?.last_contact_angle,
+        let solution = self.having(Stage::Static);
+        let last = match solution.method {
+            Method::Static => solution.static_load.as_ref()?.last_contact_angle,
+            Method::Dynamic => solution.dynamic.as_ref()?.last_contact_angle,
             Method::Paper | Method::Exact | Method::Auto => return None,
         };
         Some(if last.is_some() { Outcome::CornerContact } else { Outcome::NoCornerContact })

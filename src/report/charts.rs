@@ -195,7 +195,8 @@ pub fn graph_chart(graph: &Graph, cases: &[NamedCase]) -> Result<Chart, String> 
         None => stations_chart(graph, cases)?,
     };
     graph.label.clone_into(&mut chart.title);
-    chart.across = Axis::new("driver roll angle after E", "deg");
+    let middle = if chart.marks.len() > 2 { " in mid-face" } else { "" };
+    chart.across = Axis::new(format!("driver roll angle after E{middle}"), "deg");
     Ok(chart)
 }
 
@@ -225,7 +226,7 @@ fn stations_chart<'a>(graph: &Graph, cases: &[NamedCase<'a>]) -> Result<Chart, S
         series.extend(line(first, Kind::Bound).map(|(_, bound)| bound));
     }
     let up = axis_of(graph, column);
-    Ok(Chart { up, series, marks: marks(&first.solution), ..Chart::default() })
+    Ok(Chart { up, series, marks: marks(first), ..Chart::default() })
 }
 
 fn axis_of(graph: &Graph, column: &Column) -> Axis {
@@ -273,8 +274,17 @@ fn stiffness(column: &Column, cases: &[NamedCase]) -> Result<Vec<Series>, String
     if series.is_empty() { Err(none()) } else { Ok(series) }
 }
 
-/// Marks at E and at the first contact D.
-fn marks(solution: &Solution) -> Vec<(f64, &'static str)> {
+/// Marks at E and at the first contact D; of a helical pair also at the E of both ends of the face.
+fn marks(Report { inputs, solution, .. }: &Report) -> Vec<(f64, &'static str)> {
+    if let Some(pattern) = Pattern::of(inputs, solution).filter(|own| own.face.lead != 0.0) {
+        let (first, end) = (pattern.load.first, 0.5 * pattern.face.width);
+        let start = first.path / pattern.radius - pattern.ahead(first.z);
+        let ends = [(end, "E z+"), (0.0, "E"), (-end, "E z-")];
+        let ends = ends.map(|(z, name)| (0.0 - pattern.ahead(z), name));
+        let start = (first.path < 0.0).then_some((start, "D"));
+        let marks = start.into_iter().chain(ends);
+        return marks.map(|(angle, name)| (angle.to_degrees(), name)).collect();
+    }
     let contact = contact_state::first_contact_of_driver(solution);
     let contact = contact.filter(|angle| *angle > 0.0);
     let contact = contact.map(|angle| (-angle.to_degrees(), "D"));

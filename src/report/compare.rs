@@ -36,6 +36,8 @@ pub struct ComparedCase {
     pub case: Case,
     /// The results, or the problems that prevent them.
     pub found: Result<Report, Vec<Problem>>,
+    /// The method that `auto` chooses for the case alone, if the comparison uses another one.
+    pub alone: Option<Method>,
 }
 
 /// Cases to compare; the differences refer to the first one.
@@ -65,9 +67,15 @@ impl ComparedCase {
         value(quantity, self.solution()?)
     }
 
-    /// The name with its method.
+    /// The name with its method, and why `solve` uses another one.
     fn named(&self) -> String {
-        let method = self.method().map(|method| format!(" ({method})"));
+        let method = self.method().map(|method| match self.alone {
+            Some(alone) => {
+                let alone = alone.name();
+                format!(" ({method} for equal columns; alone auto takes {alone}, as in solve)")
+            }
+            None => format!(" ({method})"),
+        });
         sanitize(&(self.name.clone() + &method.unwrap_or_default()))
     }
 
@@ -326,7 +334,7 @@ impl Comparison {
     }
 
     fn json_case(&self, at: usize) -> Json {
-        let ComparedCase { name, file, variant, case, found } = &self.cases[at];
+        let ComparedCase { name, file, variant, case, found, .. } = &self.cases[at];
         // The inputs that differ from those of the first case, as written.
         let inputs = between(&self.cases[0].case, case).into_iter();
         let inputs = inputs.filter(|change| !change.key.starts_with("variants."));

@@ -128,21 +128,25 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
     format!("Corner contact{angle}{forces}{}{exit}.", relief.unwrap_or_default())
 }
 
-/// The corner contact at the exit, if its force is clearly larger than the force at the entry; a
-/// sentence with its end and its remedy if there is none at the entry.
+/// The corner contact at the exit with its remedy, if its force is clearly larger than the force at the
+/// entry; a sentence of its own if there is none at the entry.
 fn at_exit(solution: &Solution, entry: f64, system: System) -> Option<String> {
     const LARGER: f64 = 1.05;
     let shown = |key| printed(key, solution, system);
     let is_larger = of("static_force_at_end", solution).is_some_and(|it| it > LARGER * entry);
     let found = shown("static_last_contact_angle").zip(shown("static_force_at_end"));
     let (angle, force) = found.filter(|_| is_larger)?;
+    let required = solution.clearing.and_then(|clearing| clearing.at_exit);
+    let required = required.map(|(given, more)| required(more, given, "driver", system));
     if solution.outcome == Outcome::CornerContact {
-        return Some(format!("; at the exit {force}"));
+        let required = required.map_or_else(String::new, |required| format!(", {required}"));
+        return Some(format!("; at the exit {force}{required}"));
     }
+    let required = required.unwrap_or("more tip relief on the driver prevents it".to_owned());
     let at_rest = if solution.method == Method::Dynamic { " at rest" } else { "" };
     Some(format!(
-        "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's tip; more \
-            tip relief on the driver prevents it"
+        "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's tip; \
+            {required}"
     ))
 }
 
@@ -218,23 +222,22 @@ const RELIEF_UNIT: &str = "um";
 
 /// The tip relief of the driven gear that prevents the contact, or that it is being computed; `None`
 /// without corner contact, or if it is unknown.
-pub fn relief(solution: &Solution, system: System, is_pending: bool) -> Option<String> {
+fn relief(solution: &Solution, system: System, is_pending: bool) -> Option<String> {
+    match of("clearing_relief", solution).zip(solution.clearing) {
+        Some((more, clearing)) => Some(required(more, clearing.given, "driven gear", system)),
+        None => is_pending.then(|| "tip relief that prevents it: being computed".to_owned()),
+    }
+}
+
+/// The additional tip relief of a gear that prevents a contact, in words.
+fn required(more: f64, given: f64, gear: &str, system: System) -> String {
     let unit = system.unit(RELIEF_UNIT);
-    let least = of("clearing_relief", solution).zip(solution.clearing);
-    let (given, [more, all]) = match least {
-        Some((least, clearing)) => (clearing.given, rounded_up(least, clearing.given, system)),
-        None if is_pending => {
-            return Some("tip relief that prevents it: being computed".to_owned());
-        }
-        None => return None,
-    };
-    Some(if given > 0.0 {
-        format!(
-            "{more} {unit} more tip relief on the driven gear, {all} {unit} in all, prevents it"
-        )
+    let [more, all] = rounded_up(more, given, system);
+    if given > 0.0 {
+        format!("{more} {unit} more tip relief on the {gear}, {all} {unit} in all, prevents it")
     } else {
-        format!("{more} {unit} of tip relief on the driven gear prevents it")
-    })
+        format!("{more} {unit} of tip relief on the {gear} prevents it")
+    }
 }
 
 /// The additional relief rounded up, and its sum with the given relief rounded up to the same digit.
@@ -363,7 +366,10 @@ mod tests {
         };
         let at_exit = of("0 um");
         assert!(at_exit.starts_with("Corner contact at the exit, until "), "{at_exit}");
-        assert!(at_exit.contains(" prevents it. None at the entry: the tip clears "), "{at_exit}");
+        assert!(
+            at_exit.contains(" um of tip relief on the driver prevents it. None at the entry: the tip"),
+            "{at_exit}"
+        );
         let relieved = of("80 um");
         assert!(relieved.starts_with("No corner contact: "), "{relieved}");
         assert!(!relieved.contains("exit"), "{relieved}");

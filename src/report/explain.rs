@@ -66,34 +66,15 @@ pub struct Page {
     pub effects: Vec<Effect>,
 }
 
-/// Explains a quantity of a solved case. The solution must include the stage of the quantity.
+/// Explains a quantity of a solved case. The solution must include the stage of the quantity. `go_on`
+/// receives the number of changed fields and of all fields behind the quantity; once it returns false,
+/// the page is without the accuracy and the effects of these changes.
 pub fn explain(
     quantity: &'static Quantity,
     case: &Case,
     inputs: &Inputs,
     solution: &Solution,
-) -> Page {
-    let solves = |known: &Known| (accuracy_of(quantity, known), effects_of(quantity, known));
-    page(quantity, case, inputs, solution, solves)
-}
-
-/// The explanation without accuracy and effects, which take further solves.
-#[must_use]
-pub fn derive(
-    quantity: &'static Quantity,
-    case: &Case,
-    inputs: &Inputs,
-    solution: &Solution,
-) -> Page {
-    page(quantity, case, inputs, solution, |_| (Vec::new(), Vec::new()))
-}
-
-fn page(
-    quantity: &'static Quantity,
-    case: &Case,
-    inputs: &Inputs,
-    solution: &Solution,
-    solves: impl Fn(&Known) -> (Vec<String>, Vec<Effect>),
+    go_on: &dyn Fn(usize, usize) -> bool,
 ) -> Page {
     let (chosen, solution) = (solution.method, solution.having(quantity.stage));
     let is_auto = inputs.method == Method::Auto;
@@ -102,7 +83,8 @@ fn page(
     let known = Known { case, context };
     let value = value(quantity, solution);
     let (derivation, leaves) = derivation::derivation_of(quantity, &known);
-    let (accuracy, effects) = solves(&known);
+    let accuracy = if go_on(0, FIELDS.len()) { accuracy_of(quantity, &known) } else { Vec::new() };
+    let effects = effects_of(quantity, &known, go_on);
     Page {
         quantity,
         symbol: quantity.symbol_in(solution.method),
@@ -304,10 +286,14 @@ pub struct Effect {
 
 /// The fields behind a quantity, in the order of the form. For method `auto`, the tolerance follows
 /// from `model.within`.
-fn effects_of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
+fn effects_of(
+    quantity: &Quantity,
+    known: &Known,
+    go_on: &dyn Fn(usize, usize) -> bool,
+) -> Vec<Effect> {
     // Every step would need a motion at every speed, and the greatest of them moves from speed to
     // speed.
-    if quantity.stage == Stage::SpeedRun {
+    if quantity.stage == Stage::SpeedRun || !go_on(0, FIELDS.len()) {
         return Vec::new();
     }
     // The change must exceed the error of the motion, and a step must not switch the stiffness
@@ -331,7 +317,7 @@ fn effects_of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
         }
     };
     let noise = noise(quantity, &fixed);
-    fields_of(quantity, known.case, &fixed, own)
+    fields_of(quantity, known.case, (&fixed, own), go_on)
         .into_iter()
         .filter_map(by_auto)
         .map(|dependence| effect(quantity, &dependence, known, own, noise))

@@ -13,12 +13,12 @@ use crate::model::{Inputs, Quantity};
 use crate::report::charts::NamedCase;
 use crate::report::charts::{PATTERN, Picture, find, pictures};
 use crate::report::compare::{ComparedCase, Comparison};
-use crate::report::relief::RELIEF;
+use crate::report::relief::{BEGINS, RELIEF};
 use crate::report::solve::Subject;
 use crate::report::table::{Cell, Column, Table};
 use crate::report::tolerance::{distributions, probabilities, samples as samples_of};
 use crate::report::verdict::verdicts;
-use crate::study::relief::{Begin, TipReliefs};
+use crate::study::relief::TipReliefs;
 use crate::study::seek::distinct;
 use crate::study::shard::Format;
 use crate::study::statistics::PERCENTILES;
@@ -370,19 +370,11 @@ fn inputs(cases: &[PageCase]) -> Table {
             };
             Cell::Default(format!("{} / {} {unit}", text(0), text(1)))
         };
-        let names = [*label, *symbol].map(Cell::from);
+        let names = [format!("tip relief {label}"), (*symbol).to_owned()].map(Cell::from);
         names.into_iter().chain(cases.iter().map(of)).collect()
     });
     Table::new("", columns("input", titles(cases))).with(rows.chain(begins))
 }
-
-type PlaceOf = fn(&Begin) -> f64;
-
-/// Where a tip relief begins: label, symbol, unit and place.
-const BEGINS: [(&str, &str, &str, PlaceOf); 2] = [
-    ("tip relief begins at roll angle", "ξ1 / ξ2", "deg", |at| at.roll_angle.to_degrees()),
-    ("tip relief begins at diameter", "dCa1 / dCa2", "mm", |at| at.diameter * 1e3),
-];
 
 /// The text of a field, given, computed from other fields or by default, and whether the case does
 /// not change it.

@@ -138,10 +138,12 @@ impl Specification {
             let cell = |at: usize| if reliefs.amounts[at] > 0.0 { of(at) } else { "-".to_owned() };
             vec![format!("  {title}"), cell(0), cell(1)]
         };
-        let place = |of: fn(&Begin) -> f64, at: usize| {
-            let [own, other] = ends.each_ref().map(|begins| of(&begins[at]));
-            format!("{own:.2} +-{:.2}", other - own)
-        };
+        let places = BEGINS.map(|(label, _, unit, of)| {
+            row(&format!("{label}, {unit}"), &|at| {
+                let [own, other] = ends.each_ref().map(|begins| of(&begins[at]));
+                format!("{own:.2} +-{:.2}", other - own)
+            })
+        });
         let mut rows = vec![
             row("tip relief Ca, um", &|at| {
                 format!("{} +-{}", um(reliefs.amounts[at]), um(demand.tolerance))
@@ -149,12 +151,9 @@ impl Specification {
             row("length along the path of contact La, mm", &|at| {
                 format!("{} +-{}", mm(reliefs.lengths[at]), mm(off))
             }),
-            row("begins at roll angle, deg", &|at| {
-                place(|begin| begin.roll_angle.to_degrees(), at)
-            }),
-            row("begins at diameter dCa, mm", &|at| place(|begin| 1e3 * begin.diameter, at)),
-            row("shape", &|_| name(reliefs.shape).to_owned()),
         ];
+        rows.extend(places);
+        rows.push(row("shape", &|_| name(reliefs.shape).to_owned()));
         if *is_over_face {
             let crowning = um(reliefs.crowning);
             rows.push(vec!["  crowning Cβ, um".to_owned(), crowning, um(self.driven_crowning)]);
@@ -557,6 +556,14 @@ const KEYS: [[&str; 2]; 2] = [
 ];
 const CROWNING: &str = "driver.crowning";
 const BOTH_GAPS: &str = "gap before E and after B at rest, um";
+
+type PlaceOf = fn(&Begin) -> f64;
+
+/// Where a tip relief begins: label, symbols, unit and place.
+pub(super) const BEGINS: [(&str, &str, &str, PlaceOf); 2] = [
+    ("begins at roll angle", "ξ1 / ξ2", "deg", |at| at.roll_angle.to_degrees()),
+    ("begins at diameter dCa", "dCa1 / dCa2", "mm", |at| at.diameter * 1e3),
+];
 
 /// The key of the diagram of reliefs.
 pub const RELIEF: &str = "relief";

@@ -70,7 +70,7 @@ pub fn compared(name: String, case: Case, selection: &Selection) -> ComparedCase
         Report::solve(name.clone(), case.clone(), inputs, selection.clone())
             .map_err(|refusal| vec![Problem::from(&refusal).at_given(&case)])
     });
-    ComparedCase { name, file: String::new(), variant: None, case, found }
+    ComparedCase { name, file: String::new(), variant: None, case, found, alone: None }
 }
 
 /// The comparison of solved cases. If `auto` chose several methods, its cases are solved by the most
@@ -83,6 +83,7 @@ pub fn comparison(mut cases: Vec<ComparedCase>, selection: Selection) -> Compari
         if report.solution.choice.is_none() || report.solution.method == most {
             continue;
         }
+        case.alone = Some(report.solution.method);
         let inputs = Inputs { method: most, ..report.inputs.clone() };
         let found = Report::solve(case.name.clone(), case.case.clone(), inputs, selection.clone());
         case.found = found.map_err(|refusal| vec![Problem::from(&refusal).at_given(&case.case)]);

@@ -11,8 +11,8 @@ use crate::case::changes::label;
 use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::sanitize;
 use crate::case::units::{self, System};
-use crate::model::Quantity;
-use crate::model::inputs::ToothCompliance;
+use crate::model::inputs::{Method, ToothCompliance};
+use crate::model::{Outcome, Quantity, Stage};
 use crate::numeric::decimal::{shortest, significant};
 use crate::report::tolerance::ToleranceReport;
 use crate::study::axis::{AxisRange, Grid};
@@ -182,7 +182,12 @@ pub fn write(
             Ok(samples.refusals)
         }
         (kind, format) => {
-            let table = |first, rows: &[Row]| table(study.points(), quantities, first, rows);
+            let methods = match kind {
+                Kind::Sweep(grid) => grid.methods(inputs),
+                Kind::Tolerance(_) => vec![inputs.method],
+            };
+            let points = (study.points(), &methods[..]);
+            let table = |first, rows: &[Row]| table(points, quantities, first, rows);
             if format != Format::Json {
                 table(0, &[]).write_csv_header(out)?;
             }
@@ -203,22 +208,28 @@ pub fn write(
     }
 }
 
-/// The rows of a study from an index on: the columns of the points, the quantities in SI units, the
-/// outcome, the method.
-pub fn table(points: &dyn Points, quantities: &[&Quantity], first: usize, rows: &[Row]) -> Table {
+/// The rows of a study by some methods from an index on: the columns of the points, the quantities in SI
+/// units, the outcome, the method, and the outcome at the exit if a method computes it.
+pub fn table(
+    (points, methods): (&dyn Points, &[Method]),
+    quantities: &[&Quantity],
+    first: usize,
+    rows: &[Row],
+) -> Table {
     let columns = points.columns().into_iter();
     let columns =
         columns.map(|(key, unit)| Column { unit: unit.to_owned().into(), ..Column::text(key, "") });
     let computed = quantities.iter().map(|known| Column::si(known.key, known.unit));
-    let names = ["outcome", "method"].map(|key| Column::text(key, ""));
-    let columns = columns.chain(computed).chain(names).collect();
+    let has_exit = |method: &Method| method.stages().has(Stage::Static);
+    let count = if methods.iter().any(has_exit) { 3 } else { 2 };
+    let names = ["outcome", "method", "exit_outcome"].map(|key| Column::text(key, ""));
+    let columns = columns.chain(computed).chain(names.into_iter().take(count)).collect();
     let cells = (first..).zip(rows).map(|(index, row)| {
         let point = points.cells(index).into_iter().map(Cell::Text);
         let computed = row.values.iter().map(|&value| Cell::number(value, ""));
-        point
-            .chain(computed)
-            .chain([row.outcome.name(), row.method.name()].map(Cell::from))
-            .collect()
+        let exit = row.exit_outcome().map_or("", Outcome::name);
+        let names = [row.outcome.name(), row.method.name(), exit].map(Cell::from);
+        point.chain(computed).chain(names.into_iter().take(count)).collect()
     });
     Table::new("", columns).with(cells)
 }
@@ -241,6 +252,7 @@ fn line(grid: &Grid, quantities: &[&Quantity], index: usize, row: &Row) -> Json 
         "varied": object(varied),
         "outcome": row.outcome.name(),
         "method": row.method.name(),
+        "exit_outcome": row.exit_outcome().map(Outcome::name),
         "quantities": row.refusal.is_none().then(|| object(values)),
         "refusal": row.refusal.as_deref().map(reason),
     })

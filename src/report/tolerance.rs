@@ -234,6 +234,7 @@ impl Results for ToleranceReport<'_> {
             "spread": spread.collect::<Json>(),
             "combination": self.combination(),
             "corner_contact": summary.contact,
+            "exit_corner_contact": summary.exit,
             "limits": limits.collect::<Json>(),
             "quantities": sorted(quantities),
         })
@@ -282,7 +283,9 @@ pub(super) fn probabilities(summary: &Summary) -> Vec<(String, String)> {
     let limits = summary.limits.iter().map(|Exceedance { limit, probability, .. }| {
         (format!("{} > {}", name_of(limit.quantity), sanitize(&limit.text)), probability.as_ref())
     });
-    let all = [("corner contact".to_owned(), summary.contact.as_ref())].into_iter().chain(limits);
+    let exit = summary.exit.as_ref().map(|exit| ("corner contact at the exit".to_owned(), Some(exit)));
+    let contact = [("corner contact".to_owned(), summary.contact.as_ref())];
+    let all = contact.into_iter().chain(exit).chain(limits);
     let unknown = || "unknown: no sample has a value".to_owned();
     all.map(|(name, found)| (name, found.map_or_else(unknown, in_percent))).collect()
 }

@@ -83,7 +83,17 @@ pub fn conclusion(trade: &Trade) -> String {
     let within = percent(trade.within);
     match trade.recommended() {
         _ if trade.is_without_contact() => format!("{NO_CONTACT}."),
-        Some(measured) => format!("Within {within} %: {}", summary(measured)),
+        Some(measured) => {
+            let total = measured.total();
+            let is_greatest = |subject: &Subject| {
+                measured.found.as_ref().is_ok_and(|found| found.total[*subject as usize] == total)
+            };
+            let greatest = Subject::ALL.into_iter().find(is_greatest);
+            let greatest = greatest.map_or_else(String::new, |subject| {
+                format!("; its greatest error is that of the {}", subject.key().replace('_', " "))
+            });
+            format!("Within {within} %: {}{greatest}", summary(measured))
+        }
         None => format!("Within {within} %: none"),
     }
 }
@@ -217,9 +227,10 @@ pub fn compliance_table(
 
 /// Time and differences of each number of slices, coupled and independent.
 fn by_slices(trade: &Trade) -> Vec<String> {
-    const SUBJECTS: [(Subject, &str); 5] = [
-        (Subject::FirstContact, "first contact"),
-        (Subject::PeakForce, "peak force"),
+    const SUBJECTS: [(Subject, &str); 6] = [
+        (Subject::FirstContact, "contact"),
+        (Subject::PeakForce, "peak"),
+        (Subject::PeakApproachForce, "before E"),
         (Subject::Curve, "curve"),
         (Subject::LineLoad, "line load"),
         (Subject::TransmissionError, "TE"),

@@ -116,6 +116,14 @@ impl PointOutcome {
     }
 }
 
+impl Row {
+    /// The outcome at the exit, if the method computes it.
+    pub fn exit_outcome(&self) -> Option<Outcome> {
+        let outcomes = [Outcome::NoCornerContact, Outcome::CornerContact];
+        self.strikes_at_exit.map(|strikes| outcomes[usize::from(strikes)])
+    }
+}
+
 /// The results of a point.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
@@ -124,6 +132,8 @@ pub struct Row {
     /// The method that solved the point, or the requested method of a refused point.
     #[serde(with = "SolvedMethod")]
     pub method: Method,
+    /// Whether the driver's tip touches after B, if the method computes it.
+    pub strikes_at_exit: Option<bool>,
     /// The quantities in SI, in their order; none of a refused point has a value.
     pub values: Vec<Option<f64>>,
     /// Why the point is refused.
@@ -225,28 +235,22 @@ impl<'a> PointSolver<'a> {
     }
 
     fn solve(&mut self, index: usize, goes_on: &dyn Fn() -> bool) -> Result<Row, Stopped> {
-        match self.values(index, goes_on) {
+        match self.row(index, goes_on) {
             _ if !goes_on() => Err(Stopped),
-            Ok((outcome, method, values)) => {
-                let outcome = PointOutcome::Solved(outcome);
-                Ok(Row { outcome, method, values, refusal: None })
-            }
+            Ok(row) => Ok(row),
             Err(problem) => Ok(Row {
                 outcome: PointOutcome::Refused,
                 method: self.inputs.method,
+                strikes_at_exit: None,
                 values: vec![None; self.batch.quantities.len()],
                 refusal: Some(Box::new(problem.at_given_diameter(&self.inputs))),
             }),
         }
     }
 
-    /// Outcome, method and values of a point. A quantity that is absent refuses the point as it refuses a
+    /// The row of a solved point. A quantity that is absent refuses the point as it refuses a
     /// plain solve.
-    fn values(
-        &mut self,
-        index: usize,
-        goes_on: &dyn Fn() -> bool,
-    ) -> Result<(Outcome, Method, Vec<Option<f64>>), Problem> {
+    fn row(&mut self, index: usize, goes_on: &dyn Fn() -> bool) -> Result<Row, Problem> {
         let Batch { points, quantities, .. } = *self.batch;
         let inputs = &mut self.inputs;
         points.put(index, inputs)?;
@@ -261,7 +265,13 @@ impl<'a> PointSolver<'a> {
             quantities.iter().map(|quantity| quantity.finite_value(solved)).collect();
         match solved.withheld.filter(|_| values.contains(&None)) {
             Some(refusal) => Err(Problem::from(&refusal)),
-            None => Ok((solved.outcome, solved.method, values)),
+            None => Ok(Row {
+                outcome: PointOutcome::Solved(solved.outcome),
+                method: solved.method,
+                strikes_at_exit: solved.exit_outcome().map(|exit| exit == Outcome::CornerContact),
+                values,
+                refusal: None,
+            }),
         }
     }
 }

@@ -606,7 +606,7 @@ impl WholeSolves<'_> {
         // Over the face width the contact after B is known without its lead.
         let (leads, strikes_after) = match (&solution.mesh, inputs.face()) {
             (Some(mesh), Some(face)) => {
-                let before = Face::new(&face, &solution.geometry, mesh)?.lead_at_rest()?;
+                let before = Face::new(&face, &solution.geometry, mesh)?.lead_at_rest(false)?;
                 let load = solution.static_load.as_ref();
                 let last = load.and_then(|load| load.last_contact_angle);
                 ([before, f64::NEG_INFINITY], last.is_some())

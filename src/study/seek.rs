@@ -3,7 +3,7 @@
 use crate::case::sanitize::quoted;
 use crate::case::{self, Case, Limit, Problem};
 use crate::model::inputs::Method;
-use crate::model::{Inputs, Outcome, Quantity};
+use crate::model::{Inputs, Outcome, Quantity, Stage};
 use crate::study::axis::{Axis, AxisRange, Grid};
 use crate::study::batch::{Batch, Control, PointOutcome, Points, Row, Stopped, solve_all};
 
@@ -36,7 +36,8 @@ pub struct Condition {
 
 #[derive(Debug, Clone, PartialEq)]
 enum Kind {
-    Outcome(Outcome),
+    /// The outcome before E, or at the exit.
+    Outcome(Outcome, bool),
     /// The quantity with its limit, or with its factor of another quantity.
     Compared(&'static Quantity, Relation, f64, Option<&'static Quantity>),
 }
@@ -78,10 +79,9 @@ impl Condition {
                 outcome=no-corner-contact";
             return Err(Problem::new(text, "this is not a condition", fix));
         };
-        let kind = if relation.is_none() && name.trim() == "outcome" {
-            outcome(value)?
-        } else {
-            compared(name, relation, value)?
+        let kind = match name.trim() {
+            name @ ("outcome" | "exit_outcome") if relation.is_none() => outcome(name, value)?,
+            name => compared(name, relation, value)?,
         };
         Ok(Condition { text: text.to_owned(), kind })
     }
@@ -89,7 +89,7 @@ impl Condition {
     /// The quantity that the condition reads; `None` for the outcome.
     pub fn quantity(&self) -> Option<&'static Quantity> {
         match self.kind {
-            Kind::Outcome(_) => None,
+            Kind::Outcome(..) => None,
             Kind::Compared(quantity, ..) => Some(quantity),
         }
     }
@@ -97,24 +97,33 @@ impl Condition {
     /// The quantity, and the one to which its limit is relative.
     pub fn quantities(&self) -> Vec<&'static Quantity> {
         match self.kind {
-            Kind::Outcome(_) => Vec::new(),
+            Kind::Outcome(..) => Vec::new(),
             Kind::Compared(quantity, .., of) => [quantity].into_iter().chain(of).collect(),
         }
     }
 
-    /// Checks that a method computes the quantities.
+    /// The stages that the condition reads, besides those of every solve.
+    pub fn stages(&self) -> Vec<Stage> {
+        match self.kind {
+            Kind::Outcome(_, is_at_exit) => is_at_exit.then_some(Stage::Static).into_iter().collect(),
+            Kind::Compared(..) => self.quantities().iter().map(|quantity| quantity.stage).collect(),
+        }
+    }
+
+    /// Checks that a method computes the quantities, or the outcome at the exit.
     ///
     /// # Errors
     /// Returns an error if the method does not compute one of them.
     pub fn check(&self, method: Method) -> Result<(), Problem> {
-        let is_absent = |own: &&Quantity| !method.stages().has(own.stage);
-        let Some(quantity) = self.quantities().into_iter().find(is_absent) else { return Ok(()) };
-        let computes = |method: &Method| method.stages().has(quantity.stage);
+        let is_absent = |stage: &Stage| !method.stages().has(*stage);
+        let Some(at) = self.stages().iter().position(is_absent) else { return Ok(()) };
+        let key = self.quantities().get(at).map_or("exit_outcome", |quantity| quantity.key);
+        let computes = |method: &Method| method.stages().has(self.stages()[at]);
         let others: Vec<&str> =
             Method::ALL.into_iter().filter(computes).map(Method::name).collect();
-        let cause = format!("method {} does not compute {}", method.name(), quantity.key);
+        let cause = format!("method {} does not compute {key}", method.name());
         let fix = format!("use --method with one of {}", others.join(", "));
-        Err(Problem::new(quantity.key, cause, fix))
+        Err(Problem::new(key, cause, fix))
     }
 
     /// Whether a row meets the condition; the values of the row are [`Self::quantities`].
@@ -125,7 +134,8 @@ impl Condition {
             (PointOutcome::Refused, None) => Outcome::NoCornerContact,
         };
         let is_met = match self.kind {
-            Kind::Outcome(wanted) => outcome == wanted,
+            Kind::Outcome(wanted, false) => outcome == wanted,
+            Kind::Outcome(wanted, true) => row.exit_outcome() == Some(wanted),
             Kind::Compared(quantity, relation, ..) => {
                 match self.margin(row) {
                     Some(margin) => margin > 0.0 || margin == 0.0 && !relation.is_strict,
@@ -178,13 +188,13 @@ fn compared(name: &str, relation: Option<Relation>, value: &str) -> Result<Kind,
     Err(Problem::new(key, cause, fix))
 }
 
-fn outcome(name: &str) -> Result<Kind, Problem> {
+fn outcome(key: &str, name: &str) -> Result<Kind, Problem> {
     let outcomes = [Outcome::CornerContact, Outcome::NoCornerContact];
     let found = outcomes.into_iter().find(|outcome| outcome.name() == name);
-    found.map(Kind::Outcome).ok_or_else(|| {
+    found.map(|found| Kind::Outcome(found, key == "exit_outcome")).ok_or_else(|| {
         let names = outcomes.map(Outcome::name).join(" or ");
         let cause = format!("unknown outcome {}", quoted(name));
-        Problem::new("outcome", cause, format!("write {names}"))
+        Problem::new(key, cause, format!("write {names}"))
     })
 }
 
@@ -371,7 +381,8 @@ mod tests {
             ("F_S < 2500 N", compared("impact_force", strict(AT_MOST), 2500.0)),
             ("contact_ratio>=1.4", compared("contact_ratio", AT_LEAST, 1.4)),
             ("contact_ratio>1.4", compared("contact_ratio", strict(AT_LEAST), 1.4)),
-            ("outcome=no-corner-contact", Kind::Outcome(Outcome::NoCornerContact)),
+            ("outcome=no-corner-contact", Kind::Outcome(Outcome::NoCornerContact, false)),
+            ("exit_outcome=corner-contact", Kind::Outcome(Outcome::CornerContact, true)),
             ("dynamic_contact_lost=false", compared("dynamic_contact_lost", AT_MOST, 0.0)),
         ] {
             assert_eq!(Condition::parse(text).unwrap().kind, kind, "{text}");
@@ -395,8 +406,12 @@ mod tests {
             let message = Condition::parse(text).unwrap_err().to_string();
             assert!(message.contains(part), "{text}: {message}");
         }
-        let condition = Condition::parse("dynamic_peak_force<=1 kN").unwrap();
-        let message = condition.check(Method::Exact).unwrap_err().to_string();
-        assert!(message.contains("use --method with one of dynamic, auto"), "{message}");
+        for (text, methods) in [
+            ("dynamic_peak_force<=1 kN", "use --method with one of dynamic, auto"),
+            ("exit_outcome=corner-contact", "use --method with one of static, dynamic, auto"),
+        ] {
+            let message = Condition::parse(text).unwrap().check(Method::Exact).unwrap_err();
+            assert!(message.to_string().contains(methods), "{message}");
+        }
     }
 }

@@ -106,10 +106,12 @@ impl Tolerance {
         let outcomes = &samples.outcomes[..count];
         let is = |wanted| outcomes.iter().filter(|&&outcome| outcome == wanted).count();
         let strikes = is(PointOutcome::Solved(Outcome::CornerContact));
+        let exits: Vec<bool> = samples.exits[..count].iter().copied().flatten().collect();
         let refused = is(PointOutcome::Refused);
         Summary {
             solved: count - refused,
             contact: probability(strikes, count - refused),
+            exit: probability(exits.iter().filter(|strikes| **strikes).count(), exits.len()),
             limits: self.limits.iter().map(|limit| self.exceedance(limit, samples)).collect(),
             quantities: (0..self.quantities.len()).map(|at| self.quantity(at, samples)).collect(),
         }
@@ -172,6 +174,8 @@ impl Tolerance {
 pub struct Samples {
     /// How each point ended.
     pub outcomes: Vec<PointOutcome>,
+    /// Whether the driver's tip touches after B at each point, if the method computes it.
+    exits: Vec<Option<bool>>,
     /// The refused points.
     pub refusals: Refusals,
     /// One column per quantity, in SI; NaN marks an absent value.
@@ -185,6 +189,7 @@ impl Samples {
         let column = |_: &&Quantity| Vec::with_capacity(count);
         Samples {
             outcomes: Vec::with_capacity(count),
+            exits: Vec::with_capacity(count),
             refusals: Refusals::default(),
             columns: study.quantities.iter().map(column).collect(),
         }
@@ -195,6 +200,7 @@ impl Samples {
         self.refusals.count(first, rows);
         for row in rows {
             self.outcomes.push(row.outcome);
+            self.exits.push(row.strikes_at_exit);
             for (column, value) in self.columns.iter_mut().zip(&row.values) {
                 column.push(value.unwrap_or(f64::NAN));
             }
@@ -214,6 +220,8 @@ pub struct Summary {
     pub solved: usize,
     /// Probability of corner contact among the solved samples.
     pub contact: Option<Estimate>,
+    /// Probability of corner contact at the exit, if the method computes it.
+    pub exit: Option<Estimate>,
     /// The limits, in the order of the case.
     pub limits: Vec<Exceedance>,
     /// The quantities.

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 use tipstrike::case::{Case, EXAMPLES};
 use tipstrike::model::{Inputs, QUANTITIES, Quantity, Solution, Stage, Stages, solve};
-use tipstrike::report::explain::{CORRECTIONS, How, Page, Work, derive, explain, lines, render};
+use tipstrike::report::explain::{CORRECTIONS, How, Page, Work, explain, lines, render};
 
 type Settings = &'static [(&'static str, &'static str)];
 
@@ -80,7 +80,7 @@ static DERIVED: LazyLock<Vec<Explained>> = LazyLock::new(|| {
         let variants = VARIANTS.iter();
         let pages = variants.filter_map(move |settings| {
             explained(&name, &case, settings, |quantity, case, inputs, solution| {
-                Some(derive(quantity, case, inputs, solution))
+                Some(explain(quantity, case, inputs, solution, &|_, _| false))
             })
         });
         pages.collect::<Vec<_>>()
@@ -100,7 +100,7 @@ static WHOLE: LazyLock<Vec<Explained>> = LazyLock::new(|| {
                 Stage::Dynamic => quantity.key.contains("first_contact"),
                 _ => false,
             };
-            is_own.then(|| explain(quantity, case, inputs, solution))
+            is_own.then(|| explain(quantity, case, inputs, solution, &|_, _| true))
         };
         explained("cases/zhou.toml", &Case::table_1(), &[("model.method", method)], page)
     };
@@ -112,7 +112,7 @@ static WHOLE: LazyLock<Vec<Explained>> = LazyLock::new(|| {
         let page =
             |quantity: &'static Quantity, case: &Case, inputs: &Inputs, solution: &Solution| {
                 let is_closed = Stages::CLOSED_FORM.has(quantity.stage);
-                is_closed.then(|| explain(quantity, case, inputs, solution))
+                is_closed.then(|| explain(quantity, case, inputs, solution, &|_, _| true))
             };
         let mut case = Case::table_1();
         case.set("model.tooth_compliance", "beam").unwrap();
@@ -130,7 +130,7 @@ fn every_page(cases: &[Explained], mut look: impl FnMut(&str, &Page)) {
 fn page(case: &str, key: &str, settings: &[(&str, &str)]) -> Page {
     let (name, case) = cases().into_iter().find(|(name, _)| name.contains(case)).unwrap();
     let case = explained(&name, &case, settings, |quantity, case, inputs, solution| {
-        (quantity.key == key).then(|| explain(quantity, case, inputs, solution))
+        (quantity.key == key).then(|| explain(quantity, case, inputs, solution, &|_, _| true))
     });
     let case = case.unwrap();
     case.pages.into_iter().next().unwrap()
@@ -291,7 +291,7 @@ fn a_step_of_a_field_changes_the_result_as_a_solve_does() {
     let of = |key: &str| page.effects.iter().find(|effect| effect.key == key).unwrap();
     let settings = [("deviations.base_pitch", "17 um")];
     let more = explained("", &Case::table_1(), &settings, |quantity, case, inputs, solution| {
-        (quantity.key == "impact_force").then(|| derive(quantity, case, inputs, solution))
+        (quantity.key == "impact_force").then(|| explain(quantity, case, inputs, solution, &|_, _| false))
     });
     let force = more.unwrap().pages[0].value.unwrap();
     let share = 100.0 * (force / page.value.unwrap() - 1.0);

@@ -298,7 +298,7 @@ fn a_quantity_lists_every_field_whose_change_alters_it() {
             let Some(own) = value_of(quantity, &few) else {
                 continue;
             };
-            let listed: Vec<usize> = fields_of(quantity, &solved.case, &few, Some(own))
+            let listed: Vec<usize> = fields_of(quantity, &solved.case, (&few, Some(own)), &|_, _| true)
                 .into_iter()
                 .map(|dependence| dependence.field)
                 .collect();
@@ -329,7 +329,7 @@ fn a_quantity_lists_no_field_without_effect() {
     let listed = |key: &str, case: &Case| {
         let quantity = Quantity::find(key).unwrap();
         let inputs = case.inputs().unwrap();
-        let found = fields_of(quantity, case, &inputs, value_of(quantity, &inputs));
+        let found = fields_of(quantity, case, (&inputs, value_of(quantity, &inputs)), &|_, _| true);
         let keys = found.iter().map(|dependence| FIELDS[dependence.field].key);
         keys.collect::<Vec<_>>()
     };

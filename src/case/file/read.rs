@@ -174,6 +174,12 @@ impl<'l> Reader<'l> {
         let (key, is_own) = (path[..depth].join("."), depth == path.len());
         let value = if is_own { &entry.value } else { &Value::Table };
         let is_first = self.seen.insert(self.scopes[scope].key(&key));
+        if let (Target::Unknown, [shape]) = (&target, &path[depth..])
+            && let Some(field) = key.strip_prefix(spread::PREFIX)
+            && let Err(problem) = spread::named(shape)
+        {
+            self.fault(scope, start, problem.at(&spread::place(field)));
+        }
         let read = match target {
             Target::Unknown if is_first => {
                 return self.fault(scope, entry.key_at(above + depth), unknown(&key));
@@ -271,15 +277,17 @@ impl<'l> Reader<'l> {
             let only = parts.next().filter(|_| parts.next().is_none());
             let read = match only.map(|entry| (&entry.path[depth..], &entry.value)) {
                 Some(([], value)) if scope > 0 && value.is_empty() => {
-                    self.scopes[scope].give(spread::place(key), "")
+                    self.scopes[scope].give(spread::place(key), "").map_err(|problem| vec![problem])
                 }
                 Some(([shape], Value::String(width) | Value::Number(width))) => {
-                    self.scopes[scope].give(spread::place(key), &format!("{shape} {width}"))
+                    let text = format!("{shape} {width}");
+                    let give = |_| self.scopes[scope].give(spread::place(key), &text);
+                    Spread::read(key, &text).and_then(|own| give(own).map_err(|one| vec![one]))
                 }
-                Some(([shape], _)) => Err(Spread::malformed(key, Some(shape))),
-                _ => Err(Spread::malformed(key, None)),
+                Some(([shape], _)) => Err(vec![Spread::malformed(key, Some(shape))]),
+                _ => Err(vec![Spread::malformed(key, None)]),
             };
-            if let Err(problem) = read {
+            for problem in read.err().into_iter().flatten() {
                 self.fault(scope, entries[0].span.start, problem);
             }
         }

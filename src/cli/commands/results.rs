@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::case::file::{self, SaveError, read_bytes};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::case::{Case, Document, EXAMPLES, Example};
+use crate::case::{Case, Document, EXAMPLES, Example, FIELDS};
 use crate::cli::options::{
     Cases, Changes, Destination, Edits, Only, Quantities, Setting, Settings, TABLES, WORDS,
     by_method, formats, methods, one_quantity, station_count,
@@ -187,9 +187,12 @@ impl Explain {
         }?;
         opened.need([self.quantity]);
         let Opened { name, document, inputs, .. } = &opened;
-        let solution = model::solve(inputs, Stages::of(self.quantity.stage))
-            .map_err(|refusal| opened.refused(&refusal))?;
-        let page = explain(self.quantity, &document.case, inputs, &solution);
+        let (wanted, case) = (Stages::of(self.quantity.stage), &document.case);
+        let page = follow("fields", |go_on| {
+            let solution = model::solve_while(inputs, wanted, &|_| go_on(0, FIELDS.len()))?;
+            Ok(explain(self.quantity, case, inputs, &solution, go_on))
+        })?;
+        let page = page.map_err(|refusal: Refusal| opened.refused(&refusal))?;
         match self.format {
             Format::Json => write_json(&page, name, &mut streams.output)?,
             _ => streams.output.write_all(render(&page, name).as_bytes())?,

@@ -108,12 +108,17 @@ pub(super) enum Incoming {
     Deviates(f64),
     /// It has the deviation, and touches only after E.
     AfterStart(f64),
+    /// It has the deviation, and touches only before B.
+    BeforeEnd(f64),
 }
 
 impl Incoming {
     /// Changes a pair without deviation.
     pub(super) fn change(self, position: &mut Position<'_>, ahead: i32) {
-        let (Incoming::Deviates(error) | Incoming::AfterStart(error)) = self else {
+        let (Incoming::Deviates(error)
+        | Incoming::AfterStart(error)
+        | Incoming::BeforeEnd(error)) = self
+        else {
             return;
         };
         let Some(pair) = position.index(ahead) else {
@@ -121,11 +126,16 @@ impl Incoming {
         };
         let path = position.s + f64::from(ahead) * position.face.mesh.base_pitch;
         position.error = error;
+        let length = position.face.mesh.length;
         let contacts = position.contacts[pair..].iter_mut().step_by(position.pairs);
         for (slice, contact) in position.face.slices.iter().zip(contacts) {
             (contact.gap, contact.mean) = (contact.gap - error, contact.mean - error);
-            let is_before = path + slice.ahead <= 0.0;
-            contact.can_carry &= !(is_before && matches!(self, Incoming::AfterStart(_)));
+            let path = path + slice.ahead;
+            contact.can_carry &= match self {
+                Incoming::AfterStart(_) => path > 0.0,
+                Incoming::BeforeEnd(_) => path < length,
+                _ => true,
+            };
         }
     }
 }

@@ -272,46 +272,60 @@ impl Face {
         Ok((cycle, StaticSpectrum { spectrum, tooth_force }))
     }
 
-    /// The greatest lead of the incoming tooth before E over the face, in m; infinitely negative if no
-    /// slice is before E.
-    fn lead_before_start(&self, loads: &Loads) -> f64 {
-        /// Parts of the step between two slices, and how many of them have the greatest lead, at E or
-        /// just before it.
+    /// The greatest lead of the incoming tooth in a part of the path over the face, in m; infinitely
+    /// negative if no slice is there.
+    fn lead_in(&self, loads: &Loads, part: Part) -> f64 {
+        /// Parts of the step between two slices, and how many of them have the greatest lead, at the
+        /// end of the part or just beside it.
         const PARTS: (f64, u32) = (8.0, 16);
-        let before = |number: &usize| loads.s + self.slices[*number].ahead <= 0.0;
-        let at_slices = (0..self.slices.len()).filter(before);
-        let leads = at_slices.map(|number| loads.lead_at(0, number));
+        let length = self.mesh.length;
+        let is_here = |number: &usize| {
+            let path = loads.s + self.slices[*number].ahead;
+            part.has(path, length) || part == Part::BeforeStart && path == 0.0
+        };
+        let leads = (0..self.slices.len()).filter(is_here).map(|number| loads.lead_at(0, number));
         let step = self.slices.first().map_or(0.0, |slice| slice.step * self.inputs.lead.abs());
-        let near = (0..=PARTS.1).filter_map(|part| {
-            let path = -INSIDE * self.mesh.length - f64::from(part) / PARTS.0 * step;
+        let away = if part == Part::BeforeStart { -step } else { step };
+        let near = (0..=PARTS.1).filter_map(|at| {
+            let path = part.border(length)? + f64::from(at) / PARTS.0 * away;
             self.lead_between(loads, 0, path).map(|(lead, ..)| lead)
         });
         leads.chain(near).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The greatest lead of the incoming tooth before E over the face, in m, at rest or in a motion: the
-    /// displacement under the loads after E and of the other pairs less its gap. Above 0 the tip touches
-    /// before E.
+    /// The greatest lead of the incoming tooth before E over the face, or after B, in m, at rest or in a
+    /// motion: the displacement under the loads on the rest of its path and of the other pairs less its
+    /// gap. Above 0 the tip touches there.
     ///
     /// # Errors
     /// Those of [`Face::loads`].
-    pub(super) fn greatest_lead(&self, course: Option<&Course>) -> Result<f64, Refusal> {
+    pub(super) fn greatest_lead(
+        &self,
+        course: Option<&Course>,
+        at_exit: bool,
+    ) -> Result<f64, Refusal> {
         let (mesh, step) = (&self.mesh, self.mesh.base_pitch / (STEPS / 2) as f64);
-        let (from, to) = (mesh.ends().0 - self.reach, self.reach);
+        let (from, to, part, incoming) = if at_exit {
+            let from = mesh.length - self.reach;
+            (from, mesh.ends().1 + self.reach, Part::AfterEnd, Incoming::BeforeEnd(mesh.error))
+        } else {
+            let from = mesh.ends().0 - self.reach;
+            (from, self.reach, Part::BeforeStart, Incoming::AfterStart(mesh.error))
+        };
         let count = ((to - from) / step).ceil() as usize;
         let places = (0..=count).map(|number| from + (to - from) * number as f64 / count as f64);
-        let passage = Passage::new(self, course, Incoming::AfterStart(mesh.error));
+        let passage = Passage::new(self, course, incoming);
         let samples = passage.samples(&places.collect::<Vec<_>>())?;
-        let lead = |loads: &Loads| self.lead_before_start(loads).max(-mesh.length);
+        let lead = |loads: &Loads| self.lead_in(loads, part).max(-mesh.length);
         Ok(passage.greatest(&samples, &lead).1)
     }
 
-    /// The greatest lead of the incoming tooth before E at rest, in m.
+    /// The greatest lead of the incoming tooth at rest before E, or after B, in m.
     ///
     /// # Errors
     /// Those of [`Face::loads`].
-    pub fn lead_at_rest(&self) -> Result<f64, Refusal> {
-        self.greatest_lead(None)
+    pub fn lead_at_rest(&self, at_exit: bool) -> Result<f64, Refusal> {
+        self.greatest_lead(None, at_exit)
     }
 
     /// The greatest force of a tooth, in N.
@@ -399,7 +413,7 @@ impl Face {
         };
         let least_gap = match ends.0 {
             Some(_) => None,
-            None => Some(-self.lead_at_rest()?),
+            None => Some(-self.lead_at_rest(false)?),
         };
         Ok((load, Some(Arc::new(FaceLoad { least_gap, ..face.clone() }))))
     }

@@ -351,7 +351,7 @@ pub(in crate::model) fn dynamic(
     let passed = passage.run(settings.spacing)?.ok_or(Refusal::BeyondReach)?;
     let Passed { ends, stations, rough, samples, .. } = passed;
     let strikes = ends.0.is_some();
-    let least_gap = if strikes { None } else { Some(-face.greatest_lead(Some(&course))?) };
+    let least_gap = if strikes { None } else { Some(-face.greatest_lead(Some(&course), false)?) };
     let last = samples.last().map_or(mesh.length, |loads| loads.s);
     let time = |pair: &[Rc<Loads>]| (pair[1].s - pair[0].s) / mesh.speed;
     let power = |pair: &[Rc<Loads>]| {
@@ -391,7 +391,7 @@ pub(in crate::model) fn approach(
     let springs = Springs::within(OF_SLICES, face, settings, mesh.speed);
     let motion = Motion::new(&springs, settings, mesh.speed, Incoming::AfterStart(mesh.error));
     let course = motion.passage(settings, face.reach, go_on)?;
-    let lead = face.greatest_lead(Some(&course))?;
+    let lead = face.greatest_lead(Some(&course), false)?;
     let contact_lost = course.loses_contact(-mesh.base_pitch - face.reach, face.reach);
     Ok(Approach { lead, contact_lost })
 }

@@ -151,8 +151,11 @@ impl Demand {
                 demand.misalignment = tolerance(length)?;
             } else if item.contains(':') {
                 demand.spectrum.extend(spectrum(item)?);
+            } else if item.starts_with(char::is_alphabetic) {
+                let names = Criterion::ALL.map(Criterion::name).join(", ");
+                return Err(format!("{item}: choose one of {names}"));
             } else if at == 0 {
-                demand.loads = loads(item)?;
+                demand.loads = loads(item).map_err(|fix| format!("{item}: {fix}"))?;
             } else {
                 let length = tolerance(item)?;
                 match tolerances {
@@ -259,10 +262,16 @@ mod tests {
         assert_eq!(own.loads(), [(0.5, 0.25), (1.3, 0.75)]);
         assert_eq!((own.minimise, own.tolerance_length), (Criterion::Peak, Some(2e-4)));
         assert_eq!(Demand::parse(&own.text()), Ok(own));
-        for wrong in
-            ["", "110..25 %", "25..110 %, 5", "0..110 %, 5 um", "25..110 %, 2 mm", "50%:0", "50%:x"]
-        {
-            assert!(Demand::parse(wrong).is_err(), "{wrong}");
+        for (wrong, part) in [
+            ("", ": write a range"),
+            ("110..25 %", "110..25 %: the range is reversed"),
+            ("25..110 %, 5", "5 has no unit"),
+            ("25..110 lb", "25..110 lb: write a range"),
+            ("25..110 %, 2 mm", "write a length"),
+            ("50%:0", "with their shares"),
+            ("fast", "fast: choose one of te, peak, entry"),
+        ] {
+            assert!(Demand::parse(wrong).unwrap_err().contains(part), "{wrong}");
         }
     }
 

@@ -11,8 +11,9 @@ use ratatui::style::Style;
 use ratatui::text::Line;
 
 use super::Title;
-use crate::case::units::{System, named};
-use crate::case::{Case, Problem, changes};
+use crate::case::sanitize::sanitize;
+use crate::case::units::{self, System, named};
+use crate::case::{Case, FIELDS, Field, Problem, changes};
 use crate::model::inputs::Method;
 use crate::model::quantities::Need;
 use crate::model::{QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
@@ -128,7 +129,7 @@ impl Results<'_> {
     /// The key of the quantity at a cell, if any.
     pub(crate) fn key_at(&self, at: Position) -> Option<&'static str> {
         let (head, rows) = parts(self);
-        let above = head.len() + 1 + usize::from(self.has_header());
+        let above = head.len() + 1 + usize::from(self.has_header()) + inputs(self).len();
         let line = usize::from(at.y - self.area.y).checked_sub(above)?;
         let listed = self.listed();
         listed.get(self.state.top + line).filter(|_| line < rows).map(|quantity| quantity.key)
@@ -161,6 +162,7 @@ pub(crate) fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
     let base = if pane.is_stale || is_outdated { theme.faint } else { Style::new() };
     let [header, body] = text::split(body, u16::from(pane.has_header()));
     let row = pane.row().checked_sub(pane.state.top).filter(|row| *row < rows);
+    let row = row.map(|row| row + inputs(pane).len());
     if let Some(row) = row.filter(|_| pane.title.has_focus && !body.is_empty()) {
         text::put("▸", (body.x, body.y + row as u16), 1, base.patch(theme.focus), buffer);
     }
@@ -216,7 +218,7 @@ fn parts(pane: &Results<'_>) -> (Vec<Line<'static>>, usize) {
     let width = usize::from(pane.area.width.saturating_sub(1));
     let height = usize::from(pane.area.height.saturating_sub(1));
     let (mut head, mut hidden) = (Vec::new(), 0);
-    let height = height.saturating_sub(usize::from(pane.has_header()));
+    let height = height.saturating_sub(usize::from(pane.has_header()) + inputs(pane).len());
     let kept = |rows: usize| height.saturating_sub(rows);
     let most = if pane.answer.is_some() { kept(LEAST_ROWS + 1) } else { height };
     for Sentence { text, style, place } in sentences(pane) {
@@ -308,8 +310,9 @@ fn sentences(pane: &Results<'_>) -> Vec<Sentence> {
         let mut changes = changes::between(pane.case, &pane.case.with(variant));
         changes.retain(|change| !change.key.starts_with("variants."));
         let refused = found.as_ref().err().map(|reason| format!("; refused: {reason}"));
+        let place = if refused.is_some() { Place::Room } else { Place::Page };
         let (inputs, refused) = (session::summary(&changes), refused.unwrap_or_default());
-        add(format!("Variant {name}: {inputs}{refused}."), fresh(theme.note), Place::Room);
+        add(format!("Variant {name}: {inputs}{refused}."), fresh(theme.note), place);
     }
     for note in &answer.notes {
         let is_usual = report::is_general(note) || USUAL_NOTES.contains(&note.code);
@@ -404,6 +407,8 @@ const NONE: &str = "–";
 const NOT_SOLVED: &str = "not solved";
 /// A longer name of a variant is cut.
 const LONGEST_NAME: usize = 18;
+/// A longer input of a variant is cut.
+const LONGEST_INPUT: usize = 9;
 /// The width of all but a few symbols, and of all but a few numbers.
 const SYMBOL: usize = 8;
 const NUMBER: usize = 8;
@@ -670,7 +675,37 @@ fn columns(
     } else {
         columns.push(words(99, 12, theme.faint, &|of| of.equation.into()));
     }
+    for (row, (field, texts)) in inputs(pane).iter().enumerate() {
+        let unit = units::split(&texts[0], "").map_or("", |(_, unit)| unit);
+        let is_alike = texts.iter().all(|text| text.ends_with(unit));
+        let value = |text: &String| {
+            let text = text.strip_suffix(unit).filter(|_| is_alike).unwrap_or(text);
+            text::cut(&sanitize(text.trim_end()), LONGEST_INPUT)
+        };
+        let Field { symbol: own, label, .. } = &FIELDS[*field];
+        let names = [symbol(own, pane.look.ascii).into_owned(), (*label).to_owned()];
+        let unit = if is_alike { unit.to_owned() } else { String::new() };
+        let first = pane.variants.map_or(0, |(_, first)| first);
+        let others = texts.iter().skip(1 + first).flat_map(|text| [value(text), String::new()]);
+        let cells = names.into_iter().chain([value(&texts[0]), unit]).chain(others);
+        columns.iter_mut().zip(cells).for_each(|(column, cell)| column.cells.insert(row, cell));
+    }
     columns
+}
+
+/// The first fields that differ between the case and its variants, with the text of each.
+fn inputs(pane: &Results<'_>) -> Vec<(usize, Vec<String>)> {
+    const MOST: usize = 3;
+    let Some((variants, _)) = pane.variants else { return Vec::new() };
+    let own = pane.case;
+    let of_variant = |(name, _): &(String, _)| own.variant(name).map(|variant| own.with(variant));
+    let cases = variants.columns.iter().map(|column| of_variant(column).unwrap_or(own.clone()));
+    let cases: Vec<Case> = std::iter::once(own.clone()).chain(cases).collect();
+    let text = |case: &Case, field: usize| case.effective(field).unwrap_or(NONE).to_owned();
+    let texts = |field| cases.iter().map(|case| text(case, field)).collect::<Vec<_>>();
+    let fields = (0..FIELDS.len()).filter(|field| !FIELDS[*field].table().is_empty());
+    let differing = fields.map(|field| (field, texts(field)));
+    differing.filter(|(_, texts)| texts.iter().any(|text| *text != texts[0])).take(MOST).collect()
 }
 
 /// The value of a quantity in a variant and its difference from the value of the case.

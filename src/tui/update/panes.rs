@@ -109,10 +109,14 @@ pub(super) fn explain(app: &mut App) {
     )));
     let case = app.tab.case.clone();
     // As in `tipstrike explain`.
-    let page = move |_: &Running<'_>| {
+    let page = move |running: &Running<'_>| {
         let inputs = inputs.needing([quantity.stage]);
         Some(match model::solve(&inputs, Stages::of(quantity.stage)) {
-            Ok(solution) => Ok(Box::new(explanation::explain(quantity, &case, &inputs, &solution))),
+            Ok(solution) => {
+                let go_on = |_, _| running.is_wanted();
+                let page = explanation::explain(quantity, &case, &inputs, &solution, &go_on);
+                Ok(Box::new(page))
+            }
             Err(refusal) => Err(format!("Not solved: {refusal}. Correction: {}.", refusal.fix())),
         })
     };
