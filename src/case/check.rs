@@ -628,8 +628,12 @@ pub(super) fn unknown_quantity(field: &str, written: &str) -> Problem {
         |fix: String| Problem::new(field, format!("unknown quantity {}", quoted(written)), fix);
     let is_field = |known: &&Field| [known.key, known.name(), known.symbol].contains(&name);
     let near = match named(name) {
-        Ok(known) => return is(&format!("the symbol of {}", known.key), &format!("write {}", known.key)),
-        Err(Some(known)) => return unknown(format!("did you mean {}, {}?", known.symbol, known.key)),
+        Ok(known) => {
+            return is(&format!("the symbol of {}", known.key), &format!("write {}", known.key));
+        }
+        Err(Some(known)) => {
+            return unknown(format!("did you mean {}, {}?", known.symbol, known.key));
+        }
         Err(None) => nearest(name, QUANTITIES.iter().map(|known| known.key)),
     };
     if name.is_empty() {
@@ -645,7 +649,8 @@ pub(super) fn unknown_quantity(field: &str, written: &str) -> Problem {
     }
     // Two letters are a misprint; more can be another name in the same words.
     let is_misprint = |near: &&str| strsim::damerau_levenshtein(name, near) <= 2;
-    let words = if near.is_some_and(|near| is_misprint(&near)) { Vec::new() } else { by_words(name) };
+    let words =
+        if near.is_some_and(|near| is_misprint(&near)) { Vec::new() } else { by_words(name) };
     let meant = if words.is_empty() { near.into_iter().collect() } else { words };
     unknown(match &meant[..] {
         _ if name.contains(' ') => "put commas between names".to_owned(),

@@ -155,13 +155,14 @@ impl Search {
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<Tried, Refusal> {
         let mut relieved = *mesh;
-        let Reliefs { driver, driven } = &mut relieved.reliefs;
+        let Reliefs { driver, driven, .. } = &mut relieved.reliefs;
         (if self.at_exit { driver } else { driven }).tip += relief;
         Meshes::new(&relieved, solution, solution.mesh.as_ref(), None).find(|mesh| {
             let meter = &self.meter;
             meter.spend(mesh.work());
             let at_rest = |lead: f64| Approach { lead, contact_lost: false };
-            let over_face = face.map(|face| Face::new(&face, &solution.geometry, mesh)).transpose()?;
+            let over_face =
+                face.map(|face| Face::new(&face, &solution.geometry, mesh)).transpose()?;
             let Approach { lead, contact_lost } = match (over_face, motion) {
                 (Some(face), Some(motion)) => slices::motion::approach(&face, motion, go_on)?,
                 (Some(face), None) => at_rest(face.lead_at_rest(self.at_exit)?),

@@ -136,8 +136,8 @@ fn at_exit(solution: &Solution, entry: f64, system: System) -> Option<String> {
     let is_larger = of("static_force_at_end", solution).is_some_and(|it| it > LARGER * entry);
     let found = shown("static_last_contact_angle").zip(shown("static_force_at_end"));
     let (angle, force) = found.filter(|_| is_larger)?;
-    let required = solution.clearing.and_then(|clearing| clearing.at_exit);
-    let required = required.map(|(given, more)| required(more, given, "driver", system));
+    let relief = solution.clearing.and_then(|clearing| clearing.at_exit);
+    let required = relief.map(|(given, more)| required(more, given, "driver", system));
     if solution.outcome == Outcome::CornerContact {
         let required = required.map_or_else(String::new, |required| format!(", {required}"));
         return Some(format!("; at the exit {force}{required}"));
@@ -222,7 +222,7 @@ const RELIEF_UNIT: &str = "um";
 
 /// The tip relief of the driven gear that prevents the contact, or that it is being computed; `None`
 /// without corner contact, or if it is unknown.
-fn relief(solution: &Solution, system: System, is_pending: bool) -> Option<String> {
+pub fn relief(solution: &Solution, system: System, is_pending: bool) -> Option<String> {
     match of("clearing_relief", solution).zip(solution.clearing) {
         Some((more, clearing)) => Some(required(more, clearing.given, "driven gear", system)),
         None => is_pending.then(|| "tip relief that prevents it: being computed".to_owned()),
@@ -367,7 +367,9 @@ mod tests {
         let at_exit = of("0 um");
         assert!(at_exit.starts_with("Corner contact at the exit, until "), "{at_exit}");
         assert!(
-            at_exit.contains(" um of tip relief on the driver prevents it. None at the entry: the tip"),
+            at_exit.contains(
+                " um of tip relief on the driver prevents it. None at the entry: the tip"
+            ),
             "{at_exit}"
         );
         let relieved = of("80 um");

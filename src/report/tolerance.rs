@@ -283,7 +283,8 @@ pub(super) fn probabilities(summary: &Summary) -> Vec<(String, String)> {
     let limits = summary.limits.iter().map(|Exceedance { limit, probability, .. }| {
         (format!("{} > {}", name_of(limit.quantity), sanitize(&limit.text)), probability.as_ref())
     });
-    let exit = summary.exit.as_ref().map(|exit| ("corner contact at the exit".to_owned(), Some(exit)));
+    let exit =
+        summary.exit.as_ref().map(|exit| ("corner contact at the exit".to_owned(), Some(exit)));
     let contact = [("corner contact".to_owned(), summary.contact.as_ref())];
     let all = contact.into_iter().chain(exit).chain(limits);
     let unknown = || "unknown: no sample has a value".to_owned();

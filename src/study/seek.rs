@@ -105,7 +105,9 @@ impl Condition {
     /// The stages that the condition reads, besides those of every solve.
     pub fn stages(&self) -> Vec<Stage> {
         match self.kind {
-            Kind::Outcome(_, is_at_exit) => is_at_exit.then_some(Stage::Static).into_iter().collect(),
+            Kind::Outcome(_, is_at_exit) => {
+                is_at_exit.then_some(Stage::Static).into_iter().collect()
+            }
             Kind::Compared(..) => self.quantities().iter().map(|quantity| quantity.stage).collect(),
         }
     }

@@ -291,7 +291,8 @@ fn a_step_of_a_field_changes_the_result_as_a_solve_does() {
     let of = |key: &str| page.effects.iter().find(|effect| effect.key == key).unwrap();
     let settings = [("deviations.base_pitch", "17 um")];
     let more = explained("", &Case::table_1(), &settings, |quantity, case, inputs, solution| {
-        (quantity.key == "impact_force").then(|| explain(quantity, case, inputs, solution, &|_, _| false))
+        (quantity.key == "impact_force")
+            .then(|| explain(quantity, case, inputs, solution, &|_, _| false))
     });
     let force = more.unwrap().pages[0].value.unwrap();
     let share = 100.0 * (force / page.value.unwrap() - 1.0);

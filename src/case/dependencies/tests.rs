@@ -298,10 +298,11 @@ fn a_quantity_lists_every_field_whose_change_alters_it() {
             let Some(own) = value_of(quantity, &few) else {
                 continue;
             };
-            let listed: Vec<usize> = fields_of(quantity, &solved.case, (&few, Some(own)), &|_, _| true)
-                .into_iter()
-                .map(|dependence| dependence.field)
-                .collect();
+            let listed: Vec<usize> =
+                fields_of(quantity, &solved.case, (&few, Some(own)), &|_, _| true)
+                    .into_iter()
+                    .map(|dependence| dependence.field)
+                    .collect();
             // A later stage than that of the quantity may refuse the pair.
             let value = |(found, inputs): &(Result<Solution, _>, Inputs)| match found {
                 Ok(solution) => finite(quantity, solution),

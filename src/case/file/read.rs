@@ -281,7 +281,7 @@ impl<'l> Reader<'l> {
                 }
                 Some(([shape], Value::String(width) | Value::Number(width))) => {
                     let text = format!("{shape} {width}");
-                    let give = |_| self.scopes[scope].give(spread::place(key), &text);
+                    let mut give = |_| self.scopes[scope].give(spread::place(key), &text);
                     Spread::read(key, &text).and_then(|own| give(own).map_err(|one| vec![one]))
                 }
                 Some(([shape], _)) => Err(vec![Spread::malformed(key, Some(shape))]),

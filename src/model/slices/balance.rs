@@ -115,9 +115,8 @@ pub(super) enum Incoming {
 impl Incoming {
     /// Changes a pair without deviation.
     pub(super) fn change(self, position: &mut Position<'_>, ahead: i32) {
-        let (Incoming::Deviates(error)
-        | Incoming::AfterStart(error)
-        | Incoming::BeforeEnd(error)) = self
+        let (Incoming::Deviates(error) | Incoming::AfterStart(error) | Incoming::BeforeEnd(error)) =
+            self
         else {
             return;
         };
