@@ -675,6 +675,12 @@ fn columns(
     } else {
         columns.push(words(99, 12, theme.faint, &|of| of.equation.into()));
     }
+    add_inputs(pane, &mut columns);
+    columns
+}
+
+/// Inserts the differing inputs of the variants above the quantities.
+fn add_inputs(pane: &Results<'_>, columns: &mut [Column]) {
     for (row, (field, texts)) in inputs(pane).iter().enumerate() {
         let unit = units::split(&texts[0], "").map_or("", |(_, unit)| unit);
         let is_alike = texts.iter().all(|text| text.ends_with(unit));
@@ -690,7 +696,6 @@ fn columns(
         let cells = names.into_iter().chain([value(&texts[0]), unit]).chain(others);
         columns.iter_mut().zip(cells).for_each(|(column, cell)| column.cells.insert(row, cell));
     }
-    columns
 }
 
 /// The first fields that differ between the case and its variants, with the text of each.
