@@ -7,21 +7,17 @@
 
 mod app;
 mod form_aids;
-mod header;
 mod input;
 mod layout;
-mod panes;
 mod rows;
 mod session;
 mod settings;
 mod solver;
 mod store;
-mod tab;
 mod terminal;
 #[doc(hidden)]
 pub mod testing;
 mod text;
-mod theme;
 mod update;
 mod view;
 mod workbench;

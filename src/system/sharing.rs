@@ -35,13 +35,12 @@ pub(crate) fn is_same_file(one: &Metadata, other: &Metadata) -> bool {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Access {
     pub(crate) owner: u32,
-    pub(crate) group: u32,
     pub(crate) mode: u32,
 }
 
 impl Access {
     pub(crate) fn of(about: &Metadata) -> Access {
-        Access { owner: about.uid(), group: about.gid(), mode: about.mode() }
+        Access { owner: about.uid(), mode: about.mode() }
     }
 }
 

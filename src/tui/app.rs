@@ -3,6 +3,8 @@
 
 pub(crate) mod actions;
 pub(crate) mod dialogs;
+pub(crate) mod panes;
+pub(crate) mod tab;
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -10,33 +12,27 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use ratatui::layout::{Position, Rect, Size};
+use ratatui::layout::Size;
+use ratatui::text::Span;
 
 use super::layout::{Layout, Pane, Place};
-use super::panes::Title;
-use super::panes::chart::{ChartPane, Charts};
-use super::panes::form::Form;
-use super::panes::results::Results;
-use super::panes::study::{StudyPane, StudyResults, StudyState};
-use super::panes::teeth::{Picture, TeethView};
-use super::panes::trade::TradePane;
 use super::rows;
 use super::session::{Access, NEWER, OpenCase};
-use super::settings::Settings;
-use super::solver::{self, Answer, Baseline, Request, Wanted, idle_fields};
+use super::settings::{Look, Settings};
+use super::solver::{self, Answer, Baseline, Request, Wanted};
 use super::store::WatchedFile;
-use super::tab::Tab;
-use super::theme::Look;
 use crate::case::fields::Kind;
 use crate::case::{Case, Document, Evaluator, Problem};
 use crate::model::{Stage, Stages};
-use crate::report;
 use crate::report::stations::GRAPHS;
 use crate::study::trade::STEADY;
+use panes::chart::{ChartPane, Charts};
+use panes::study::StudyState;
+use panes::teeth::TeethView;
+use tab::{Tab, header};
 
 use actions::{Effect, Slot, Work};
-use dialogs::cursor_to::CursorScope;
-use dialogs::{Prompt, Surroundings};
+use dialogs::Prompt;
 
 /// A solve that takes longer shows its progress.
 const LONG: Duration = Duration::from_millis(400);
@@ -195,6 +191,12 @@ impl App {
         before.iter().chain(std::iter::once(&self.tab)).chain(after)
     }
 
+    /// The parts of the header.
+    pub(super) fn header(&self) -> Vec<(Option<usize>, Span<'static>)> {
+        let tabs: Vec<&Tab> = self.tabs().collect();
+        header(&tabs, self.place_of_tab, self.look.theme, self.layout.size.width)
+    }
+
     /// The files of the open cases and their content.
     pub(super) fn files(&self) -> Vec<WatchedFile> {
         let file = |tab: &Tab| {
@@ -221,7 +223,7 @@ impl App {
     }
 
     fn place_of_pane(&self) -> Place {
-        match self.layout.focus() {
+        match self.layout.focus {
             Pane::Chart if self.chart.is_pattern() => Place::CHART.or(Place::PATTERN),
             Pane::Chart if self.chart.own_axes().is_some() => Place::OWN_CHART,
             Pane::Study if self.study.is_tolerance => Place::TOLERANCE,
@@ -231,7 +233,7 @@ impl App {
 
     /// Whether typed letters go into the focused field.
     pub fn has_line(&self) -> bool {
-        self.layout.focus() == Pane::Form && self.is_editing
+        self.layout.focus == Pane::Form && self.is_editing
     }
 
     /// Whether the focused row is a value and typing would replace all of it.
@@ -279,144 +281,9 @@ impl App {
         self.needs_scroll = true;
     }
 
-    /// The title line of a pane.
-    pub(crate) fn title(&self, pane: Pane) -> Title {
-        let plan = self.layout.plan();
-        let hidden =
-            if plan.names_hidden() == Some(pane) { plan.hidden().collect() } else { Vec::new() };
-        Title {
-            pane,
-            has_focus: self.layout.focus() == pane && self.prompts.is_empty(),
-            is_editing: self.has_line(),
-            hidden,
-            theme: self.look.theme,
-        }
-    }
-
-    /// The visible charts and the pane in which the cursor moves.
-    pub(crate) fn cursor_scope(&self) -> CursorScope<'_> {
-        let plan = self.layout.plan();
-        let is_alone = !plan.shows(Pane::Chart) && plan.shows(Pane::Teeth);
-        CursorScope {
-            charts: self.charts(),
-            is_in_teeth: self.layout.focus() == Pane::Teeth || is_alone,
-        }
-    }
-
-    /// The context of a dialog.
-    pub(crate) fn surroundings(&self) -> Surroundings<'_> {
-        Surroundings {
-            screen: Rect::from((Position::ORIGIN, self.layout.size())),
-            look: self.look,
-            cursor: self.cursor_scope(),
-        }
-    }
-
-    /// The form with its case.
-    pub(crate) fn form(&self) -> Form<'_> {
-        let tab = &self.tab;
-        Form {
-            case: &tab.case,
-            saved: &tab.saved,
-            inputs: &tab.inputs_so_far,
-            idle: &tab.idle,
-            problems: &tab.problems,
-            refused: tab.refused_row(),
-            solution: tab.present(),
-            state: &tab.form,
-            is_editing: self.has_line(),
-            ending: self.ending(),
-            look: self.look,
-            title: self.title(Pane::Form),
-            area: self.layout.plan().area(Pane::Form),
-        }
-    }
-
-    /// The results pane with its results.
-    pub fn results(&self) -> Results<'_> {
-        let tab = &self.tab;
-        Results {
-            state: tab.results,
-            answer: tab.answer.as_ref(),
-            is_stale: tab.is_stale(),
-            baseline: self.baseline.as_ref(),
-            variants: tab.variants.as_ref().zip(self.first_variant),
-            earlier: tab.earlier.as_ref(),
-            refusal: tab.refusal.as_ref(),
-            problems: &tab.problems,
-            case: &tab.case,
-            shows_cost: self.shows_cost,
-            shows_every_method: self.shows_every_method,
-            units: self.settings.units,
-            look: self.look,
-            title: self.title(Pane::Results),
-            area: self.layout.plan().area(Pane::Results),
-        }
-    }
-
-    /// The trade pane with its benchmark.
-    pub(crate) fn trade(&self) -> TradePane<'_> {
-        TradePane {
-            traded: self.tab.traded.as_ref(),
-            inputs: self.tab.inputs(),
-            is_table: self.is_trade_table,
-            look: self.look,
-            title: self.title(Pane::Trade),
-            area: self.layout.plan().area(Pane::Trade),
-        }
-    }
-
-    /// The study pane with its study.
-    pub(crate) fn study(&self) -> StudyPane<'_> {
-        let tab = &self.tab;
-        let quantity = tab.study.shown.as_ref().and_then(StudyResults::quantity);
-        let present = quantity.zip(tab.present());
-        let present = present.and_then(|(quantity, solution)| report::value(quantity, solution));
-        StudyPane {
-            state: &self.study,
-            study: &tab.study,
-            case: &tab.case,
-            present,
-            units: self.settings.units,
-            marker: self.settings.marker,
-            look: self.look,
-            title: self.title(Pane::Study),
-            area: self.layout.plan().area(Pane::Study),
-        }
-    }
-
     /// The chart pane with its results.
     pub fn charts(&self) -> Charts<'_> {
-        Charts {
-            pane: &self.chart,
-            answer: self.tab.answer.as_ref(),
-            baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
-            cursor: self.cursor,
-            is_stale: self.tab.shows_last_valid(),
-            leave: self.title(Pane::Chart).leave(),
-            shows_every_method: self.shows_every_method,
-            work: &self.tab.chart_work,
-            units: self.settings.units,
-            marker: self.settings.marker,
-            look: self.look,
-            area: self.layout.plan().area(Pane::Chart),
-        }
-    }
-
-    /// The picture of the teeth, if the active method has results.
-    pub(crate) fn picture(&self) -> Option<Picture<'_>> {
-        let answer = self.tab.answer.as_ref()?;
-        Some(Picture {
-            inputs: &answer.inputs,
-            solution: self.tab.solution()?,
-            cursor: self.cursor,
-            z: self.chart.z,
-            view: &self.teeth,
-            look: self.look,
-            marker: self.settings.marker,
-            units: self.settings.units,
-            is_stale: self.tab.shows_last_valid(),
-        })
+        Charts(self)
     }
 
     /// The visible part of the results.
@@ -547,7 +414,7 @@ impl App {
         let placed = problems.iter().map(|problem| (place_of(problem), problem.for_form()));
         tab.problems = placed.collect();
         if !tab.problems.is_empty() {
-            (tab.refusal, tab.idle) = (None, idle_fields(&tab.inputs_so_far));
+            tab.refusal = None;
             return None;
         }
         self.last_serial += 1;

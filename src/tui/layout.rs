@@ -95,80 +95,28 @@ impl Pane {
     }
 }
 
-/// The visible panes, and the areas that follow from them and the size of the terminal. The areas
-/// are computed once per change.
+/// The visible panes, whose areas follow from the size of the terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout {
-    size: Size,
-    focus: Pane,
+    /// The size of the terminal.
+    pub size: Size,
+    /// The pane with the focus.
+    pub focus: Pane,
     /// The pane of the lower area that is shown if they do not all fit.
-    lower: Pane,
+    pub(crate) lower: Pane,
     /// Whether the focused pane fills the screen.
-    is_zoomed: bool,
-    plan: Plan,
+    pub(crate) is_zoomed: bool,
 }
 
 impl Layout {
     /// The default panes on a terminal of a size.
     pub(crate) fn new(size: Size) -> Layout {
-        Layout::of(size, Pane::Form, Pane::Chart, false)
-    }
-
-    fn of(size: Size, focus: Pane, lower: Pane, is_zoomed: bool) -> Layout {
-        Layout { size, focus, lower, is_zoomed, plan: Plan::default() }.arranged()
-    }
-
-    fn arranged(self) -> Layout {
-        Layout { plan: self.plan_on(self.size), ..self }
-    }
-
-    /// The size of the terminal.
-    pub fn size(&self) -> Size {
-        self.size
+        Layout { size, focus: Pane::Form, lower: Pane::Chart, is_zoomed: false }
     }
 
     /// The areas of the screen.
     pub fn plan(&self) -> Plan {
-        self.plan
-    }
-
-    /// The pane with the focus.
-    pub fn focus(&self) -> Pane {
-        self.focus
-    }
-
-    /// The pane of the lower area.
-    pub(crate) fn lower(&self) -> Pane {
-        self.lower
-    }
-
-    /// Whether the focused pane fills the screen.
-    pub(crate) fn is_zoomed(&self) -> bool {
-        self.is_zoomed
-    }
-
-    /// Adapts to a new size of the terminal.
-    pub fn resize(&mut self, size: Size) {
-        *self = Layout { size, ..*self }.arranged();
-    }
-
-    /// Moves the focus to a pane.
-    pub(crate) fn focus_on(&mut self, focus: Pane) {
-        *self = Layout { focus, ..*self }.arranged();
-    }
-
-    /// Shows a pane in the lower area.
-    pub(crate) fn show_below(&mut self, lower: Pane) {
-        *self = Layout { lower, ..*self }.arranged();
-    }
-
-    /// Makes the focused pane fill the screen, or restores the layout.
-    pub(crate) fn zoom(&mut self, is_zoomed: bool) {
-        *self = Layout { is_zoomed, ..*self }.arranged();
-    }
-
-    /// The areas on a terminal of a size, which may not have been reported yet.
-    pub(crate) fn plan_on(&self, size: Size) -> Plan {
+        let size = self.size;
         if is_too_small(size) {
             return Plan::default();
         }
@@ -373,7 +321,7 @@ mod tests {
     use super::*;
 
     fn seen(size: (u16, u16), focus: Pane, lower: Pane, is_zoomed: bool) -> Vec<Pane> {
-        let plan = Layout::of(size.into(), focus, lower, is_zoomed).plan();
+        let plan = Layout { size: size.into(), focus, lower, is_zoomed }.plan();
         Pane::ALL.into_iter().filter(|&pane| plan.shows(pane)).collect()
     }
 
@@ -405,7 +353,7 @@ mod tests {
                     Pane::LOWER.into_iter().flat_map(|lower| [(lower, false), (lower, true)])
                 {
                     let size = Size { width, height };
-                    let plan = Layout::of(size, focus, lower, is_zoomed).plan();
+                    let plan = Layout { size, focus, lower, is_zoomed }.plan();
                     let parts = [plan.header, plan.hint, plan.keys];
                     let areas: Vec<Rect> = plan.panes.into_iter().chain(parts).collect();
                     let used: u32 = areas.iter().map(|area| area.area()).sum();

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use crate::case::fields::{AUTO, Absent, Field, index_of};
 use crate::case::spread::{Shape, parts};
 use crate::case::units::{self, System};
-use crate::case::{Case, FIELDS, Limit, Spread};
+use crate::case::{Acting, Case, FIELDS, Limit, Spread, relevance};
 use crate::model::Inputs;
 use crate::tui::form_aids::{Measure, step_limit, step_spread};
 
@@ -205,6 +205,11 @@ pub(crate) fn groups(case: &Case) -> Vec<usize> {
         }
     };
     (0..count(case)).filter(|&at| begins(at)).collect()
+}
+
+/// Whether a row is a field that a case with these inputs does not use.
+pub(crate) fn is_idle(case: &Case, at: usize, inputs: &Inputs) -> bool {
+    matches!(row(case, at), Row::Field(field) if matches!(relevance(field, inputs), Acting::No(_)))
 }
 
 /// Whether a row is a required field whose value is missing.

@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::case::{Acting, Evaluator, FIELDS, relevance};
+use crate::case::Evaluator;
 use crate::model::compliance::without_field;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages};
@@ -39,8 +39,6 @@ pub struct Request {
     pub inputs: Inputs,
     /// The visible part of the results.
     pub wanted: Wanted,
-    /// The known fields without effect.
-    pub(crate) idle: Vec<usize>,
 }
 
 /// The visible part of the results.
@@ -91,8 +89,6 @@ pub struct Answer {
     pub notes: Vec<Note>,
     /// The mesh stiffness by every model, or the refusal; `None` until it is computed.
     pub stiffness: Option<MeshStiffness>,
-    /// The fields without effect.
-    pub idle: Vec<usize>,
 }
 
 /// The mesh stiffness by every model, or the refusal.
@@ -175,12 +171,6 @@ pub(crate) struct Variants {
     pub(crate) serial: u64,
     /// The name of each variant, and its results or the reason of their absence.
     pub(crate) columns: Vec<(String, Result<Solution, String>)>,
-}
-
-/// The fields that a case with these inputs does not use.
-pub(crate) fn idle_fields(inputs: &Inputs) -> Vec<usize> {
-    let is_idle = |field: &usize| matches!(relevance(*field, inputs), Acting::No(_));
-    (0..FIELDS.len()).filter(is_idle).collect()
 }
 
 /// Solves with the closed forms and with the method of the case, which may take long.
@@ -274,11 +264,6 @@ pub(super) fn solve(
     }
     answer.stages = wanted.stages;
     show(&answer);
-    // The marks of the form, which change seldom, follow the results.
-    let idle = idle_fields(&request.inputs);
-    if idle != answer.idle {
-        show(&Answer { idle, ..answer });
-    }
     Some(())
 }
 
@@ -311,7 +296,6 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
         methods,
         notes: Vec::new(),
         stiffness: None,
-        idle: request.idle.clone(),
     };
     answer.with_notes()
 }
@@ -337,7 +321,7 @@ mod tests {
         let mut inputs = Case::table_1().inputs().expect("Table 1 is valid");
         inputs.method = method;
         let wanted = Wanted { stages: Stages::EVERY, ..Wanted::NOTHING };
-        Request { serial: 1, idle: idle_fields(&inputs), inputs, wanted }
+        Request { serial: 1, inputs, wanted }
     }
 
     #[test]
@@ -362,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn only_visible_methods_are_solved_and_changed_marks_follow_the_results() {
+    fn only_visible_methods_are_solved() {
         let mut asked = request(Method::Exact);
         let methods = |asked: &Request| {
             answer(asked).methods.into_iter().map(|(method, _)| method).collect::<Vec<_>>()
@@ -371,9 +355,6 @@ mod tests {
         asked.wanted.paper = true;
         assert_eq!(methods(&asked), Method::CLOSED_FORM);
         assert_eq!(shown(&asked, &|_| true).len(), 1);
-        let idle = std::mem::take(&mut asked.idle);
-        let lists = shown(&asked, &|_| true).into_iter().map(|answer| answer.idle);
-        assert_eq!(lists.collect::<Vec<_>>(), [vec![], idle]);
     }
 
     #[test]

@@ -31,7 +31,6 @@ const END: u8 = 0;
 
 /// The folder of journals inside the state folder.
 pub(super) const JOURNALS: &str = "journals";
-const STICKY: u32 = 0o1000;
 const OWN_FOLDER: &str = "set XDG_STATE_HOME to a folder of your own";
 const NO_FOLDER: &str = "HOME and XDG_STATE_HOME name no folder: set one of them";
 
@@ -177,7 +176,6 @@ impl State {
         usual: Option<PathBuf>,
         replacements: impl IntoIterator<Item = PathBuf>,
     ) -> State {
-        // A missing folder is accepted, because it is created as private.
         let check = |folder: PathBuf| -> Result<PathBuf, String> {
             is_private(&folder).and_then(|()| is_private(&folder.join(JOURNALS)))?;
             Ok(folder)
@@ -206,41 +204,27 @@ fn is_there(error: &io::Error) -> bool {
     error.kind() != ErrorKind::NotFound
 }
 
-/// Checks that the folders of the path and of its target belong to the user or the system, that
-/// nobody else may replace any of them, and that nobody else may write into the last folder.
+/// Checks that a folder and its target belong to the user, and that nobody else may write there. A
+/// missing folder is accepted, because it is created as private.
 pub(super) fn is_private(folder: &Path) -> Result<(), String> {
-    let user = sharing::user();
-    // In a container the files of the system may belong to another user than 0.
-    let system = fs::metadata("/").map_or(0, |root| Access::of(&root).owner);
-    let unknown = |error: io::Error| format!("{}: {error}: {OWN_FOLDER}", shown(folder));
-    let target = match fs::canonicalize(folder) {
-        Err(error) if is_there(&error) => return Err(unknown(error)),
-        target => target.ok(),
-    };
-    for place in folder.ancestors().chain(target.iter().flat_map(|target| target.ancestors())) {
-        let about = match fs::symlink_metadata(place) {
-            Err(error) if is_there(&error) => return Err(unknown(error)),
+    let place = shown(folder);
+    for about in [fs::symlink_metadata(folder), fs::metadata(folder)] {
+        let about = match about {
+            Err(error) if is_there(&error) => {
+                return Err(format!("{place}: {error}: {OWN_FOLDER}"));
+            }
             Err(_) => continue,
             Ok(about) => about,
         };
-        let (access, is_last) = (Access::of(&about), target.as_deref() == Some(place));
-        if about.is_dir() && others_may_write(access, is_last) {
-            return Err(format!("others may write in {}: chmod go-w it", shown(place)));
-        }
-        if access.owner != user && (is_last || ![0, system].contains(&access.owner)) {
-            let (place, owner) = (shown(place), access.owner);
+        let Access { owner, mode } = Access::of(&about);
+        if owner != sharing::user() {
             return Err(format!("{place} belongs to user {owner}: {OWN_FOLDER}"));
+        }
+        if about.is_dir() && mode & 0o022 != 0 {
+            return Err(format!("others may write in {place}: chmod go-w it"));
         }
     }
     Ok(())
-}
-
-/// In a sticky folder everybody may write, but nobody may replace the files of others. A group with
-/// the number of the owner is private, because most systems create one group for each user.
-fn others_may_write(Access { owner, group, mode }: Access, is_last: bool) -> bool {
-    let is_own_group = !is_last && [owner, 0].contains(&group);
-    let by_others = mode & 0o002 != 0 || mode & 0o020 != 0 && !is_own_group;
-    by_others && (is_last || mode & STICKY == 0)
 }
 
 #[cfg(test)]
@@ -294,10 +278,10 @@ mod tests {
 
     #[test]
     fn a_folder_that_others_may_write_is_replaced_by_a_private_one() {
-        for exposed in ["state", "state/journals", "above"] {
-            let (_folder, path) = folder_with(&["state/journals", "above/state"]);
+        for exposed in ["state", "state/journals"] {
+            let (_folder, path) = folder_with(&["state/journals"]);
             open_to_all(&path.join(exposed));
-            let usual = path.join(if exposed == "above" { "above/state" } else { "state" });
+            let usual = path.join("state");
             let state = State::choose(Some(usual.clone()), [path.join("run")]);
             assert_eq!(state.folder, Some(path.join("run")), "{exposed}");
             let notice = state.notice.expect("a notice");

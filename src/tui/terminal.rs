@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
+use std::mem::{self, ManuallyDrop};
 use std::panic::{self, PanicHookInfo};
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,12 +19,11 @@ use crossterm::event::{
 use crossterm::execute;
 use crossterm::style::{ResetColor, force_color_output};
 use crossterm::terminal::{
-    Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
+    EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
 };
-use ratatui::backend::{Backend, CrosstermBackend};
-use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::{Position, Size};
-use unicode_width::UnicodeWidthStr;
+use ratatui::backend::CrosstermBackend;
+use ratatui::layout::{Rect, Size};
+use ratatui::{Frame, Terminal, TerminalOptions, Viewport};
 
 use super::app::App;
 use super::input::Event;
@@ -37,9 +37,6 @@ const FRAME: usize = 64 * 1024;
 
 /// Whether the terminal is in the modes of the workbench.
 static IS_TAKEN: AtomicBool = AtomicBool::new(false);
-static IS_ENDING: AtomicBool = AtomicBool::new(false);
-/// A signal that ends the process arrives within this time.
-const NOTICE: Duration = Duration::from_millis(50);
 
 static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);
 
@@ -48,16 +45,13 @@ const GRACE: Duration = Duration::from_millis(700);
 /// The exit code if the terminal is closed.
 pub(super) const TERMINAL_LOST: u8 = 5;
 
-/// The largest drawn area.
+/// The largest drawn area: a failed allocation of its cells would end the process.
 const LARGEST: Size = Size { width: 1000, height: 500 };
 
 /// The screen of the terminal. Dropping it restores the terminal.
 pub(super) struct Screen {
-    backend: CrosstermBackend<BufWriter<Stdout>>,
-    /// The shown frame, and the next one.
-    frames: [Buffer; 2],
-    /// The shown text cursor.
-    cursor: Option<Position>,
+    /// Its own drop prints an error of a closed terminal, which panics if standard error is closed too.
+    terminal: ManuallyDrop<Terminal<CrosstermBackend<BufWriter<Stdout>>>>,
     /// The signal of our own suspension has not arrived yet.
     is_back: bool,
     /// Whether mouse reports are on.
@@ -99,8 +93,10 @@ impl Screen {
         // Otherwise NO_COLOR would also remove bold and reverse; our own theme has no colour then.
         force_color_output(true);
         let backend = CrosstermBackend::new(BufWriter::with_capacity(FRAME, io::stdout()));
-        let frames = blank(capped(backend.size()?));
-        Ok(Screen { backend, frames, cursor: None, is_back: false, has_mouse: false })
+        // Its area is that of the drawn state, which may be older than the size of the terminal.
+        let options = TerminalOptions { viewport: Viewport::Fixed(Rect::ZERO) };
+        let terminal = ManuallyDrop::new(Terminal::with_options(backend, options)?);
+        Ok(Screen { terminal, is_back: false, has_mouse: false })
     }
 
     /// The size of the drawn part of the terminal.
@@ -108,7 +104,8 @@ impl Screen {
     /// # Errors
     /// Returns an error if the terminal does not report its size.
     pub(super) fn size(&self) -> io::Result<Size> {
-        Ok(capped(self.backend.size()?))
+        let size = self.terminal.size()?;
+        Ok(Size::new(size.width.min(LARGEST.width), size.height.min(LARGEST.height)))
     }
 
     /// Draws the state.
@@ -119,31 +116,23 @@ impl Screen {
         if !IS_TAKEN.load(Ordering::Relaxed) {
             return Ok(());
         }
-        let [shown, next] = &mut self.frames;
-        next.reset();
-        let cursor = view::draw(app, next.area, next);
-        self.backend.draw(changed(shown, next).into_iter())?;
-        if let Some(cursor) = cursor {
-            self.backend.set_cursor_position(cursor)?;
+        if self.terminal.get_frame().area().as_size() != app.layout.size {
+            self.clear(app.layout.size)?;
         }
-        match (self.cursor, cursor) {
-            (None, Some(_)) => self.backend.show_cursor()?,
-            (Some(_), None) => self.backend.hide_cursor()?,
-            _ => (),
-        }
-        Backend::flush(&mut self.backend)?;
-        self.frames.swap(0, 1);
-        self.cursor = cursor;
-        Ok(())
+        let draw = |frame: &mut Frame<'_>| {
+            if let Some(cursor) = view::draw(app, frame.buffer_mut()) {
+                frame.set_cursor_position(cursor);
+            }
+        };
+        self.terminal.draw(draw).map(drop)
     }
 
-    /// Makes the next frame draw every cell.
+    /// Makes the next frame of a size draw every cell.
     ///
     /// # Errors
     /// Returns an error if the terminal is closed.
-    pub(super) fn clear(&mut self) -> io::Result<()> {
-        self.frames = blank(self.size()?);
-        self.backend.clear()
+    pub(super) fn clear(&mut self, size: Size) -> io::Result<()> {
+        self.terminal.resize(Rect::from(size))
     }
 
     /// Restores the terminal and stops the process until the shell continues it.
@@ -154,9 +143,6 @@ impl Screen {
         self.leave()?;
         stop()?;
         self.is_back = true;
-        if ends_in_background() {
-            return Ok(());
-        }
         self.enter()
     }
 
@@ -167,14 +153,7 @@ impl Screen {
     pub(super) fn resume(&mut self) -> io::Result<()> {
         // Only if necessary: for a moment the terminal has the modes of the shell and would swallow
         // a Ctrl-Q.
-        if std::mem::take(&mut self.is_back) {
-            return Ok(());
-        }
-        if ends_in_background() {
-            return Ok(());
-        }
-        disable_raw_mode()?;
-        self.enter()
+        if mem::take(&mut self.is_back) { Ok(()) } else { self.enter() }
     }
 
     /// Turns mouse reports on or off.
@@ -202,24 +181,23 @@ impl Screen {
         execute!(self.output(), CopyToClipboard::to_clipboard_from(text))
     }
 
-    /// Enters the modes of the workbench.
+    /// Enters the modes of the workbench, unless the shell has the terminal: it continues a stopped
+    /// job in the background to end it.
     ///
     /// # Errors
     /// Returns an error if the terminal does not respond.
     pub(super) fn enter(&mut self) -> io::Result<()> {
+        if !is_in_foreground() {
+            return Ok(());
+        }
+        if IS_TAKEN.swap(true, Ordering::Relaxed) {
+            disable_raw_mode()?;
+        }
         enable_raw_mode()?;
-        IS_TAKEN.store(true, Ordering::Relaxed);
-        (self.frames, self.cursor) = (blank(self.size()?), None);
         // A terminal that is still in the alternate screen, such as after a lost connection, shows
         // its old content there, and erases with its last colour.
-        execute!(
-            self.output(),
-            EnterAlternateScreen,
-            EnableBracketedPaste,
-            Hide,
-            ResetColor,
-            Clear(ClearType::All)
-        )?;
+        execute!(self.output(), EnterAlternateScreen, EnableBracketedPaste, Hide, ResetColor)?;
+        self.clear(self.size()?)?;
         if self.has_mouse { execute!(self.output(), EnableMouseCapture) } else { Ok(()) }
     }
 
@@ -233,7 +211,7 @@ impl Screen {
     }
 
     fn output(&mut self) -> &mut impl Write {
-        &mut self.backend
+        self.terminal.backend_mut()
     }
 }
 
@@ -269,16 +247,6 @@ pub(super) fn listen(
     Ok(())
 }
 
-/// Whether the process ends without a terminal: the `kill` of a shell sends a signal to a stopped
-/// job and continues it in the background. Entering the terminal would stop it again.
-fn ends_in_background() -> bool {
-    if is_in_foreground() {
-        return false;
-    }
-    thread::sleep(NOTICE);
-    IS_ENDING.load(Ordering::Relaxed)
-}
-
 // In the background the terminal has the modes of the shell.
 fn restore_modes() -> io::Result<()> {
     if is_in_foreground() { disable_raw_mode() } else { Ok(()) }
@@ -310,8 +278,6 @@ type LastWords = Arc<dyn Fn() + Send + Sync>;
 // The main loop ends by itself, unless it is blocked, such as in a write to a terminal that accepts
 // no more bytes.
 fn end(last_words: &LastWords, sender: &SyncSender<Event>, signal: Option<i32>) -> ! {
-    // A signal ends the process soon.
-    IS_ENDING.store(true, Ordering::Relaxed);
     last_words();
     drop(sender.try_send(signal.map_or(Event::Lost, Event::Signal)));
     thread::sleep(GRACE);
@@ -322,80 +288,13 @@ fn end(last_words: &LastWords, sender: &SyncSender<Event>, signal: Option<i32>) 
     }
 }
 
-/// The drawn part of a terminal of a size: a failed allocation of its cells would end the process.
-fn capped(size: Size) -> Size {
-    Size { width: size.width.min(LARGEST.width), height: size.height.min(LARGEST.height) }
-}
-
-fn blank(size: Size) -> [Buffer; 2] {
-    [Buffer::empty(size.into()), Buffer::empty(size.into())]
-}
-
-/// The cells that a frame changes. Of a changed row with wide characters every cell is drawn, so that
-/// no half of a character remains.
-fn changed<'n>(shown: &Buffer, next: &'n Buffer) -> Vec<(u16, u16, &'n Cell)> {
-    let width = usize::from(next.area.width).max(1);
-    let rows = shown.content.chunks(width).zip(next.content.chunks(width));
-    let mut changes = Vec::new();
-    for (y, (before, now)) in (0..).zip(rows) {
-        if before.iter().zip(now).all(|(before, now)| is_same(before, now)) {
-            continue;
-        }
-        let is_wide = |cell: &Cell| cell.symbol().len() > 1 && cell.symbol().width() != 1;
-        let is_whole = before.iter().chain(now).any(is_wide);
-        let mut end = 0;
-        for (x, (before, now)) in (0..).zip(before.iter().zip(now)) {
-            if x >= end && (is_whole || !is_same(before, now)) {
-                changes.push((x, y, now));
-                end = x + if is_whole { now.symbol().width() as u16 } else { 1 };
-            }
-        }
-    }
-    changes
-}
-
-/// Whether two cells look the same; `Cell::eq` takes five times as long.
-fn is_same(one: &Cell, other: &Cell) -> bool {
-    let is_same_text = one.symbol().bytes().eq(other.symbol().bytes());
-    is_same_text && (one.fg, one.bg, one.modifier) == (other.fg, other.bg, other.modifier)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn a_frame_writes_its_changed_cells_and_whole_rows_of_wide_characters() {
-        let changes = |shown: [&str; 2], next: [&str; 2]| {
-            let next = Buffer::with_lines(next);
-            let changes = changed(&Buffer::with_lines(shown), &next);
-            changes
-                .iter()
-                .map(|(x, y, cell)| (*x, *y, cell.symbol().to_owned()))
-                .collect::<Vec<_>>()
-        };
-        let cells = |cells: &[(u16, u16, &str)]| {
-            cells.iter().map(|&(x, y, text)| (x, y, text.to_owned())).collect::<Vec<_>>()
-        };
-        assert_eq!(changes(["5 mm", "ΔV"], ["5 um", "ΔV"]), cells(&[(2, 0, "u")]));
-        assert_eq!(
-            changes(["歯a", "b  "], ["xya", "b  "]),
-            cells(&[(0, 0, "x"), (1, 0, "y"), (2, 0, "a")])
-        );
-        assert_eq!(changes(["xya", "b  "], ["歯a", "b  "]), cells(&[(0, 0, "歯"), (2, 0, "a")]));
-    }
-
-    #[test]
     fn a_dumb_or_unnamed_terminal_is_none() {
         assert_eq!(missing(|_| None), Some("TERM is not set"));
         assert_eq!(missing(|_| Some("dumb".into())), Some("TERM is dumb"));
-    }
-
-    #[test]
-    fn the_drawn_area_fits_the_terminal_and_its_cap() {
-        for (size, drawn) in [((140, 45), (140, 45)), ((u16::MAX, 9), (1000, 9)), ((0, 0), (0, 0))]
-        {
-            assert_eq!(capped(Size::from(size)), Size::from(drawn));
-        }
     }
 }

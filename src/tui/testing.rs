@@ -5,20 +5,20 @@ pub use crate::tui::app::actions::{Action, Effect, Slot, Work};
 pub use crate::tui::app::dialogs::Prompt;
 pub use crate::tui::app::dialogs::page::Explanation;
 pub use crate::tui::app::dialogs::picker::Item;
+pub use crate::tui::app::panes::chart::ChartRequest;
+pub use crate::tui::app::panes::chart::curves::CurveSource;
+pub use crate::tui::app::panes::study::{End, StudyParameters};
+pub use crate::tui::app::panes::teeth::{Centre, Picture, TeethView};
+pub use crate::tui::app::tab::{Origin, Tab};
 pub use crate::tui::input::{Event, take_action};
 pub use crate::tui::layout::Pane;
-pub use crate::tui::panes::chart::ChartRequest;
-pub use crate::tui::panes::chart::curves::CurveSource;
-pub use crate::tui::panes::study::{End, StudyParameters};
-pub use crate::tui::panes::teeth::{Centre, Picture, TeethView};
 pub use crate::tui::session::journal::{Journal, JournalWriter};
 pub use crate::tui::session::{Access, Autosave, Claim, Found, Next, Offer, SaveFault};
 pub use crate::tui::settings::Settings;
+pub use crate::tui::settings::{CONTRAST, Look, MONO};
 pub use crate::tui::solver::{Answer, Request, Wanted};
 pub use crate::tui::store::State;
 pub use crate::tui::store::folder::SearchResult;
-pub use crate::tui::tab::{Origin, Tab};
-pub use crate::tui::theme::{CONTRAST, Look, MONO};
 pub use crate::tui::update::commands::{BINDINGS, of_key};
 pub use crate::tui::update::{opened, update};
 pub use crate::tui::workbench::Workers;
@@ -40,14 +40,14 @@ pub mod help {
 }
 
 pub mod chart {
-    pub use crate::tui::panes::chart::{first_contact, readout};
+    pub use crate::tui::app::panes::chart::{first_contact, readout};
     pub mod curves {
-        pub use crate::tui::panes::chart::curves::{curves, is_field};
+        pub use crate::tui::app::panes::chart::curves::{curves, is_field};
     }
 }
 
 pub mod teeth {
-    pub use crate::tui::panes::teeth::{draw, readings};
+    pub use crate::tui::app::panes::teeth::{draw, readings};
 }
 
 pub mod rows {

@@ -6,41 +6,22 @@ use std::borrow::Cow;
 use std::ops::{Deref, Range};
 
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Constraint, Layout, Margin, Position, Rect};
 use ratatui::style::{Modifier, Style};
-use ratatui::widgets::{Scrollbar, ScrollbarOrientation, ScrollbarState, StatefulWidget};
+use ratatui::text::{Line as Words, Span, Text};
+use ratatui::widgets::{
+    Block, Borders, Scrollbar, ScrollbarOrientation, ScrollbarState, StatefulWidget, Widget,
+};
 use tui_input::{Input, InputRequest, StateChanged};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use crate::case::sanitize::{is_hidden, spelled};
 use crate::report::with_units;
-use crate::tui::theme::Theme;
+use crate::tui::settings::Theme;
 
 /// The width of a text in columns.
 pub(super) fn width(text: &str) -> usize {
     if text.is_ascii() { text.len() } else { text.width() }
-}
-
-/// Writes a text into at most `room` cells of a row. Returns the column after it.
-pub(super) fn put(
-    text: &str,
-    at: impl Into<Position>,
-    room: usize,
-    style: Style,
-    buffer: &mut Buffer,
-) -> u16 {
-    let Position { x, y } = at.into();
-    let room = room.min(buffer.area.right().saturating_sub(x).into());
-    // The search for letters of several characters takes longer than all else.
-    if !text.chars().all(|letter| width_of(letter) == 1) {
-        return buffer.set_stringn(x, y, text, room, style).0;
-    }
-    let (mut end, start) = (x, if room > 0 { buffer.index_of(x, y) } else { 0 });
-    for (letter, cell) in text.chars().zip(buffer.content[start..].iter_mut().take(room)) {
-        cell.set_char(letter).set_style(style);
-        end += 1;
-    }
-    end
 }
 
 /// The text cut to the width, with a mark at a cut end.
@@ -95,29 +76,29 @@ pub(super) fn fitted(text: &str, width: usize, rows: usize) -> Vec<String> {
     lines
 }
 
-/// Draws a rule with a title in a style on the top line of an area. Returns the area below it.
+/// A rule with a title in a style on the top line of an area of a width, after a mark.
 pub(super) fn titled(
+    mark: Option<&'static str>,
     title: &str,
     style: Style,
-    area: Rect,
+    width: u16,
     theme: &Theme,
-    buffer: &mut Buffer,
-) -> Rect {
-    let width = usize::from(area.width);
-    let [line, below] = split(area, 1);
-    if !line.is_empty() {
-        put(&"─".repeat(width), line, width, theme.rule, buffer);
-        let title = format!(" {} ", cut(title, width.saturating_sub(4)));
-        put(&title, (area.x + 1, area.y), width.saturating_sub(1), style, buffer);
-    }
-    below
+) -> Block<'static> {
+    let title = format!(" {} ", cut(title, usize::from(width).saturating_sub(4)));
+    let mark = mark.map_or(Span::styled("─", theme.rule), |mark| Span::styled(mark, theme.title));
+    let title = Words::from_iter([mark, Span::styled(title, style)]);
+    Block::new().borders(Borders::TOP).border_style(theme.rule).title(title)
+}
+
+/// Draws a block and returns the area inside it.
+pub(super) fn framed(block: &Block<'_>, area: Rect, buffer: &mut Buffer) -> Rect {
+    block.render(area, buffer);
+    block.inner(area)
 }
 
 /// The top rows of an area, and the rest.
 pub(super) fn split(area: Rect, rows: u16) -> [Rect; 2] {
-    let height = rows.min(area.height);
-    let rest = Rect { y: area.y + height, height: area.height - height, ..area };
-    [Rect { height, ..area }, rest]
+    area.layout(&Layout::vertical([Constraint::Length(rows), Constraint::Fill(1)]))
 }
 
 /// Draws an edited line of text, scrolled so that the cursor is visible. Returns the position of
@@ -141,7 +122,7 @@ pub(super) fn edited(
     } else {
         skip(&shown, hidden).to_owned()
     };
-    put(&seen, area, width, style, buffer);
+    Span::styled(seen, style).render(area, buffer);
     if let Some(part) = input.selected() {
         let width_to = |at| shown.chars().take(at).map(width_of).sum::<usize>();
         let cell = |at| width_to(at).saturating_sub(hidden).min(width) as u16;
@@ -159,11 +140,9 @@ pub(super) fn ending(
     theme: &Theme,
     buffer: &mut Buffer,
 ) {
-    let width = usize::from(area.width);
-    if let Some(ending) = ending.filter(|_| typed < width && !area.is_empty()) {
-        let style = theme.faint.remove_modifier(Modifier::BOLD | Modifier::UNDERLINED);
-        put(ending, (area.x + typed as u16, area.y), width - typed, style, buffer);
-    }
+    let after = Rect { x: area.x.saturating_add(typed as u16), ..area }.intersection(area);
+    let style = theme.faint.remove_modifier(Modifier::BOLD | Modifier::UNDERLINED);
+    Span::styled(ending.unwrap_or_default(), style).render(after, buffer);
 }
 
 fn append(lines: &mut Vec<String>, word: &str, width: usize) {
@@ -231,23 +210,10 @@ pub(super) fn scroll_bar_beside(top: usize, lines: usize, area: Rect, buffer: &m
     }
 }
 
-/// Draws lines from the top of an area, as many as fit.
-pub(super) fn draw_lines(lines: &[ratatui::text::Line<'_>], area: Rect, buffer: &mut Buffer) {
-    for (line, row) in lines.iter().zip(area.rows()) {
-        let mut x = row.x;
-        for span in &line.spans {
-            let room = row.right().saturating_sub(x).into();
-            x = put(&span.content, (x, row.y), room, line.style.patch(span.style), buffer);
-        }
-    }
-}
-
 /// Draws wrapped text into an area, with a margin of one column on both sides.
 pub(super) fn draw_words(words: &str, area: Rect, buffer: &mut Buffer) {
-    let width = usize::from(area.width).saturating_sub(2);
-    for (line, row) in wrap(words, width).iter().zip(area.rows()) {
-        put(line, (row.x + 1, row.y), width, Style::new(), buffer);
-    }
+    let area = area.inner(Margin::new(1, 0));
+    Text::from_iter(wrap(words, area.width.into())).render(area, buffer);
 }
 
 /// The extension of a case file.

@@ -18,12 +18,12 @@ use super::app::App;
 use super::app::actions::{Action, Effect, Running, Slot, Work};
 use super::app::dialogs::Prompt;
 use super::app::dialogs::browser::Browser;
+use super::app::panes::chart::cursor_at;
+use super::app::panes::form;
+use super::app::tab::Tab;
 use super::layout::Pane;
-use super::panes::chart::cursor_at;
-use super::panes::form;
-use super::tab::Tab;
-use super::theme::Look;
-use super::{header, rows, store};
+use super::settings::Look;
+use super::{rows, store};
 use crate::case::Document;
 use crate::model::Stage;
 
@@ -56,8 +56,8 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
 /// Scrolls form and results to their focused rows.
 pub(crate) fn settle(app: &mut App) {
     if mem::take(&mut app.needs_scroll) {
-        app.tab.form.top = form::top_for(&app.form());
-        app.tab.results.top = app.results().top_for();
+        app.tab.form.top = form::top_for(app);
+        app.tab.results.top = app.top_of_results();
     }
 }
 
@@ -78,7 +78,7 @@ fn happen(app: &mut App, action: Action) {
         Action::Wheel(at, by) => wheel(app, at, by),
         Action::Tick => panes::tick(app),
         Action::Resize(size) => {
-            app.layout.resize(size);
+            app.layout.size = size;
             app.follow();
             // Terminals cut their content when they shrink, even if they have the old size again.
             app.want(Effect::Redraw);
@@ -171,8 +171,8 @@ fn wheel(app: &mut App, at: Position, by: isize) {
     }
     let nearer = if by < 0 { 1 } else { -1 };
     match pane_at(app, at) {
-        Some(Pane::Form) => app.tab.form.top = form::scrolled(&app.form(), by),
-        Some(Pane::Results) => app.tab.results.top = app.results().scrolled(by),
+        Some(Pane::Form) => app.tab.form.top = form::scrolled(app, by),
+        Some(Pane::Results) => app.tab.results.top = app.scrolled_results(by),
         Some(Pane::Chart) => panes::zoom_chart(app, nearer),
         Some(Pane::Teeth) => panes::zoom_teeth(app, nearer),
         Some(Pane::Study) if app.study.is_tolerance => studies::scroll(app, by),
@@ -193,12 +193,12 @@ fn leave(app: &mut App) {
         app.is_editing = false;
         return;
     }
-    if stop(app, app.layout.focus() == Pane::Study) || panes::stop_playing(app) {
+    if stop(app, app.layout.focus == Pane::Study) || panes::stop_playing(app) {
         return;
     }
-    if app.cursor.is_some() && app.layout.focus().is_lower() {
+    if app.cursor.is_some() && app.layout.focus.is_lower() {
         app.cursor = None;
-    } else if app.layout.is_zoomed() {
+    } else if app.layout.is_zoomed {
         panes::zoom(app);
     } else {
         panes::show(app, Pane::Form);
@@ -220,7 +220,7 @@ fn cancel(app: &mut App) {
 }
 
 fn field(app: &mut App, field: usize) {
-    app.layout.focus_on(Pane::Form);
+    app.layout.focus = Pane::Form;
     app.focus_on(field);
 }
 
@@ -247,7 +247,7 @@ fn step(app: &mut App, by: isize) {
     if app.with_dialog(|dialog, around| dialog.step(by, around)).is_some() {
         return;
     }
-    match app.layout.focus() {
+    match app.layout.focus {
         Pane::Results => mark(app, by),
         Pane::Trade => studies::step_setting(app, by),
         _ => app.focus_on(app.tab.form.focus.saturating_add_signed(by)),
@@ -259,7 +259,7 @@ fn leap(app: &mut App, by: isize) {
     if app.with_dialog(|dialog, around| dialog.turn(by, around)).is_some() {
         return;
     }
-    if app.layout.focus() == Pane::Results {
+    if app.layout.focus == Pane::Results {
         return turn(app, by);
     }
     // The first field of the next group, of this one, or of the previous one.
@@ -276,31 +276,36 @@ fn leap(app: &mut App, by: isize) {
 
 /// Goes to the first line, or to the last one if `way` is positive.
 fn go_to_end(app: &mut App, way: isize) {
-    match app.layout.focus() {
+    match app.layout.focus {
         Pane::Results => mark(app, way.saturating_mul(isize::MAX)),
         _ => end_of_form(app, way),
     }
 }
 
 fn mark(app: &mut App, by: isize) {
-    app.tab.results = app.results().stepped(by);
+    app.tab.results = app.stepped_result(by);
     app.follow();
 }
 
 /// Scrolls the results by pages.
 fn turn(app: &mut App, by: isize) {
-    let page = app.results().page().max(2).cast_signed() - 1;
-    app.tab.results = app.results().turned(by * page);
+    let page = app.results_page().max(2).cast_signed() - 1;
+    app.tab.results = app.turned_results(by * page);
     app.follow();
 }
 
 fn in_panes(app: &mut App, at: Position) {
     let plan = app.layout.plan();
-    let owner = plan.names_hidden();
-    let hidden = owner.and_then(|owner| app.title(owner).hidden_at(plan.area(owner), at));
-    if let Some(tab) = header::tab_at(app, plan.header, at) {
-        files::go_to_tab(app, tab);
-    } else if let Some(pane) = hidden {
+    if plan.header.contains(at) {
+        let mut right = 0;
+        let part = app.header().into_iter().find(|(_, span)| {
+            right += span.width();
+            usize::from(at.x) < right
+        });
+        if let Some(tab) = part.and_then(|(tab, _)| tab) {
+            files::go_to_tab(app, tab);
+        }
+    } else if let Some(pane) = app.hidden_at(at) {
         panes::show(app, pane);
     } else if let Some(pane) = pane_at(app, at) {
         in_pane(app, pane, at);
@@ -308,13 +313,13 @@ fn in_panes(app: &mut App, at: Position) {
 }
 
 fn in_pane(app: &mut App, pane: Pane, at: Position) {
-    let had_focus = app.layout.focus() == pane;
+    let had_focus = app.layout.focus == pane;
     match pane {
-        Pane::Form => in_form(app, form::field_at(&app.form(), at)),
+        Pane::Form => in_form(app, form::field_at(app, at)),
         Pane::Results => {
             panes::show(app, pane);
-            if let Some(key) = app.results().key_at(at) {
-                let was_selected = app.results().marked().is_some_and(|known| known.key == key);
+            if let Some(key) = app.result_at(at) {
+                let was_selected = app.marked_result().is_some_and(|known| known.key == key);
                 app.tab.results.selected = Some(key);
                 if was_selected && had_focus {
                     panes::explain(app);
@@ -323,7 +328,7 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) {
         }
         Pane::Chart => {
             // The focus may widen the pane.
-            let found = cursor_at(&app.charts(), at);
+            let found = cursor_at(app.charts(), at);
             panes::show(app, pane);
             if let Some((angle, z)) = found {
                 (app.cursor, app.chart.z) = (Some(angle), z);
@@ -336,7 +341,7 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) {
 
 // The first click focuses a field, the second one edits it.
 fn in_form(app: &mut App, field: Option<usize>) {
-    let is_marked = app.layout.focus() == Pane::Form && field == Some(app.tab.form.focus);
+    let is_marked = app.layout.focus == Pane::Form && field == Some(app.tab.form.focus);
     match field {
         Some(_) if is_marked && app.has_line() => app.tab.form.input.select_all(),
         Some(_) if is_marked => edit::begin(app),

@@ -3,20 +3,19 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
-use ratatui::text::{Line, Span};
+use ratatui::text::{Line, Span, Text};
+use ratatui::widgets::Widget;
 
 use super::app::App;
 use super::app::actions::Binding;
-use super::app::dialogs::Surroundings;
+use super::app::panes::chart;
+use super::app::panes::form;
+use super::app::panes::results;
+use super::app::panes::study;
+use super::app::panes::teeth;
+use super::app::panes::trade;
 use super::form_aids::materials;
-use super::header;
 use super::layout::{self, Pane, SMALLEST};
-use super::panes::chart::{self, Charts};
-use super::panes::form::{self, Form};
-use super::panes::results::{self, Results};
-use super::panes::study::{self, StudyPane};
-use super::panes::teeth;
-use super::panes::trade::{self, TradePane};
 use super::rows::{self, Row};
 use super::text::{self, symbol};
 use super::update::commands::BINDINGS;
@@ -27,18 +26,18 @@ use crate::report::verdict::verdicts;
 use crate::study::tolerance::centre;
 use crate::study::trade::Trade;
 
-/// Draws the whole screen. Returns the position of the text cursor, if any.
-pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-    let cursor = if layout::is_too_small(area.as_size()) {
+/// Draws the whole screen on a buffer of its size. Returns the position of the text cursor, if any.
+pub fn draw(app: &App, buffer: &mut Buffer) -> Option<Position> {
+    let area = buffer.area;
+    let cursor = if layout::is_too_small(app.layout.size) {
         let words = format!(
             "{}x{} cells needed; this is {}x{}. Nothing is lost.",
             SMALLEST.width, SMALLEST.height, area.width, area.height
         );
-        let lines = text::wrap(&words, area.width.into()).into_iter().map(Line::raw);
-        text::draw_lines(&lines.collect::<Vec<_>>(), area, buffer);
+        Text::from_iter(text::wrap(&words, area.width.into())).render(area, buffer);
         None
     } else {
-        draw_panes(app, area, buffer)
+        draw_panes(app, buffer)
     };
     text::finish(buffer, app.look.ascii);
     cursor.filter(|&cursor| area.contains(cursor))
@@ -60,80 +59,59 @@ fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
         parts.push((format!("{part:.0} % {what}; {cancel} cancels"), theme.note));
     }
     parts.push((focused(app), Style::new()));
-    let mut lines = Vec::new();
+    let mut lines = Text::default();
     for (words, style) in parts {
-        let room = usize::from(area.height).saturating_sub(lines.len());
+        let room = usize::from(area.height).saturating_sub(lines.height());
         let fitted = text::fitted(&words, area.width.into(), room);
         lines.extend(fitted.into_iter().map(|line| Line::styled(line, style)));
     }
-    text::draw_lines(&lines, area, buffer);
+    lines.render(area, buffer);
 }
 
 /// As many keys as fit, from the table of bindings.
 fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let place = app.place();
-    let (mut spans, mut shown) = (Vec::new(), Vec::<&str>::new());
-    let mut left = usize::from(area.width);
+    let (mut spans, mut shown) = (Line::default(), Vec::<&str>::new());
     let is_here = |one: &&Binding| one.places.meets(place) && one.status.meets(place);
     for binding in BINDINGS.iter().filter(is_here) {
         let key = binding.first_key().replace("Ctrl-", "^").replace("Shift-Tab", "S-Tab");
-        let used = key.len() + binding.name.len() + 3;
-        if used > left + 2 {
+        let used = spans.width() + key.len() + binding.name.len() + 1;
+        if used > area.width.into() {
             break;
         }
-        if shown.contains(&binding.name) {
-            continue;
+        if !shown.contains(&binding.name) {
+            shown.push(binding.name);
+            spans.extend([Span::styled(key, theme.key), format!(" {}  ", binding.name).into()]);
         }
-        shown.push(binding.name);
-        left = left.saturating_sub(used);
-        spans.extend([Span::styled(key, theme.key), Span::raw(format!(" {}  ", binding.name))]);
     }
-    text::draw_lines(&[Line::from(spans)], area, buffer);
+    spans.render(area, buffer);
 }
 
-fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-    let plan = app.layout.plan_on(area.as_size());
-    header::draw(app, plan.header, buffer);
+fn draw_panes(app: &App, buffer: &mut Buffer) -> Option<Position> {
+    let plan = app.layout.plan();
+    Line::from_iter(app.header().into_iter().map(|(_, span)| span)).render(plan.header, buffer);
     let mut cursor = None;
-    for pane in Pane::ALL {
-        let area = plan.area(pane);
+    for pane in Pane::ALL.into_iter().filter(|&pane| plan.shows(pane)) {
         match pane {
-            _ if area.is_empty() => (),
-            Pane::Form => cursor = form::draw(&Form { area, ..app.form() }, buffer),
-            Pane::Results => results::draw(&Results { area, ..app.results() }, buffer),
-            Pane::Chart => {
-                chart::draw(&Charts { area, ..app.charts() }, Some(&app.title(pane)), buffer);
-            }
-            Pane::Teeth => draw_teeth(app, area, buffer),
-            Pane::Trade => trade::draw(&TradePane { area, ..app.trade() }, buffer),
-            Pane::Study => study::draw(&StudyPane { area, ..app.study() }, buffer),
+            Pane::Form => cursor = form::draw(app, buffer),
+            Pane::Results => results::draw(app, buffer),
+            Pane::Chart => drop(chart::draw(app.charts(), buffer)),
+            Pane::Teeth => teeth::draw_pane(app, buffer),
+            Pane::Trade => trade::draw(app, buffer),
+            Pane::Study => study::draw(app, buffer),
         }
     }
     hint(app, plan.hint, buffer);
     keys(app, plan.keys, buffer);
     match app.prompts.last() {
-        Some(prompt) => {
-            let around = Surroundings { screen: area, ..app.surroundings() };
-            prompt.dialog().draw(&around, buffer)
-        }
+        Some(prompt) => prompt.dialog().draw(app, buffer),
         None => cursor,
     }
 }
 
-fn draw_teeth(app: &App, area: Rect, buffer: &mut Buffer) {
-    let stale = if app.tab.shows_last_valid() { "LAST VALID, " } else { "" };
-    let words = format!("{stale}Teeth, true to scale, around {}", app.teeth.centre.name());
-    let inner = app.title(Pane::Teeth).draw(&words, area, buffer);
-    match (app.picture(), &app.tab.answer) {
-        (Some(picture), _) => teeth::draw(&picture, inner, buffer),
-        (None, Some(_)) => text::draw_words("This method has no valid results.", inner, buffer),
-        (None, None) => text::draw_words("No results yet.", inner, buffer),
-    }
-}
-
 fn focused(app: &App) -> String {
-    match app.layout.focus() {
+    match app.layout.focus {
         Pane::Form => {
             let about = match rows::row(&app.tab.case, app.tab.form.focus) {
                 Row::Field(field) => about_field(app, field),
@@ -142,19 +120,19 @@ fn focused(app: &App) -> String {
             };
             typed(app).into_iter().chain([about]).collect::<Vec<_>>().join(" ")
         }
-        Pane::Results => app.results().marked().map_or_else(String::new, |quantity| {
+        Pane::Results => app.marked_result().map_or_else(String::new, |quantity| {
             let method = app.tab.answer.as_ref().map_or(Method::Exact, |answer| answer.active);
             let [name, equation] = [quantity.symbol_in(method), quantity.equation]
                 .map(|text| symbol(text, app.look.ascii));
             let label = results::label(quantity, method);
             let about = format!("{name} {}, {equation} ({}).", label.trim(), quantity.key);
-            let compared = results::compared(&app.results(), quantity);
+            let compared = results::compared(app, quantity);
             compared.into_iter().chain([about]).collect::<Vec<_>>().join(" ")
         }),
         Pane::Chart if app.chart.own_axes().is_some() => app.charts().own_readout(),
         Pane::Chart | Pane::Teeth => at_cursor(app),
-        Pane::Trade => trade::signs(&app.trade()).to_owned(),
-        Pane::Study => study::hint(&app.study()),
+        Pane::Trade => trade::signs(app).to_owned(),
+        Pane::Study => study::hint(app),
     }
 }
 
@@ -167,7 +145,7 @@ fn typed(app: &App) -> Option<String> {
         return Some(format!("Required, such as {example}."));
     }
     let problem = app.tab.problems.iter().find(|(at, _)| *at == row);
-    if let Some((_, problem)) = problem.filter(|_| app.form().is_unfinished(row)) {
+    if let Some((_, problem)) = problem.filter(|_| app.is_unfinished(row)) {
         return Some(format!("Not yet: {}: {}.", problem.cause, problem.fix));
     }
     app.ending()?;
@@ -240,7 +218,7 @@ fn about_spread(app: &App, spread: &Spread) -> String {
 fn at_cursor(app: &App) -> String {
     const NONE: &str = "Cursor hidden. h and l show the cursor; Space plays the motion. D first \
         contact; E and B ends of the path of contact (A and E of ISO 21771); L last contact.";
-    app.cursor.map_or_else(|| NONE.to_owned(), |cursor| chart::readout(&app.charts(), cursor))
+    app.cursor.map_or_else(|| NONE.to_owned(), |cursor| chart::readout(app.charts(), cursor))
 }
 
 // The name of running work and its completed part: of a benchmark or of a slow solve.

@@ -15,15 +15,14 @@ use std::time::{Duration, Instant, SystemTime};
 
 use super::app::App;
 use super::app::actions::{Action, Effect, Slot, Work};
+use super::app::tab::Origin;
 use super::input::{self, Event, Events};
 use super::session::journal::JournalWriter;
 use super::session::{Autosave, Claim};
-use super::settings::Settings;
+use super::settings::{Look, Settings};
 use super::solver::on_demand;
 use super::store::{self, State, WatchedFile};
-use super::tab::Origin;
 use super::terminal::Screen;
-use super::theme::Look;
 use super::update::{self, update};
 use crate::case::rexs;
 use crate::system::changes::{Changes, Places};
@@ -90,8 +89,7 @@ pub(super) fn session(
     screen.draw(&app)?;
     let threads = Workers::start(Arc::new(events.action_sender()))?;
     let autosave = Autosave::new(State::find(), Arc::clone(journal_writer));
-    let mut workbench =
-        Workbench { app, screen, events, threads, autosave, alarm: None, chosen: None };
+    let mut workbench = Workbench { app, screen, events, threads, autosave, alarm: None };
     workbench.app.complete();
     workbench.act(Action::Tick)?;
     workbench.stay()
@@ -141,8 +139,6 @@ struct Workbench {
     autosave: Autosave,
     /// Time of the next frame of the animation.
     alarm: Option<Instant>,
-    /// Settings to save after all waiting events: several changes cause one write.
-    chosen: Option<Settings>,
 }
 
 impl Workbench {
@@ -155,7 +151,6 @@ impl Workbench {
             }
             batch = self.events.batch(self.alarm, self.autosave.deadline());
         };
-        self.keep_settings();
         if matches!(end, End::Left) {
             self.autosave.end();
         }
@@ -175,8 +170,12 @@ impl Workbench {
             let waits = waits && Instant::now() < quick;
             batch = if waits { self.events.batch(None, Some(quick)) } else { Vec::new() };
         }
-        self.keep_settings();
         if self.keep()? || has_changed {
+            // A terminal that is resized while the workbench is suspended sends no signal later.
+            let size = self.screen.size()?;
+            if size != self.app.layout.size {
+                self.act(Action::Resize(size))?;
+            }
             self.screen.draw(&self.app)?;
         }
         self.autosave.keep_if_due(Instant::now());
@@ -227,12 +226,11 @@ impl Workbench {
                     Effect::Quit => return Ok(true),
                     Effect::Redraw => {
                         on_demand("screen");
-                        self.screen.clear()?;
+                        self.screen.clear(self.app.layout.size)?;
                     }
                     Effect::Suspend => self.suspend()?,
                     Effect::Work(number, work) => self.threads.work(number, work)?,
                     Effect::Cancel(slot) => self.threads.cancel(slot),
-                    Effect::Keep(settings) => self.chosen = Some(settings),
                     Effect::Copy(text) => self.screen.copy(&text)?,
                     Effect::Mouse(takes) => self.screen.take_mouse(takes)?,
                     Effect::Play(plays) => self.alarm = plays.then(|| Instant::now() + TICK),
@@ -241,13 +239,6 @@ impl Workbench {
             }
         }
         Ok(false)
-    }
-
-    fn keep_settings(&mut self) {
-        let effect = self.chosen.take().map(Effect::Keep);
-        if let Some(action) = effect.and_then(|keep| perform(keep, &mut self.autosave)) {
-            update(&mut self.app, action);
-        }
     }
 
     // Returns whether there were claims.

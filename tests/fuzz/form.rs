@@ -225,7 +225,6 @@ impl Bench {
         let prompt = self.app.prompts.last().map(|prompt| match prompt {
             Prompt::Browse(_) => "browse",
             Prompt::Path(_) => "path",
-            Prompt::CursorTo(_) => "aim",
             Prompt::Ask(_) => "ask",
             Prompt::Read(_) | Prompt::Explain(_) | Prompt::Relief(_) => "page",
             Prompt::Pick(_) => "pick",
@@ -378,8 +377,8 @@ impl Bench {
             let chosen = inputs.method == Method::Auto || answer.pending.is_some();
             assert!(chosen || answer.active == inputs.method, "the method of the form is first");
         }
-        let Size { width, height } = app.layout.size();
-        self.draw(app.layout.size());
+        let Size { width, height } = app.layout.size;
+        self.draw(app.layout.size);
         if self.taken.is_multiple_of(3) {
             self.draw(Size { width: height, height: width.min(60) });
         }
@@ -388,7 +387,7 @@ impl Bench {
     fn draw(&self, size: Size) {
         let area = Rect::new(0, 0, size.width, size.height);
         let mut buffer = Buffer::empty(area);
-        let cursor = view::draw(&self.app, area, &mut buffer);
+        let cursor = view::draw(&self.app, &mut buffer);
         assert!(cursor.is_none_or(|cursor| area.contains(cursor)), "{cursor:?} in {size:?}");
         for cell in &buffer.content {
             let is_wrong = |letter| is_hostile(letter) || self.app.look.ascii && !letter.is_ascii();

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::{Position, Rect, Size};
+use ratatui::layout::Size;
 use tempfile::TempDir;
 use tipstrike::case::Document;
 use tipstrike::study::trade::Time;
@@ -52,7 +52,7 @@ impl Desk {
     pub(crate) fn new(size: Size) -> Desk {
         static SOLVED: Mutex<Vec<App>> = Mutex::new(Vec::new());
         let mut solved = SOLVED.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = solved.iter().find(|app| app.layout.size() == size).cloned();
+        let known = solved.iter().find(|app| app.layout.size == size).cloned();
         let app = known.unwrap_or_else(|| {
             let app = opened(store::built_in(), None, Look::FULL, size);
             solved.push(app.clone());
@@ -255,20 +255,16 @@ impl Desk {
         self.app.tab.case.text(field).unwrap_or_default()
     }
 
-    pub(crate) fn screen(&self) -> String {
-        self.screen_at(self.app.layout.size())
-    }
-
     /// The screen as text, with `DIR` for the folder of the test, without trailing blanks.
-    pub(crate) fn screen_at(&self, size: Size) -> String {
+    pub(crate) fn screen(&self) -> String {
         let folder = self.folder.path().display().to_string();
-        let rows = self.rows(size).into_iter();
+        let rows = self.rows().into_iter();
         let lines = rows.map(|row| row.replace(&folder, "DIR").trim_end().to_owned());
         lines.collect::<Vec<_>>().join("\n")
     }
 
     pub(crate) fn shows(&self, text: &str) -> bool {
-        self.rows(self.app.layout.size()).join("\n").contains(text)
+        self.rows().join("\n").contains(text)
     }
 
     /// Checks a condition; a failure prints the screen.
@@ -311,17 +307,16 @@ impl Desk {
         self
     }
 
-    fn rows(&self, size: Size) -> Vec<String> {
-        let buffer = self.buffer(size);
-        let rows = buffer.content.chunks(usize::from(size.width.max(1)));
+    fn rows(&self) -> Vec<String> {
+        let buffer = self.buffer();
+        let rows = buffer.content.chunks(usize::from(buffer.area.width.max(1)));
         rows.map(|row| row.iter().map(Cell::symbol).collect()).collect()
     }
 
     /// The screen with its styles.
-    pub(crate) fn buffer(&self, size: Size) -> Buffer {
-        let area = Rect::from((Position::ORIGIN, size));
-        let mut buffer = Buffer::empty(area);
-        view::draw(&self.app, area, &mut buffer);
+    pub(crate) fn buffer(&self) -> Buffer {
+        let mut buffer = Buffer::empty(self.app.layout.size.into());
+        view::draw(&self.app, &mut buffer);
         buffer
     }
 }

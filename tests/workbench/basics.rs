@@ -121,15 +121,15 @@ fn tab_cycles_the_panes_whose_letters_are_commands() {
     desk.keys(&["Esc"]);
     for pane in [Pane::Results, Pane::Chart, Pane::Teeth, Pane::Trade, Pane::Study, Pane::Form] {
         desk.keys(&["Tab"]);
-        assert_eq!(desk.app.layout.focus(), pane);
+        assert_eq!(desk.app.layout.focus, pane);
         desk.assert_shows(&format!("▸ {}", pane.number()));
         desk.keys(&["xwv0"]).act(Action::Paste("999".to_owned()));
         assert!(!desk.app.tab.is_unsaved());
     }
     desk.keys(&["BackTab"]);
-    assert_eq!(desk.app.layout.focus(), Pane::Study);
+    assert_eq!(desk.app.layout.focus, Pane::Study);
     desk.keys(&["Esc"]);
-    assert_eq!(desk.app.layout.focus(), Pane::Form);
+    assert_eq!(desk.app.layout.focus, Pane::Form);
 }
 
 #[test]
@@ -501,8 +501,7 @@ fn the_first_frame_waits_for_no_elastic_field() {
             gears.map(|gear| ElasticGear::of(&inputs, gear).is_field_built())
         };
         let app = App::at_start(document, None, Look::FULL, LARGE);
-        let area = Rect::from((Position::ORIGIN, LARGE));
-        view::draw(&app, area, &mut Buffer::empty(area));
+        view::draw(&app, &mut Buffer::empty(LARGE.into()));
         assert_eq!(is_built(), [false, false], "{method} {compliance}");
         assert_eq!(app.tab.answer.is_some(), !compliance.is_empty(), "{method} {compliance}");
     }

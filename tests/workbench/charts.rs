@@ -39,7 +39,7 @@ fn chart_area(desk: &Desk) -> Rect {
 /// The lines of the chart pane.
 fn chart(desk: &Desk) -> Vec<String> {
     let area = chart_area(desk);
-    let buffer = desk.buffer(desk.app.layout.size());
+    let buffer = desk.buffer();
     let cell = |x, y| buffer.cell((x, y)).map_or(" ", |cell| cell.symbol());
     let text = |row: Rect| row.columns().map(|at| cell(at.x, at.y)).collect::<String>();
     area.rows().map(|row| text(row).trim_end().to_owned()).collect()
@@ -291,7 +291,7 @@ fn the_readout_and_the_teeth_pane_show_the_same_numbers() {
             let answer = desk.app.tab.answer.as_ref().expect("solved");
             let solved = (&answer.inputs, answer.of(answer.active).expect("solved"));
             let moment = ContactState::at(solved.0, solved.1, angle).expect("in sight");
-            let said = chart::readout(&desk.app.charts(), angle);
+            let said = chart::readout(desk.app.charts(), angle);
             let readout = |symbol| {
                 let mut all = readings(&moment, solved, System::Metric).into_iter();
                 let found = all.find(|one| one.symbol == symbol && one.number.is_some());
@@ -358,7 +358,7 @@ fn assert_round(numbers: &[f64], desk: &Desk) {
 fn assert_legends(desk: &Desk, text: &str) {
     let app = &desk.app;
     for graph in app.charts().shown() {
-        for curve in &curves::curves(&app.charts(), &GRAPHS[graph]) {
+        for curve in &curves::curves(app.charts(), &GRAPHS[graph]) {
             let name = match curve.source {
                 CurveSource::Active(method) => format!("⠒ {}", method.name()),
                 CurveSource::Other(method) => method.name().to_owned(),
@@ -466,10 +466,9 @@ fn bytes(before: &Buffer, after: &Buffer, area: Rect) -> usize {
 
 /// Every chart on the screen, one after the other.
 fn all_charts(desk: &mut Desk) -> Vec<Buffer> {
-    let size = desk.app.layout.size();
     let charts = (0..GRAPHS.len()).map(|graph| {
         desk.app.chart.selected = graph;
-        desk.buffer(size)
+        desk.buffer()
     });
     charts.collect()
 }
@@ -606,11 +605,11 @@ fn the_cursor_of_the_pattern_moves_along_the_contact_line_and_the_teeth_follow()
     assert!(z > 0.0);
     desk.has(&["In the plane at z", "line load"]);
     let teeth = desk.app.layout.plan().area(Pane::Teeth);
-    let before = desk.buffer(LARGE);
+    let before = desk.buffer();
     desk.keys(&["Up"; 5]);
     assert_eq!(desk.app.cursor, Some(angle), "the gears do not turn");
     assert!(desk.app.chart.z > z);
-    let after = desk.buffer(LARGE);
+    let after = desk.buffer();
     assert!(teeth.positions().any(|at| before[at] != after[at]), "another section");
     desk.keys(&["Down"; 99]);
     let width = desk.app.tab.case.inputs().expect("a case").common_width();

@@ -58,7 +58,7 @@ fn a_wrong_text_shows_the_reason_and_stays() {
     ] {
         desk.keys(&["Esc", "Esc", "a", typed, "Enter"]);
         assert!(desk.shows(said), "{typed}\n{}", desk.screen());
-        assert!(matches!(desk.app.prompts[..], [Prompt::CursorTo(_)]) && desk.app.cursor.is_none());
+        assert!(matches!(desk.app.prompts[..], [Prompt::Path(_)]) && desk.app.cursor.is_none());
     }
     let mut desk = Desk::on(SMALL, "case.toml", include_str!("../../cases/tip-relief-enough.toml"));
     desk.keys(&["Esc", "a", "D", "Enter"]).assert_shows("no corner contact, so no D");

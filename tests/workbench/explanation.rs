@@ -54,7 +54,7 @@ fn the_page_of_every_result_is_that_of_the_command_and_can_be_read_through() {
         let case = TABLE_1.replace("\"exact\"", &format!("\"{method}\""));
         let mut desk = Desk::on(SMALL, "case.toml", &case);
         let path = desk.path("case.toml").display().to_string();
-        let listed = desk.app.results().listed();
+        let listed = desk.app.listed_results();
         let count = listed.len();
         assert!(count >= pages, "{method}: {count}");
         // Some rows: the text is the same, and each takes a dozen solves.
@@ -123,7 +123,7 @@ fn every_letter_of_every_page_has_its_like_in_ascii() {
         let mut desk = Desk::on(LARGE, "case.toml", example.text);
         desk.app.look = Look { theme: &MONO, ascii: true };
         // Each quantity in two cases or more.
-        for quantity in desk.app.results().listed().into_iter().skip(number % 3).step_by(3) {
+        for quantity in desk.app.listed_results().into_iter().skip(number % 3).step_by(3) {
             desk.app.tab.results.selected = Some(quantity.key);
             desk.keys(&["Esc", "2", "Enter"]);
             let page = of(&desk).page.as_ref().expect("it is written").as_ref();

@@ -28,7 +28,7 @@ fn last_valid_results_show_their_reason_and_the_key_that_goes_there() {
 #[test]
 fn the_mark_in_the_results_stays_with_its_quantity() {
     let mut desk = Desk::new(SMALL);
-    let marked = |desk: &Desk| desk.app.results().marked().map(|quantity| quantity.key);
+    let marked = |desk: &Desk| desk.app.marked_result().map(|quantity| quantity.key);
     desk.keys(&["Esc", "2", "j", "j", "j", "j", "j", "j", "j"]);
     assert_eq!(marked(&desk), Some("base_pitch"));
     let is_in_sight = |desk: &Desk| desk.shows("▸p_b ");
@@ -38,7 +38,7 @@ fn the_mark_in_the_results_stays_with_its_quantity() {
     desk.assert(marked(&desk) == Some("base_pitch") && is_in_sight(&desk));
     // A removed quantity is selected again when it returns.
     desk.keys(&["Ctrl-T"]).fill("operation.friction_coefficient", "0.1");
-    let listed = desk.app.results().listed();
+    let listed = desk.app.listed_results();
     let needs_friction = |known: &&&Quantity| known.needs == Need::Friction;
     let of_friction = listed.iter().find(needs_friction).map(|known| known.key);
     desk.app.tab.results.selected = of_friction;
@@ -66,10 +66,10 @@ fn the_free_impact_and_the_other_methods_are_folded_until_f_shows_them() {
     desk.keys(&["Esc", "2", "z"]).assert_shows("other methods (f)").lacks(&["paper"]);
     desk.keys(&["f"]).has(&[" paper ", "▸exact"]).lacks(&["(f)"]);
     desk.keys(&["f", "Ctrl-T", "G"]);
-    let folded = desk.app.results().listed().len();
+    let folded = desk.app.listed_results().len();
     desk.assert_shows("free impact (f)").lacks(&[" free: "]);
     desk.keys(&["f", "G"]).has(&[" free: ", "▸static"]);
-    assert!(desk.app.results().listed().len() > folded);
+    assert!(desk.app.listed_results().len() > folded);
     // A search for a folded result shows it.
     desk.keys(&["f", "/", "impact_duration", "Enter"]).assert_shows(" free: ");
 }

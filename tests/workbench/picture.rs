@@ -51,7 +51,7 @@ fn taken(title: &str, keys: &[&str]) -> String {
     // The folder of a test has a different name in each run.
     let folder = desk.folder.path().display().to_string();
     let stand_in = format!("{:<1$}", "/home/me/drives", folder.chars().count());
-    picture(title, &desk.buffer(LARGE)).replace(&folder, &stand_in)
+    picture(title, &desk.buffer()).replace(&folder, &stand_in)
 }
 
 /// A screen as SVG: one text per row, split where the style changes, each piece at its column.

@@ -48,9 +48,9 @@ fn the_results_of_the_method_itself_come_first() {
 fn every_quantity_can_be_scrolled_into_view_and_the_title_shows_the_visible_rows() {
     for size in [TINY, LARGE] {
         let mut desk = in_motion(size);
-        let (count, mut rows) = (desk.app.results().listed().len(), Vec::new());
+        let (count, mut rows) = (desk.app.listed_results().len(), Vec::new());
         for _ in 0..count {
-            let marked = desk.app.results().marked().expect("a quantity");
+            let marked = desk.app.marked_result().expect("a quantity");
             let symbol = format!("▸{} ", marked.symbol_in(Method::Dynamic));
             assert!(desk.shows(&symbol), "{size}: {symbol}\n{}", desk.screen());
             rows.push(marked.key);
@@ -60,7 +60,7 @@ fn every_quantity_can_be_scrolled_into_view_and_the_title_shows_the_visible_rows
         assert_eq!(rows.len(), count, "{size}");
         let shows_position = |desk: &Desk| {
             let first = desk.app.tab.results.top + 1;
-            let last = desk.app.tab.results.top + desk.app.results().page();
+            let last = desk.app.tab.results.top + desk.app.results_page();
             desk.shows(&format!("2 Results {first}-{last}/{count}"))
         };
         assert!(shows_position(&desk), "{size}: {}", desk.screen());

@@ -3,7 +3,6 @@
 //! workbench, the caller gives to it.
 
 pub(crate) mod browser;
-pub(crate) mod cursor_to;
 pub(crate) mod page;
 pub(crate) mod picker;
 pub(crate) mod question;
@@ -12,7 +11,7 @@ mod relief;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Position, Rect, Size};
 use ratatui::style::Style;
-use ratatui::text::{Line as Words, Span};
+use ratatui::text::{Line as Words, Span, Text};
 use ratatui::widgets::{Block, Borders, Clear, Padding, Widget};
 use unicode_width::UnicodeWidthStr;
 
@@ -20,14 +19,13 @@ use super::App;
 use super::actions::{Change, Choice, Running, Slot, Work};
 use crate::case::units::System;
 use crate::tui::layout::Place;
+use crate::tui::settings::{Look, Theme};
 use crate::tui::store::folder::{self, Preview, Target};
 use crate::tui::text;
 use crate::tui::text::Line;
 use crate::tui::text::printable;
-use crate::tui::theme::{Look, Theme};
 
 use browser::Browser;
-use cursor_to::{CursorScope, CursorTo};
 use page::{Explanation, Page};
 use picker::Picker;
 use question::{PathDialog, Question};
@@ -44,10 +42,10 @@ pub(crate) trait Dialog {
     fn place(&self) -> Place;
 
     /// Draws the dialog over the screen and returns the position of the text cursor.
-    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position>;
+    fn draw(&self, app: &App, buffer: &mut Buffer) -> Option<Position>;
 
     /// The change of the state by Enter.
-    fn accept(&mut self, _around: &Surroundings<'_>) -> Option<Change> {
+    fn accept(&mut self, _app: &App) -> Option<Change> {
         None
     }
 
@@ -62,25 +60,25 @@ pub(crate) trait Dialog {
     }
 
     /// Moves by `by` lines.
-    fn step(&mut self, _by: isize, _around: &Surroundings<'_>) {}
+    fn step(&mut self, _by: isize, _app: &App) {}
 
     /// Moves by `by` pages.
-    fn turn(&mut self, by: isize, around: &Surroundings<'_>) {
-        self.step(by * around.page_height(), around);
+    fn turn(&mut self, by: isize, app: &App) {
+        self.step(by * app.page_height(), app);
     }
 
     /// Handles the mouse wheel.
-    fn wheel(&mut self, by: isize, around: &Surroundings<'_>) {
-        self.step(by, around);
+    fn wheel(&mut self, by: isize, app: &App) {
+        self.step(by, app);
     }
 
     /// Handles a mouse click. Returns whether it accepts.
-    fn click(&mut self, _at: Position, _around: &Surroundings<'_>) -> bool {
+    fn click(&mut self, _at: Position, _app: &App) -> bool {
         false
     }
 
     /// Selects another field behind an explained result.
-    fn select_field(&mut self, _by: isize, _around: &Surroundings<'_>) {}
+    fn select_field(&mut self, _by: isize, _app: &App) {}
 
     /// The preview of the selection.
     fn preview(&mut self) -> Option<(&mut PreviewPane, Option<Target>)> {
@@ -88,25 +86,13 @@ pub(crate) trait Dialog {
     }
 }
 
-/// The context of a dialog.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Surroundings<'a> {
-    pub(crate) screen: Rect,
-    /// The capabilities of the terminal.
-    pub(crate) look: Look,
-    /// The visible charts and the pane in which the cursor moves.
-    pub(crate) cursor: CursorScope<'a>,
-}
-
 /// An open dialog.
 #[derive(Debug, Clone)]
 pub enum Prompt {
     /// The file browser.
     Browse(Box<Browser>),
-    /// A line of text: a path to save or to export to, or a range.
+    /// A line of text: a path to save or to export to, a range, or an angle.
     Path(PathDialog),
-    /// The angle for the cursor.
-    CursorTo(CursorTo),
     /// A question with buttons.
     Ask(Question),
     /// A page of text.
@@ -124,7 +110,6 @@ impl Prompt {
         match self {
             Prompt::Browse(dialog) => &**dialog,
             Prompt::Path(dialog) => dialog,
-            Prompt::CursorTo(dialog) => dialog,
             Prompt::Ask(dialog) => dialog,
             Prompt::Read(dialog) => dialog,
             Prompt::Explain(dialog) => dialog,
@@ -138,7 +123,6 @@ impl Prompt {
         match self {
             Prompt::Browse(dialog) => &mut **dialog,
             Prompt::Path(dialog) => dialog,
-            Prompt::CursorTo(dialog) => dialog,
             Prompt::Ask(dialog) => dialog,
             Prompt::Read(dialog) => dialog,
             Prompt::Explain(dialog) => dialog,
@@ -152,10 +136,10 @@ impl App {
     /// Passes control to the topmost dialog; `None` if there is no dialog.
     pub(crate) fn with_dialog<T>(
         &mut self,
-        act: impl FnOnce(&mut dyn Dialog, &Surroundings<'_>) -> T,
+        act: impl FnOnce(&mut dyn Dialog, &App) -> T,
     ) -> Option<T> {
         let mut prompt = self.prompts.pop()?;
-        let result = act(prompt.dialog_mut(), &self.surroundings());
+        let result = act(prompt.dialog_mut(), self);
         self.prompts.push(prompt);
         Some(result)
     }
@@ -170,7 +154,7 @@ impl App {
 
     /// Enter in the topmost dialog.
     pub(crate) fn accept(&mut self) {
-        if let Some(change) = self.with_dialog(|dialog, around| dialog.accept(around)).flatten() {
+        if let Some(change) = self.with_dialog(|dialog, app| dialog.accept(app)).flatten() {
             change.apply(self);
         }
     }
@@ -227,14 +211,11 @@ fn closing(choice: &Choice) -> Change {
     })
 }
 
-impl Surroundings<'_> {
-    fn theme(&self) -> &'static Theme {
-        self.look.theme
-    }
-
+// The boxes of dialogs.
+impl App {
     /// The size inside the largest box.
     fn room(&self) -> Size {
-        let Rect { width, height, .. } = self.screen;
+        let Size { width, height } = self.layout.size;
         Size::new(width.min(WIDEST).saturating_sub(4), height.saturating_sub(4))
     }
 
@@ -253,7 +234,8 @@ impl Surroundings<'_> {
         let height = wanted.height.clamp(1, room.height.max(1)) + 2;
         let width = wanted.width.max(NARROWEST).min(room.width) + 4;
         let (width, height) = (Constraint::Length(width), Constraint::Length(height));
-        self.screen.centered(width, height).intersection(self.screen)
+        let screen = Rect::from(self.layout.size);
+        screen.centered(width, height).intersection(screen)
     }
 
     /// The area inside a box, which is as large as wanted if there is room.
@@ -266,7 +248,7 @@ impl Surroundings<'_> {
         let area = self.outside(wanted);
         Clear.render(area, buffer);
         let title = text::cut(title, usize::from(area.width).saturating_sub(6));
-        let title = Words::styled(format!(" {title} "), self.theme().title);
+        let title = Words::styled(format!(" {title} "), self.look.theme.title);
         Block::bordered().title(title).render(area, buffer);
         self.inside(wanted)
     }
@@ -278,19 +260,19 @@ impl Surroundings<'_> {
         title: &str,
         width: u16,
         input: &Line,
-        lines: &[Words<'_>],
+        lines: Vec<Words<'_>>,
         buffer: &mut Buffer,
     ) -> (Rect, Option<Position>) {
         let inner = self.frame(title, Size::new(width, lines.len() as u16 + 1), buffer);
         let [line, below] = text::split(inner, 1);
-        text::draw_lines(lines, below, buffer);
-        (line, text::edited(input, line, self.theme().focus, buffer))
+        Text::from_iter(lines).render(below, buffer);
+        (line, text::edited(input, line, self.look.theme.focus, buffer))
     }
 
     /// A box that shows the lines from `top`, with a scroll bar if they do not fit.
     fn page_box(&self, title: &str, lines: &[Words<'_>], top: usize, buffer: &mut Buffer) {
         let inner = self.frame(title, Size::new(WIDEST, extent(lines).height), buffer);
-        text::draw_lines(lines.get(top..).unwrap_or_default(), inner, buffer);
+        Text::from_iter(lines.iter().skip(top).cloned()).render(inner, buffer);
         text::scroll_bar_beside(top, lines.len(), inner, buffer);
     }
 }
@@ -303,12 +285,11 @@ fn halves(area: Rect) -> [Rect; 2] {
 /// Draws the details on the right of a list.
 fn draw_details(lines: impl FnOnce(u16) -> Vec<Words<'static>>, area: Rect, buffer: &mut Buffer) {
     let beside = Block::new().borders(Borders::LEFT).padding(Padding::left(1));
-    let inner = beside.inner(area);
-    beside.render(area, buffer);
-    text::draw_lines(&lines(inner.width), inner, buffer);
+    let inner = text::framed(&beside, area, buffer);
+    Text::from(lines(inner.width)).render(inner, buffer);
 }
 
-/// The lines of a list in its area, around the selected one; only visible lines are built.
+/// The lines of a list in its area, app the selected one; only visible lines are built.
 struct Window {
     count: usize,
     selected: Option<usize>,

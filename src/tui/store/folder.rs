@@ -13,7 +13,7 @@ use crate::case::units::System;
 use crate::case::{Document, EXAMPLES, Example, rexs};
 use crate::report::digest::Digest;
 use crate::report::solve;
-use crate::tui::theme::Theme;
+use crate::tui::settings::Theme;
 
 /// Greatest number of listed entries.
 const MOST: usize = 50_000;

@@ -18,10 +18,10 @@ use crate::tui::app::actions::{Action, Binding, Choice, Effect, Run};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::page::Page;
 use crate::tui::app::dialogs::picker::{Item, Picker, Typed};
+use crate::tui::app::panes::chart::OwnChart;
+use crate::tui::app::panes::results::order;
+use crate::tui::app::panes::teeth::TeethView;
 use crate::tui::layout::{Pane, Place};
-use crate::tui::panes::chart::OwnChart;
-use crate::tui::panes::results::Results;
-use crate::tui::panes::teeth::TeethView;
 use crate::tui::rows;
 use crate::tui::settings::marker_name;
 
@@ -196,15 +196,16 @@ struct Context {
 
 impl Context {
     fn of(app: &App) -> Context {
-        let every = Results { shows_every_method: true, ..app.results() }.listed();
+        let every = app.tab.answer.as_ref().map_or_else(Vec::new, |answer| order(answer, true));
         let result = |quantity: &'static Quantity| match app.tab.solution() {
             _ if every.iter().any(|listed| listed.key == quantity.key) => Some((quantity, None)),
             solution => Some((quantity, Some(Absence::of(quantity, solution?).to_string()))),
         };
+        let is_idle = |at: &usize| rows::is_idle(&app.tab.case, *at, &app.tab.inputs_so_far);
         Context {
             results: QUANTITIES.iter().filter_map(result).collect(),
-            are_results_first: app.layout.focus() == Pane::Results,
-            idle: app.tab.idle.clone(),
+            are_results_first: app.layout.focus == Pane::Results,
+            idle: (0..FIELDS.len()).filter(is_idle).collect(),
         }
     }
 
@@ -310,7 +311,7 @@ fn type_command(app: &mut App, typed: &str) {
 
 /// The scope of a command; in the form, the focused row decides too.
 fn scope(app: &App, name: &str) -> Scope {
-    let (place, pane, row) = (app.place(), app.layout.focus(), app.tab.form.focus);
+    let (place, pane, row) = (app.place(), app.layout.focus, app.tab.form.focus);
     let field = rows::field(&app.tab.case, row);
     let is_of_row = match name {
         _ if pane != Pane::Form => None,

@@ -93,7 +93,7 @@ pub(super) fn handle(app: &mut App, request: InputRequest) {
 
 /// Starts an edit of the focused field: typing replaces its value until the cursor moves.
 pub(super) fn begin(app: &mut App) {
-    app.layout.focus_on(Pane::Form);
+    app.layout.focus = Pane::Form;
     app.is_editing = true;
     app.tab.form.input.select_all();
 }
@@ -239,7 +239,7 @@ fn make_of_material(app: &mut App, gears: &[&str], material: &Material) {
 /// Sets a limit on the selected result if the results have the focus, otherwise opens the list of
 /// results.
 pub(super) fn ask_limit(app: &mut App) {
-    match app.results().marked().filter(|_| app.layout.focus() == Pane::Results) {
+    match app.marked_result().filter(|_| app.layout.focus == Pane::Results) {
         Some(quantity) => hold_limit(app, quantity),
         None => app.pick(Picker::results("Set a limit on a result", hold_limit)),
     }
@@ -270,7 +270,7 @@ fn hold_limit(app: &mut App, quantity: &'static Quantity) {
 }
 
 fn edit_row(app: &mut App, row: usize) {
-    app.layout.focus_on(Pane::Form);
+    app.layout.focus = Pane::Form;
     app.is_editing = true;
     app.focus_on(row);
 }
@@ -279,8 +279,8 @@ fn edit_row(app: &mut App, row: usize) {
 /// list of fields.
 pub(super) fn ask_spread(app: &mut App) {
     match spread_field(app) {
-        Some(field) if app.layout.focus() == Pane::Form => begin_spread(app, field),
-        None if app.layout.focus() == Pane::Form => app.complain(no_spread(app)),
+        Some(field) if app.layout.focus == Pane::Form => begin_spread(app, field),
+        None if app.layout.focus == Pane::Form => app.complain(no_spread(app)),
         _ => app.pick(Picker::fields("Distribution of a field", true, begin_spread)),
     }
 }

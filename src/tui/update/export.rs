@@ -16,10 +16,9 @@ use crate::tui::app::App;
 use crate::tui::app::actions::{Choice, Content, Effect, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::question::{PathDialog, Question};
+use crate::tui::app::panes::chart;
 use crate::tui::layout::Pane;
-use crate::tui::panes::chart;
 use crate::tui::rows::{self, Row};
-use crate::tui::session::Next;
 use crate::tui::store::at_home;
 use crate::tui::text::Line;
 
@@ -40,7 +39,7 @@ pub(super) fn ask(app: &mut App) {
     if refuse_faulty(app) {
         return;
     }
-    let ending = match app.layout.focus() {
+    let ending = match app.layout.focus {
         Pane::Chart | Pane::Teeth => "svg",
         Pane::Study => "csv",
         _ => "html",
@@ -48,8 +47,7 @@ pub(super) fn ask(app: &mut App) {
     let beside = app.tab.path.as_deref().unwrap_or(Path::new("case.toml"));
     let input = Line::named(beside.with_extension(ending).display().to_string());
     let done = |app: &mut App, name: &str, _| begin(app, name.trim().into(), false);
-    let next = Next::Stay;
-    app.prompts.push(Prompt::Path(PathDialog { title: EXPORT, how: HOW, input, next, done }));
+    app.prompts.push(Prompt::Path(PathDialog::new(EXPORT, HOW, input, done)));
 }
 
 /// Starts the export.
@@ -89,7 +87,7 @@ fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
     let is_picture = exports::is_picture(path);
     let is_data = matches!(exports::format_of(path), Some(Format::Csv | Format::Json));
     let picture = picture(app).filter(|_| is_picture);
-    let has_focus = app.layout.focus() == Pane::Study;
+    let has_focus = app.layout.focus == Pane::Study;
     let is_alone = picture.is_none() && app.layout.plan().shows(Pane::Study);
     if has_focus && (is_picture || is_data) || is_picture && is_alone {
         return studies::content(app, path);
@@ -180,7 +178,7 @@ fn done(app: &mut App, path: &Path, subject: &str, result: Result<(), Option<Str
 /// the study the command that repeats it, otherwise the selected result.
 pub(super) fn copy_value(app: &mut App) {
     let (case, row) = (&app.tab.case, app.tab.form.focus);
-    let found = match app.layout.focus() {
+    let found = match app.layout.focus {
         Pane::Form => {
             let text = match rows::row(case, row) {
                 Row::Field(field) => case.effective(field).unwrap_or_default(),
@@ -190,7 +188,7 @@ pub(super) fn copy_value(app: &mut App) {
         }
         Pane::Chart | Pane::Teeth => match app.cursor {
             Some(cursor) => {
-                Ok((chart::readout(&app.charts(), cursor), "the reading at the cursor".to_owned()))
+                Ok((chart::readout(app.charts(), cursor), "the reading at the cursor".to_owned()))
             }
             None => Err("no cursor and no value to copy: h and l show the cursor".to_owned()),
         },
@@ -198,7 +196,7 @@ pub(super) fn copy_value(app: &mut App) {
             studies::command(app).map(|command| (command, "the command of the study".to_owned()))
         }
         Pane::Results | Pane::Trade => {
-            let quantity = app.results().marked();
+            let quantity = app.marked_result();
             let found = quantity.map(|quantity| {
                 let value = app.tab.solution();
                 let value = value.and_then(|solution| report::value(quantity, solution));
@@ -237,7 +235,7 @@ pub(super) fn copy_results(app: &mut App) {
 
 /// The picture of the focused pane, otherwise of the visible chart, otherwise of the visible teeth.
 fn picture(app: &App) -> Option<Picture> {
-    let (plan, focus) = (app.layout.plan(), app.layout.focus());
+    let (plan, focus) = (app.layout.plan(), app.layout.focus);
     let panes = [focus, Pane::Chart, Pane::Teeth].into_iter();
     let mut pictures = panes.filter(|pane| matches!(pane, Pane::Chart | Pane::Teeth));
     let pane = pictures.find(|pane| *pane == focus || plan.shows(*pane))?;

@@ -12,13 +12,13 @@ use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::page::Page;
 use crate::tui::app::dialogs::picker::{Item, Picker};
 use crate::tui::app::dialogs::question::{PathDialog, Question};
+use crate::tui::app::tab::{Origin, Tab};
 use crate::tui::layout::Pane;
 use crate::tui::session::{
     self, Access, Claim, Found, NEWER, Next, Offer, Over, SaveFault, Saving, Written,
 };
 use crate::tui::solver::Wanted;
 use crate::tui::store::folder::Target;
-use crate::tui::tab::{Origin, Tab};
 use crate::tui::text::{CASE_ENDING, Line};
 use crate::tui::{rows, store};
 
@@ -156,8 +156,8 @@ fn ask_where_then(app: &mut App, next: Next) {
     }
     let path = app.tab.path.as_deref().unwrap_or(Path::new("case.toml"));
     let input = Line::named(path.display().to_string());
-    let done = save_under;
-    app.prompts.push(Prompt::Path(PathDialog { title: SAVE_AS, how: HOW, input, next, done }));
+    let dialog = PathDialog::new(SAVE_AS, HOW, input, save_under);
+    app.prompts.push(Prompt::Path(PathDialog { next, ..dialog }));
 }
 
 /// Opens a file that was read; reports its faults, if any.
@@ -294,7 +294,7 @@ pub(super) fn built_in(app: &mut App) {
 /// Starts an empty case in a new tab.
 pub(super) fn fresh_tab(app: &mut App) {
     add_tab(app, Origin::New, Document::new(Case::fresh()));
-    app.layout.focus_on(Pane::Form);
+    app.layout.focus = Pane::Form;
     app.is_editing = true;
     let missing = app.tab.problems.len();
     app.say(format!(
@@ -535,8 +535,8 @@ fn put_tab(app: &mut App, tab: Tab, replaces: bool) {
         app.others.insert(app.place_of_tab, before);
         app.place_of_tab += 1;
     }
-    app.layout.zoom(false);
-    app.layout.focus_on(Pane::Form);
+    app.layout.is_zoomed = false;
+    app.layout.focus = Pane::Form;
     app.cursor = None;
     app.solve();
     app.focus_on(focus);

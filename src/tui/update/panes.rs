@@ -15,14 +15,22 @@ use crate::study::stiffness::{FLANK_POINTS, compare_flanks};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Effect, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
-use crate::tui::app::dialogs::cursor_to::{CursorTo, Reach, cursor_range};
 use crate::tui::app::dialogs::page::{Explanation, Page};
+use crate::tui::app::dialogs::question::PathDialog;
+use crate::tui::app::panes::chart::curves::ChartView;
+use crate::tui::app::panes::chart::{
+    self, CHARTS, ChartRequest, ChartValues, OwnChart, first_contact,
+};
+use crate::tui::app::panes::cursor::{Reach, cursor_range, meaning, parse_cursor};
+use crate::tui::app::panes::results as results_pane;
+use crate::tui::app::panes::teeth::{Picture, TeethView};
 use crate::tui::layout::Pane;
-use crate::tui::panes::chart::curves::ChartView;
-use crate::tui::panes::chart::{self, CHARTS, ChartRequest, ChartValues, OwnChart, first_contact};
-use crate::tui::panes::results as results_pane;
-use crate::tui::panes::teeth::{Picture, TeethView};
+use crate::tui::session::Next;
+use crate::tui::text::Line;
 
+/// The instruction of the dialog for the cursor.
+const HOW: &str = "Type an angle before E (1.2 deg, 20 mrad), a time after E (-80 us, 0.1 ms) \
+    or a point (D, E, B, L, peak).";
 const NO_CURSOR: &str = "no valid results for a cursor";
 
 /// Time between two messages of a growing curve.
@@ -32,28 +40,28 @@ const CHART_STEP: Duration = Duration::from_millis(150);
 /// enters a field.
 pub(super) fn show(app: &mut App, pane: Pane) {
     app.tab.history.end_visit();
-    app.layout.focus_on(pane);
+    app.layout.focus = pane;
     app.is_editing = false;
     if pane.is_lower() && !app.layout.plan().shows(pane) {
-        app.layout.show_below(pane);
+        app.layout.lower = pane;
     }
     app.follow();
 }
 
 /// Moves the focus by `by` panes, wrapping around.
 pub(super) fn step(app: &mut App, by: isize) {
-    show(app, app.layout.focus().beside(by));
+    show(app, app.layout.focus.beside(by));
 }
 
 /// Shows another pane in the lower area; the focus does not move unless it is there.
 pub(super) fn cycle_lower(app: &mut App) {
     let plan = app.layout.plan();
-    let now = Pane::LOWER.iter().position(|&pane| pane == app.layout.lower()).unwrap_or(0);
+    let now = Pane::LOWER.iter().position(|&pane| pane == app.layout.lower).unwrap_or(0);
     let mut others = Pane::LOWER.into_iter().cycle().skip(now + 1).take(Pane::LOWER.len());
     let next = others.find(|&pane| !plan.shows(pane)).unwrap_or(Pane::Chart);
-    app.layout.show_below(next);
+    app.layout.lower = next;
     let has_room = Pane::LOWER.iter().any(|&pane| plan.shows(pane));
-    if app.layout.focus().is_lower() || !has_room {
+    if app.layout.focus.is_lower() || !has_room {
         return show(app, next);
     }
     app.follow();
@@ -61,7 +69,7 @@ pub(super) fn cycle_lower(app: &mut App) {
 
 /// Makes the focused pane fill the screen, or restores the layout.
 pub(super) fn zoom(app: &mut App) {
-    app.layout.zoom(!app.layout.is_zoomed());
+    app.layout.is_zoomed = !app.layout.is_zoomed;
     app.follow();
 }
 
@@ -73,7 +81,7 @@ pub(super) fn go_to(app: &mut App, field: usize) {
 
 /// Goes to the result with a key.
 pub(super) fn show_result(app: &mut App, key: &str) {
-    let find = |app: &App| app.results().listed().into_iter().find(|known| known.key == key);
+    let find = |app: &App| app.listed_results().into_iter().find(|known| known.key == key);
     // A folded result is shown.
     app.shows_every_method |= find(app).is_none();
     if let Some(quantity) = find(app) {
@@ -84,7 +92,7 @@ pub(super) fn show_result(app: &mut App, key: &str) {
 
 /// Opens the explanation of the selected result.
 pub(super) fn explain(app: &mut App) {
-    let Some(quantity) = app.results().marked() else {
+    let Some(quantity) = app.marked_result() else {
         return app.complain("there are no results to explain");
     };
     let Some(inputs) = app.tab.inputs().cloned() else {
@@ -129,7 +137,7 @@ pub(super) fn explain(app: &mut App) {
 
 /// Opens a page with the outcome, the limits and every note in full.
 pub(super) fn notes(app: &mut App) {
-    let lines = results_pane::in_full(&app.results());
+    let lines = results_pane::in_full(app);
     if lines.is_empty() {
         return app.complain("there are no results to show");
     }
@@ -142,7 +150,7 @@ pub(super) fn refresh_page(app: &mut App) {
     let is_of_results =
         |prompt: &Prompt| matches!(prompt, Prompt::Read(page) if page.is_of_results);
     let Some(at) = app.prompts.iter().position(is_of_results) else { return };
-    let lines = results_pane::in_full(&app.results());
+    let lines = results_pane::in_full(app);
     if let Prompt::Read(page) = &mut app.prompts[at] {
         page.lines = lines;
     }
@@ -151,8 +159,8 @@ pub(super) fn refresh_page(app: &mut App) {
 /// Reports a letter without a command in the focused pane, and suggests a command.
 pub(super) fn stray(app: &mut App, letter: char) {
     let name = if letter == ' ' { "Space".to_owned() } else { letter.to_string() };
-    let meant = if app.layout.focus() == Pane::Form { "Enter edits the field, " } else { "" };
-    let pane = app.layout.focus().name();
+    let meant = if app.layout.focus == Pane::Form { "Enter edits the field, " } else { "" };
+    let pane = app.layout.focus.name();
     app.say(format!("{name} is not a command in {pane}: {meant}? lists the keys"));
 }
 
@@ -278,29 +286,34 @@ pub(super) fn cursor_to_start(app: &mut App) {
 /// Asks for an angle, a time or a point.
 pub(super) fn ask_cursor(app: &mut App) {
     let is_own = app.chart.own_axes().is_some() && !app.chart.is_pattern();
-    if is_own && app.layout.focus() == Pane::Chart {
+    if is_own && app.layout.focus == Pane::Chart {
         app.say("this chart has a cursor of its own: h and l move it");
     } else if range_of_cursor(app).is_some() {
-        app.prompts.push(Prompt::CursorTo(CursorTo::new(move_cursor)));
+        let dialog = PathDialog::new("Cursor to", HOW, Line::default(), move_cursor);
+        app.prompts.push(Prompt::Path(PathDialog { meaning: Some(meaning), ..dialog }));
     } else {
         app.complain(NO_CURSOR);
     }
 }
 
 /// Moves the cursor to the typed angle. Shows the chart if neither charts nor teeth are visible.
-#[expect(clippy::needless_pass_by_value, reason = "what a dialog runs takes what was typed")]
-fn move_cursor(app: &mut App, typed: Result<f64, String>) {
-    if typed.is_ok() {
-        app.prompts.pop();
-        let plan = app.layout.plan();
-        if !plan.shows(Pane::Chart) && !plan.shows(Pane::Teeth) {
-            show(app, Pane::Chart);
+fn move_cursor(app: &mut App, typed: &str, _: Next) {
+    match parse_cursor(app.charts(), typed) {
+        Ok(angle) => {
+            app.prompts.pop();
+            let plan = app.layout.plan();
+            if !plan.shows(Pane::Chart) && !plan.shows(Pane::Teeth) {
+                show(app, Pane::Chart);
+            }
+            put_cursor(app, Ok(angle));
+            let reading = chart::readout(app.charts(), angle);
+            app.say(format!("cursor: {reading}"));
         }
-    }
-    put_cursor(app, typed.as_ref().copied().map_err(String::as_str));
-    if let Ok(angle) = typed {
-        let reading = chart::readout(&app.charts(), angle);
-        app.say(format!("cursor: {reading}"));
+        Err(reason) => {
+            put_cursor(app, Err(&reason));
+            // Typing replaces the invalid text.
+            app.with_dialog(|dialog, _| dialog.input().map(Line::select_all));
+        }
     }
 }
 
@@ -428,5 +441,5 @@ fn take_chart(app: &mut App, tab: usize, found: Option<ChartValues>, is_over: bo
 }
 
 fn range_of_cursor(app: &App) -> Option<Reach> {
-    cursor_range(&app.cursor_scope())
+    cursor_range(app.charts())
 }

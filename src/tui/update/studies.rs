@@ -27,16 +27,15 @@ use crate::tui::app::actions::{Choice, Content, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::picker::{Item, Picker};
 use crate::tui::app::dialogs::question::PathDialog;
-use crate::tui::layout::{Pane, is_too_small};
-use crate::tui::panes::results;
-use crate::tui::panes::study::range::{self, MOST_ZOOM, RangeOf, Steps};
-use crate::tui::panes::study::{
+use crate::tui::app::panes::results;
+use crate::tui::app::panes::study::range::{self, MOST_ZOOM, RangeOf, Steps};
+use crate::tui::app::panes::study::{
     self, CURVE_POINTS, End, GridParameters, Layer, LayerFound, SAMPLES, StudyParameters,
     StudyRequest, StudyResults, ToleranceParameters, map_points,
 };
-use crate::tui::panes::trade::{Traded, nearest, stepped};
+use crate::tui::app::panes::trade::{Traded, nearest, stepped};
+use crate::tui::layout::{Pane, is_too_small};
 use crate::tui::rows::{self, Row};
-use crate::tui::session::Next;
 use crate::tui::solver::{Baseline, Variants};
 use crate::tui::text::Line;
 
@@ -88,7 +87,7 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
         .inputs()
         .ok_or("No study: a field is empty or has an error. Alt-E goes to that field.")?;
     let chosen = app.study.quantity.and_then(Quantity::find);
-    let quantity = chosen.or_else(|| app.results().marked());
+    let quantity = chosen.or_else(|| app.marked_result());
     let quantity =
         quantity.or_else(|| Quantity::find("impact_force")).ok_or("No result is selected.")?;
     if app.study.is_tolerance {
@@ -186,15 +185,15 @@ pub(super) fn stop(app: &mut App) -> bool {
 }
 
 pub(super) fn scroll(app: &mut App, by: isize) {
-    app.study.top = study::scrolled(&app.study(), by);
+    app.study.top = study::scrolled(app, by);
 }
 
 pub(super) fn page(app: &mut App, by: isize) {
-    app.study.top = study::paged(&app.study(), by);
+    app.study.top = study::paged(app, by);
 }
 
 pub(super) fn move_cursor(app: &mut App, across: isize, up: isize) {
-    let cursor = study::moved(&app.study(), across, up);
+    let cursor = study::moved(app, across, up);
     app.tab.study.cursor = cursor.or(app.tab.study.cursor);
 }
 
@@ -216,13 +215,9 @@ pub(super) fn ask_range(app: &mut App) {
     show_grid(app);
     let axes = parameters(app).map(|parameters| parameters.axes().to_vec());
     let typed: Vec<String> = axes.unwrap_or_default().iter().rev().map(range::typed).collect();
-    app.prompts.push(Prompt::Path(PathDialog {
-        title: RANGE,
-        how: HOW,
-        input: Line::whole(typed.join("; ")),
-        next: Next::Stay,
-        done: |app, text, _| set_range(app, text),
-    }));
+    let input = Line::whole(typed.join("; "));
+    let done = |app: &mut App, text: &str, _| set_range(app, text);
+    app.prompts.push(Prompt::Path(PathDialog::new(RANGE, HOW, input, done)));
 }
 
 /// Studies the typed ranges.
@@ -247,7 +242,7 @@ pub(super) fn set_range(app: &mut App, text: &str) {
 // Shows the pane with a curve, a map or a table.
 fn show_grid(app: &mut App) {
     app.study.is_tolerance = false;
-    if app.layout.focus() != Pane::Study {
+    if app.layout.focus != Pane::Study {
         panes::show(app, Pane::Study);
     }
 }
@@ -293,14 +288,14 @@ pub(super) fn table(app: &mut App) {
 
 /// Shows the tolerance, or the curve again.
 pub(super) fn tolerance(app: &mut App) {
-    let is_shown = app.layout.focus() == Pane::Study && app.study.is_tolerance;
+    let is_shown = app.layout.focus == Pane::Study && app.study.is_tolerance;
     show_grid(app);
     (app.study.is_tolerance, app.study.top) = (!is_shown, 0);
 }
 
 /// Writes the values at the cursor into the form, as one edit.
 pub(super) fn take(app: &mut App) {
-    let values = study::at_cursor(&app.study());
+    let values = study::at_cursor(app);
     if values.is_empty() || app.study.is_tolerance {
         return app.say("no value under the cursor");
     }
@@ -318,7 +313,7 @@ pub(super) fn take(app: &mut App) {
 /// What `tipstrike sweep` or `tipstrike tolerance` writes for the shown study, or its picture.
 pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
     if is_picture(path) {
-        let chart = study::picture(&app.study()).ok_or("there is no curve to draw")?;
+        let chart = study::picture(app).ok_or("there is no curve to draw")?;
         return Ok((
             " the picture of the study".to_owned(),
             Box::new(move |_| Ok(svg::draw(&chart))),
@@ -435,7 +430,7 @@ fn solve_grid(
         let quantities: Vec<&'static Quantity> = layer.quantity().into_iter().collect();
         let inputs = &layer.inputs.clone().needing(quantities.iter().map(|of| of.stage));
         let batch = Batch { inputs, points: &grid, quantities: &quantities };
-        let (mut waiting, mut refusals) = (LayerFound::default(), Refusals::default());
+        let (mut waiting, mut refusals) = (LayerFound::of(layer), Refusals::default());
         let mut sent = Instant::now();
         let solved = solve(&batch, grid.count(), running, &mut |first, rows| {
             refusals.count(first, rows);
@@ -444,7 +439,7 @@ fn solve_grid(
             if sent.elapsed() > STEP {
                 sent = Instant::now();
                 waiting.refusals = refusals.clone();
-                send(std::mem::take(&mut waiting));
+                send(std::mem::replace(&mut waiting, LayerFound::of(layer)));
             }
             true
         });
@@ -564,7 +559,7 @@ fn conclude(app: &mut App, tab: usize) -> Option<String> {
 /// Stops a hidden benchmark. A terminal that is briefly too small does not stop it.
 pub(super) fn stop_unseen(app: &mut App) {
     let is_own = app.is_measuring() && app.layout.plan().shows(Pane::Trade);
-    if !is_own && !is_too_small(app.layout.size()) {
+    if !is_own && !is_too_small(app.layout.size) {
         app.cancel(Slot::Benchmark);
     }
 }
@@ -637,7 +632,7 @@ pub(super) fn next_variants(app: &mut App) {
         let key = key_of(app, "variant");
         return app.say(format!("the case has no variants: {key} NAME saves the edits as one"));
     }
-    let page = results::variants_page(&app.results());
+    let page = results::variants_page(app);
     app.first_variant = match app.first_variant {
         None => Some(0),
         Some(first) if first + page < count => Some(first + page),

@@ -6,20 +6,20 @@ use std::path::{Path, PathBuf};
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
-use ratatui::text::Line as Words;
+use ratatui::text::{Line as Words, Span, Text};
 use ratatui::widgets::{Clear, Widget};
 
-use super::{Dialog, PreviewPane, Surroundings, Window, draw_details, halves, said};
+use super::{Dialog, PreviewPane, Window, draw_details, halves, said};
 use crate::case::Example;
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Running, Slot, Work};
 use crate::tui::layout::Place;
+use crate::tui::settings::{Look, Theme};
 use crate::tui::store::folder::{
     Entry, Listing, SearchResult, Target, beneath, find, list, place_of,
 };
 use crate::tui::text;
 use crate::tui::text::Line;
-use crate::tui::theme::{Look, Theme};
 
 /// The full width, and a limited number of lines.
 const SIZE: Size = Size { width: u16::MAX, height: 34 };
@@ -315,7 +315,8 @@ impl Browser {
         above.draw(in_folder, theme, buffer);
         self.draw_state(above.area, theme, buffer);
         if !below.area.is_empty() {
-            let area = text::titled("Recent cases", theme.title, below.area, theme, buffer);
+            let title = text::titled(None, "Recent cases", theme.title, area.width, theme);
+            let area = text::framed(&title, below.area, buffer);
             let recents = above.count;
             Window { area, ..below }.draw(|at| name(recents + at).to_owned(), theme, buffer);
         }
@@ -337,7 +338,7 @@ impl Browser {
         let above = (count as u16).min(area.height.saturating_sub(3));
         let below = Rect { y: area.y + above, height: area.height - above, ..area };
         Clear.render(Rect { height: below.height.min(lines.len() as u16), ..below }, buffer);
-        text::draw_lines(&lines, below, buffer);
+        Text::from(lines).render(below, buffer);
     }
 
     fn preview_lines(&self, width: u16, look: Look) -> Vec<Words<'static>> {
@@ -376,13 +377,13 @@ impl Dialog for Browser {
         works
     }
 
-    fn step(&mut self, by: isize, _: &Surroundings<'_>) {
+    fn step(&mut self, by: isize, _: &App) {
         let last = self.matches.len().saturating_sub(1);
         self.selected = self.selected.saturating_add_signed(by).min(last);
     }
 
-    fn click(&mut self, at: Position, around: &Surroundings<'_>) -> bool {
-        let [above, mut recents] = self.windows(halves(text::split(around.inside(SIZE), 2)[1])[0]);
+    fn click(&mut self, at: Position, app: &App) -> bool {
+        let [above, mut recents] = self.windows(halves(text::split(app.inside(SIZE), 2)[1])[0]);
         recents.area = text::split(recents.area, 1)[1];
         let recent = || recents.line_at(at).map(|line| above.count + line);
         let line = above.line_at(at).or_else(recent);
@@ -390,7 +391,7 @@ impl Dialog for Browser {
     }
 
     // Without a match, opens the typed path.
-    fn accept(&mut self, _: &Surroundings<'_>) -> Option<Change> {
+    fn accept(&mut self, _: &App) -> Option<Change> {
         let typed = self.input.value();
         if self.listing.is_none() && !typed.is_empty() && !self.prefers_recents {
             self.is_accepting = true;
@@ -420,20 +421,20 @@ impl Dialog for Browser {
         Some((&mut self.preview, target))
     }
 
-    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
-        let theme = around.theme();
-        let inner = around.frame("Open a case", SIZE, buffer);
+    fn draw(&self, app: &App, buffer: &mut Buffer) -> Option<Position> {
+        let theme = app.look.theme;
+        let inner = app.frame("Open a case", SIZE, buffer);
         let folder = self.listing.as_ref().map(|listing| listing.folder.display().to_string());
         let width = usize::from(inner.width);
         let folder = text::cut_front(&folder.unwrap_or_default(), width);
-        buffer.set_stringn(inner.x, inner.y, folder, width, theme.title);
+        Span::styled(folder, theme.title).render(inner, buffer);
         let [left, right] = halves(text::split(inner, 2)[1]);
         self.draw_lists(left, theme, buffer);
-        draw_details(|width| self.preview_lines(width, around.look), right, buffer);
+        draw_details(|width| self.preview_lines(width, app.look), right, buffer);
         let [line, _] = text::split(text::split(inner, 1)[1], 1);
         if self.input.value().is_empty() {
             let how = "  type part of a name or a path; ~ is the home folder";
-            buffer.set_stringn(line.x, line.y, how, width, theme.faint);
+            Span::styled(how, theme.faint).render(line, buffer);
         }
         text::edited(&self.input, line, theme.focus, buffer)
     }

@@ -6,7 +6,7 @@ use ratatui::layout::Position;
 use ratatui::style::Style;
 use ratatui::text::{Line as Words, Span};
 
-use super::{Dialog, Surroundings, wrapped};
+use super::{Dialog, wrapped};
 use crate::case::fields::index_of;
 use crate::model::Quantity;
 use crate::report::Shown;
@@ -14,8 +14,8 @@ use crate::report::explain::{Kind, Line, Page as ExplanationPage, lines};
 use crate::tui::app::App;
 use crate::tui::app::actions::Change;
 use crate::tui::layout::Place;
+use crate::tui::settings::Theme;
 use crate::tui::text::written_out;
-use crate::tui::theme::Theme;
 
 /// A page of text.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,8 +34,8 @@ impl Page {
         Page { title: title.into(), lines, top: 0, is_of_results: false }
     }
 
-    fn wrapped(&self, around: &Surroundings<'_>) -> Vec<Words<'static>> {
-        let width = around.room().width;
+    fn wrapped(&self, app: &App) -> Vec<Words<'static>> {
+        let width = app.room().width;
         self.lines.iter().flat_map(|line| wrapped(line, width)).map(Words::from).collect()
     }
 }
@@ -45,12 +45,12 @@ impl Dialog for Page {
         Place::READ
     }
 
-    fn step(&mut self, by: isize, around: &Surroundings<'_>) {
-        self.top = around.scrolled(self.top, by, self.wrapped(around).len());
+    fn step(&mut self, by: isize, app: &App) {
+        self.top = app.scrolled(self.top, by, self.wrapped(app).len());
     }
 
-    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
-        around.page_box(&self.title, &self.wrapped(around), self.top, buffer);
+    fn draw(&self, app: &App, buffer: &mut Buffer) -> Option<Position> {
+        app.page_box(&self.title, &self.wrapped(app), self.top, buffer);
         None
     }
 }
@@ -97,8 +97,8 @@ impl Explanation {
         self.fields().get(self.selected?).copied()
     }
 
-    fn lines(&self, around: &Surroundings<'_>) -> Vec<Line> {
-        let width = around.room().width;
+    fn lines(&self, app: &App) -> Vec<Line> {
+        let width = app.room().width;
         let said = |text: String| Line { kind: Kind::Text, text };
         let units = "in inch units; this page is in metric ones.";
         let mut all: Vec<_> =
@@ -113,7 +113,7 @@ impl Explanation {
             let lines = wrapped(&written_out(&text), width);
             lines.into_iter().map(move |text| Line { kind, text })
         };
-        if around.look.ascii { all.into_iter().flat_map(in_ascii).collect() } else { all }
+        if app.look.ascii { all.into_iter().flat_map(in_ascii).collect() } else { all }
     }
 
     // Row and column of the selected field, and its key. No line breaks inside a key.
@@ -135,33 +135,33 @@ impl Dialog for Explanation {
         Place::EXPLAIN
     }
 
-    fn step(&mut self, by: isize, around: &Surroundings<'_>) {
-        self.top = around.scrolled(self.top, by, self.lines(around).len());
+    fn step(&mut self, by: isize, app: &App) {
+        self.top = app.scrolled(self.top, by, self.lines(app).len());
     }
 
-    // Wraps around, and makes the selected field visible.
-    fn select_field(&mut self, by: isize, around: &Surroundings<'_>) {
+    // Wraps app, and makes the selected field visible.
+    fn select_field(&mut self, by: isize, app: &App) {
         let count = self.fields().len();
         let from = self.selected.unwrap_or(if by > 0 { count.saturating_sub(1) } else { 0 });
         self.selected = (count > 0).then(|| (from + count).saturating_add_signed(by) % count);
-        if let Some((row, ..)) = self.place_of_field(&self.lines(around)) {
-            let height = around.page_height().unsigned_abs();
+        if let Some((row, ..)) = self.place_of_field(&self.lines(app)) {
+            let height = app.page_height().unsigned_abs();
             self.top = self.top.clamp((row + 1).saturating_sub(height), row);
         }
     }
 
     // Without a selected field, selects the first one.
-    fn accept(&mut self, around: &Surroundings<'_>) -> Option<Change> {
+    fn accept(&mut self, app: &App) -> Option<Change> {
         if let Some(field) = self.field().and_then(index_of) {
             let go_to = self.go_to;
             return Some(Change::of(move |app| go_to(app, field)));
         }
-        self.select_field(1, around);
+        self.select_field(1, app);
         None
     }
 
-    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
-        let (lines, theme) = (self.lines(around), around.theme());
+    fn draw(&self, app: &App, buffer: &mut Buffer) -> Option<Position> {
+        let (lines, theme) = (self.lines(app), app.look.theme);
         let mut shown: Vec<_> = lines.iter().map(|line| styled(line, theme)).collect();
         if let Some((row, at, key)) = self.place_of_field(&lines) {
             let text = &lines[row].text;
@@ -173,7 +173,7 @@ impl Dialog for Explanation {
                 Span::raw(&text[at + key.len()..]),
             ]);
         }
-        around.page_box(self.quantity.label.trim(), &shown, self.top, buffer);
+        app.page_box(self.quantity.label.trim(), &shown, self.top, buffer);
         None
     }
 }

@@ -6,21 +6,21 @@ use std::sync::Arc;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Position, Rect, Size};
 use ratatui::style::Style;
-use ratatui::text::Span;
+use ratatui::text::{Span, Text};
 use ratatui::widgets::{Block, Borders, Widget};
 use unicode_width::UnicodeWidthStr;
 
-use super::{Dialog, PreviewPane, Surroundings, Window, closing, draw_details, halves, said};
+use super::{Dialog, PreviewPane, Window, closing, draw_details, halves, said};
 use crate::case::fields::{FIELDS, Field, Kind};
 use crate::model::{QUANTITIES, Quantity};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Choice, Work};
 use crate::tui::form_aids::{COMMAND, Entry, HELP, LABEL, query};
 use crate::tui::layout::Place;
+use crate::tui::settings::Theme;
 use crate::tui::store::folder::Target;
 use crate::tui::text;
 use crate::tui::text::Line;
-use crate::tui::theme::Theme;
 
 /// Preferred size of a list.
 const SIZE: Size = Size { width: 100, height: 20 };
@@ -214,19 +214,19 @@ impl Dialog for Picker {
         Vec::new()
     }
 
-    fn step(&mut self, by: isize, _: &Surroundings<'_>) {
+    fn step(&mut self, by: isize, _: &App) {
         let last = self.fitting().len().saturating_sub(1);
         self.selected = self.selected.saturating_add_signed(by).min(last);
     }
 
-    fn click(&mut self, at: Position, around: &Surroundings<'_>) -> bool {
+    fn click(&mut self, at: Position, app: &App) -> bool {
         let items = self.fitting();
-        let (_, list, _) = self.areas(&items, around.inside(SIZE));
+        let (_, list, _) = self.areas(&items, app.inside(SIZE));
         let line = self.window(&items, list).line_at(at);
         line.is_some_and(|line| std::mem::replace(&mut self.selected, line) == line)
     }
 
-    fn accept(&mut self, _: &Surroundings<'_>) -> Option<Change> {
+    fn accept(&mut self, _: &App) -> Option<Change> {
         self.fitting().get(self.selected).map(|item| closing(&item.choice))
     }
 
@@ -235,22 +235,20 @@ impl Dialog for Picker {
         Some((self.preview.as_mut()?, target))
     }
 
-    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
-        let theme = around.theme();
+    fn draw(&self, app: &App, buffer: &mut Buffer) -> Option<Position> {
+        let theme = app.look.theme;
         let items = self.fitting();
-        let inner = around.frame(self.title, SIZE, buffer);
+        let inner = app.frame(self.title, SIZE, buffer);
         let (line, list, details) = self.areas(&items, inner);
         if let Some(preview) = &self.preview {
             self.window(&items, list).draw(|at| items[at].name.clone(), theme, buffer);
-            draw_details(|width| preview.lines(width, around.look), details, buffer);
+            draw_details(|width| preview.lines(width, app.look), details, buffer);
         } else {
             self.draw_items(&items, list, theme, buffer);
             if let Some(item) = items.get(self.selected) {
                 let rule = Block::new().borders(Borders::TOP).border_style(theme.rule);
-                let inner = rule.inner(details);
-                rule.render(details, buffer);
-                let lines = said(&item.in_full(), Style::new(), inner.width);
-                text::draw_lines(&lines, inner, buffer);
+                let inner = text::framed(&rule, details, buffer);
+                Text::from(said(&item.in_full(), Style::new(), inner.width)).render(inner, buffer);
             }
         }
         if items.is_empty() {

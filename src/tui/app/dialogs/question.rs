@@ -3,11 +3,11 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
-use ratatui::text::{Line as Words, Span};
+use ratatui::text::{Line as Words, Span, Text};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::{Dialog, Surroundings, WIDEST, closing, extent, said};
+use super::{Dialog, WIDEST, closing, extent, said};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Choice};
 use crate::tui::layout::Place;
@@ -15,7 +15,7 @@ use crate::tui::session::Next;
 use crate::tui::text;
 use crate::tui::text::Line;
 
-/// Width of brackets, marks and gap around the name of a button.
+/// Width of brackets, marks and gap app the name of a button.
 const BESIDE_NAME: u16 = 7;
 
 /// A question with buttons.
@@ -61,8 +61,8 @@ impl Question {
 
     // The lines above the buttons, and the rows of text and buttons inside the box. The buttons
     // must be visible: details that do not fit are omitted.
-    fn lines(&self, around: &Surroundings<'_>) -> Vec<Words<'static>> {
-        let room = around.room();
+    fn lines(&self, app: &App) -> Vec<Words<'static>> {
+        let room = app.room();
         let mut lines = said(&self.text, Style::new(), room.width);
         let left = usize::from(room.height).saturating_sub(lines.len() + 2);
         let count = self.details.len();
@@ -87,17 +87,17 @@ impl Dialog for Question {
         Place::ASK
     }
 
-    // Wraps around.
-    fn step(&mut self, by: isize, _: &Surroundings<'_>) {
+    // Wraps app.
+    fn step(&mut self, by: isize, _: &App) {
         let count = self.buttons.len();
         self.selected = (self.selected + count).saturating_add_signed(by) % count;
     }
 
-    fn wheel(&mut self, _: isize, _: &Surroundings<'_>) {}
+    fn wheel(&mut self, _: isize, _: &App) {}
 
-    fn click(&mut self, at: Position, around: &Surroundings<'_>) -> bool {
-        let lines = self.lines(around);
-        let row = button_row(&lines, around.inside(extent(&lines)));
+    fn click(&mut self, at: Position, app: &App) -> bool {
+        let lines = self.lines(app);
+        let row = button_row(&lines, app.inside(extent(&lines)));
         let mut right = row.x;
         // The gap before the next button is not part of a button.
         let button = self.buttons.iter().position(|(name, _)| {
@@ -109,17 +109,17 @@ impl Dialog for Question {
         button.is_some()
     }
 
-    fn accept(&mut self, _: &Surroundings<'_>) -> Option<Change> {
+    fn accept(&mut self, _: &App) -> Option<Change> {
         self.buttons.get(self.selected).map(|(_, choice)| closing(choice))
     }
 
-    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
-        let lines = self.lines(around);
-        let inner = around.frame(self.title, extent(&lines), buffer);
-        text::draw_lines(&lines, inner, buffer);
+    fn draw(&self, app: &App, buffer: &mut Buffer) -> Option<Position> {
+        let lines = self.lines(app);
+        let inner = app.frame(self.title, extent(&lines), buffer);
+        Text::from_iter(lines.iter().cloned()).render(inner, buffer);
         let buttons = self.buttons.iter().enumerate().flat_map(|(at, (name, _))| {
             let button = if at == self.selected {
-                Span::styled(format!("[> {name} <]"), around.theme().key)
+                Span::styled(format!("[> {name} <]"), app.look.theme.key)
             } else {
                 Span::raw(format!("[  {name}  ]"))
             };
@@ -130,6 +130,9 @@ impl Dialog for Question {
     }
 }
 
+/// What a typed text means or why it is not valid, and its completion.
+type Meaning = fn(&App, &str) -> (Result<String, String>, Option<String>);
+
 /// The dialog for a line of text, such as a path to save or to export to.
 #[derive(Debug, Clone)]
 pub struct PathDialog {
@@ -138,7 +141,19 @@ pub struct PathDialog {
     pub(crate) input: Line,
     /// The step after a save.
     pub(crate) next: Next,
+    pub(crate) meaning: Option<Meaning>,
     pub(crate) done: fn(&mut App, &str, Next),
+}
+
+impl PathDialog {
+    pub(crate) fn new(
+        title: &'static str,
+        how: &'static str,
+        input: Line,
+        done: fn(&mut App, &str, Next),
+    ) -> PathDialog {
+        PathDialog { title, how, input, next: Next::Stay, meaning: None, done }
+    }
 }
 
 impl Dialog for PathDialog {
@@ -150,13 +165,21 @@ impl Dialog for PathDialog {
         Some(&mut self.input)
     }
 
-    fn accept(&mut self, _: &Surroundings<'_>) -> Option<Change> {
-        let (done, path, next) = (self.done, self.input.value().to_owned(), self.next.clone());
-        Some(Change::of(move |app| done(app, &path, next)))
+    fn accept(&mut self, _: &App) -> Option<Change> {
+        let (done, text, next) = (self.done, self.input.value().to_owned(), self.next.clone());
+        Some(Change::of(move |app| done(app, &text, next)))
     }
 
-    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
-        let how = said(self.how, around.theme().faint, around.room().width);
-        around.input_box(self.title, WIDEST, &self.input, &how, buffer).1
+    fn draw(&self, app: &App, buffer: &mut Buffer) -> Option<Position> {
+        let (typed, theme, width) = (self.input.value(), app.look.theme, app.room().width);
+        let (meant, ending) = self.meaning.map(|meaning| meaning(app, typed)).unzip();
+        let meant = meant.map(|meant| match meant {
+            Ok(text) => Words::styled(text::cut(&text, width.into()), theme.note),
+            Err(reason) => Words::styled(text::cut(&reason, width.into()), theme.faint),
+        });
+        let lines = meant.into_iter().chain(said(self.how, theme.faint, width)).collect();
+        let (line, cursor) = app.input_box(self.title, WIDEST, &self.input, lines, buffer);
+        text::ending(ending.flatten().as_deref(), typed.width(), line, theme, buffer);
+        cursor
     }
 }

@@ -4,11 +4,11 @@ use std::cell::Cell;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Position};
-use ratatui::text::{Line as Words, Span};
+use ratatui::text::{Line as Words, Span, Text};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::{Dialog, Prompt, Surroundings, Window, wrapped};
+use super::{Dialog, Prompt, Window, wrapped};
 use crate::model::{Inputs, Refusal};
 use crate::study::relief::{Demand, NoRelief, Specification, specify};
 use crate::tui::app::App;
@@ -131,8 +131,8 @@ impl ReliefDialog {
     }
 
     /// The lines about the selected relief. Rows of tables keep their spaces.
-    fn lines(&self, around: &Surroundings<'_>) -> Vec<Words<'static>> {
-        let width = around.room().width;
+    fn lines(&self, app: &App) -> Vec<Words<'static>> {
+        let width = app.room().width;
         let lines = match (self.found(), &self.answer) {
             (Some(found), _) => found.of_choice(self.selected),
             (None, Some(Err(reason))) => vec![reason.clone()],
@@ -160,20 +160,20 @@ impl Dialog for ReliefDialog {
         Vec::new()
     }
 
-    fn step(&mut self, by: isize, _: &Surroundings<'_>) {
+    fn step(&mut self, by: isize, _: &App) {
         let next = self.selected.saturating_add_signed(by);
         self.selected = next.min(self.count().saturating_sub(1));
         self.top = 0;
     }
 
-    fn turn(&mut self, by: isize, around: &Surroundings<'_>) {
+    fn turn(&mut self, by: isize, app: &App) {
         let above = self.count() + usize::from(HEAD) + 1;
-        let page = around.page_height() - above.cast_signed();
-        let count = self.lines(around).len() + above;
-        self.top = around.scrolled(self.top, by * page.max(1), count);
+        let page = app.page_height() - above.cast_signed();
+        let count = self.lines(app).len() + above;
+        self.top = app.scrolled(self.top, by * page.max(1), count);
     }
 
-    fn accept(&mut self, _: &Surroundings<'_>) -> Option<Change> {
+    fn accept(&mut self, _: &App) -> Option<Change> {
         if !self.is_searched() {
             let search = self.search()?;
             return Some(Change::of(|app| app.start_all([search])));
@@ -184,9 +184,9 @@ impl Dialog for ReliefDialog {
         Some(Change::of(move |app| take_over(app, &values)))
     }
 
-    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
-        let theme = around.theme();
-        let inner = around.frame("Tip relief", around.room(), buffer);
+    fn draw(&self, app: &App, buffer: &mut Buffer) -> Option<Position> {
+        let theme = app.look.theme;
+        let inner = app.frame("Tip relief", app.room(), buffer);
         let count = self.count();
         let has_list = u16::from(count > 0);
         let heights = [1, 1, 1, has_list, count as u16, has_list].map(Constraint::Length);
@@ -198,8 +198,7 @@ impl Dialog for ReliefDialog {
             let row = |at: usize| rows[at + 1].clone();
             Window { count, selected: Some(self.selected), area: list }.draw(row, theme, buffer);
         }
-        let lines = self.lines(around);
-        text::draw_lines(lines.get(self.top..).unwrap_or_default(), below, buffer);
+        Text::from_iter(self.lines(app).into_iter().skip(self.top)).render(below, buffer);
         let is_stale = self.answer.is_some() && !self.is_searched();
         if is_stale {
             for area in [head, list, below] {

@@ -4,8 +4,8 @@ use crossterm::event::KeyCode;
 use ratatui::layout::Size;
 
 use super::*;
+use crate::tui::settings::Look;
 use crate::tui::store;
-use crate::tui::theme::Look;
 use crate::tui::update::opened;
 
 #[test]

@@ -14,7 +14,7 @@ use crate::report::chart::{Kind, Point, Series, Span};
 use crate::report::charts::{curve, pieces};
 use crate::report::stations::Column;
 use crate::report::stations::{GRAPHS, Graph};
-use crate::tui::panes::plot::Look;
+use crate::tui::app::panes::plot::Look;
 use crate::tui::solver::Answer;
 use crate::tui::text::symbol;
 
@@ -66,16 +66,16 @@ impl Curve<'_> {
     }
 
     /// The curve with its name in the legend, and its look.
-    pub(crate) fn series(&self, charts: &Charts) -> (Series, Look) {
+    pub(crate) fn series(&self, charts: Charts<'_>) -> (Series, Look) {
         let name = match self.source {
             CurveSource::Active(method) => method.name().to_owned(),
             CurveSource::Model { model, is_own: true } => format!("{} (case)", model.name()),
             _ => self.name(charts),
         };
-        let theme = charts.look.theme;
+        let theme = charts.0.look.theme;
         let (marker, style) = match self.source {
-            CurveSource::Active(_) => (charts.marker, theme.active),
-            source if is_field(source) => (charts.marker, theme.active),
+            CurveSource::Active(_) => (charts.0.settings.marker, theme.active),
+            source if is_field(source) => (charts.0.settings.marker, theme.active),
             CurveSource::Other(method) => (sign_of(method), theme.other),
             CurveSource::Model { model, .. } => {
                 let is_first = Some(&model) == ToothCompliance::ALL.first();
@@ -84,16 +84,16 @@ impl Curve<'_> {
             CurveSource::Pinned(_) => (Marker::Custom('+'), theme.baseline),
             CurveSource::Bound(_) => (Marker::Custom('╌'), theme.rule),
         };
-        let style = if charts.is_stale { style.patch(theme.faint) } else { style };
+        let style = if charts.0.tab.shows_last_valid() { style.patch(theme.faint) } else { style };
         (Series { name, pieces: self.pieces.clone(), kind: Kind::Curve }, (marker, style))
     }
 
     /// The name of the value: the symbol for the active method.
-    fn name(&self, charts: &Charts) -> String {
-        let active = charts.answer.map(|answer| answer.active);
+    fn name(&self, charts: Charts<'_>) -> String {
+        let active = charts.answer().map(|answer| answer.active);
         match self.source {
-            CurveSource::Active(_) => symbol(self.column.symbol, charts.look.ascii).into_owned(),
-            CurveSource::Bound(bound) => symbol(bound, charts.look.ascii).into_owned(),
+            CurveSource::Active(_) => symbol(self.column.symbol, charts.0.look.ascii).into_owned(),
+            CurveSource::Bound(bound) => symbol(bound, charts.0.look.ascii).into_owned(),
             CurveSource::Other(method) => method.name().to_owned(),
             CurveSource::Model { model, .. } => model.name().to_owned(),
             CurveSource::Pinned(method) if active == Some(method) => "baseline".to_owned(),
@@ -152,23 +152,23 @@ pub(crate) fn value_at(pieces: &[Vec<Point>], x: f64) -> Option<f64> {
 
 impl Charts<'_> {
     /// Whether another method has a curve beside the active one: `paper` only on request.
-    pub(super) fn shows_beside(&self, method: Method) -> bool {
-        method != Method::Paper || self.shows_every_method
+    pub(super) fn shows_beside(self, method: Method) -> bool {
+        method != Method::Paper || self.0.shows_every_method
     }
 }
 
 /// Every curve of a chart in drawing order.
-pub fn curves<'a>(charts: &Charts<'a>, graph: &Graph) -> Vec<Curve<'a>> {
-    let Some(answer) = charts.answer else {
+pub fn curves<'a>(charts: Charts<'a>, graph: &Graph) -> Vec<Curve<'a>> {
+    let Some(answer) = charts.answer() else {
         return Vec::new();
     };
     if let Some(column) = graph.by_model {
-        return models(answer, column, charts.units.unit(column.shown));
+        return models(answer, column, charts.0.settings.units.unit(column.shown));
     }
     let of = |answer: &'a Answer, method: Method, source: CurveSource| {
         let (inputs, solution) = (&answer.inputs, answer.of(method)?);
         let column = graph.column(method)?;
-        let unit = charts.units.unit(column.shown);
+        let unit = charts.0.settings.units.unit(column.shown);
         let is_bound = matches!(source, CurveSource::Bound(_));
         let kind = if is_bound { Kind::Bound } else { Kind::Curve };
         let (symbol, pieces) = curve(graph, inputs, solution, (unit, kind))?;
@@ -177,7 +177,7 @@ pub fn curves<'a>(charts: &Charts<'a>, graph: &Graph) -> Vec<Curve<'a>> {
         (!pieces.is_empty()).then_some(Curve { source, column, unit, pieces, solved })
     };
     let active = answer.active;
-    let pinned = charts.baseline.and_then(|baseline| {
+    let pinned = charts.pinned().and_then(|baseline| {
         let method = baseline.beside(active);
         of(baseline, method, CurveSource::Pinned(method))
     });
@@ -227,9 +227,9 @@ pub(crate) fn sign_of(method: Method) -> Marker {
 }
 
 /// The angle, the visible curves at it, and every other value of the active method.
-pub fn readout(charts: &Charts, cursor: f64) -> String {
+pub fn readout(charts: Charts<'_>, cursor: f64) -> String {
     let graphs = charts.shown();
-    let chosen = if graphs.is_empty() { vec![charts.pane.graph()] } else { graphs };
+    let chosen = if graphs.is_empty() { vec![charts.0.chart.graph()] } else { graphs };
     let values = |graph: usize, is_seen: bool| {
         let (graph, all) = (&GRAPHS[graph], curves(charts, &GRAPHS[graph]));
         let all = all.iter().rev();
@@ -245,14 +245,14 @@ pub fn readout(charts: &Charts, cursor: f64) -> String {
     if parts.is_empty() { format!("{place}.") } else { format!("{place}: {}.", parts.join("; ")) }
 }
 
-fn place_of_cursor(charts: &Charts, cursor: f64) -> String {
+fn place_of_cursor(charts: Charts<'_>, cursor: f64) -> String {
     if cursor == 0.0 {
         return "At E".to_owned();
     }
     let side = if cursor < 0.0 { "after" } else { "before" };
-    let speed = charts.answer.map_or(0.0, |answer| answer.inputs.speed);
+    let speed = charts.answer().map_or(0.0, |answer| answer.inputs.speed);
     let micros = 1e6 * cursor.abs() / speed;
-    let time = if charts.pane.by_time && micros.is_finite() {
+    let time = if charts.0.chart.by_time && micros.is_finite() {
         format!(", {} us", significant(micros, TIME_DIGITS))
     } else {
         String::new()
@@ -261,9 +261,9 @@ fn place_of_cursor(charts: &Charts, cursor: f64) -> String {
 }
 
 /// Values in SI with their numbers of significant digits, in the unit of the greatest value.
-fn in_words(charts: &Charts, readings: &[(&Curve, (f64, usize))]) -> Option<String> {
+fn in_words(charts: Charts<'_>, readings: &[(&Curve, (f64, usize))]) -> Option<String> {
     let units = readings.iter().map(|(curve, (value, digits))| {
-        units::unit_for(value.abs(), curve.column.shown, *digits, charts.units)
+        units::unit_for(value.abs(), curve.column.shown, *digits, charts.0.settings.units)
     });
     let factor = |unit: &&str| units::factor(unit).unwrap_or(1.0);
     let unit = units.max_by(|one, other| factor(one).total_cmp(&factor(other)))?;

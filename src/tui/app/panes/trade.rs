@@ -6,7 +6,6 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
 
-use super::Title;
 use super::plot::TerminalChart;
 use crate::model::Inputs;
 use crate::model::inputs::Method;
@@ -16,8 +15,9 @@ use crate::report::trade::{
     power_of_time, summary,
 };
 use crate::study::trade::{MeasuredSetting, Setting, Trade};
+use crate::tui::app::App;
+use crate::tui::layout::Pane;
 use crate::tui::text;
-use crate::tui::theme::Look;
 
 /// Least height with two lines of text.
 const TALL: u16 = 8;
@@ -55,46 +55,29 @@ impl Traded {
     }
 }
 
-/// The pane with the benchmark that it shows.
-#[derive(Debug, Clone)]
-pub(crate) struct TradePane<'a> {
-    /// The benchmark of the open case.
-    pub(crate) traded: Option<&'a Traded>,
-    /// The case in the form, if it is valid.
-    pub(crate) inputs: Option<&'a Inputs>,
-    /// Whether the table of methods and compliances is shown instead of the chart.
-    pub(crate) is_table: bool,
-    /// The capabilities of the terminal.
-    pub(crate) look: Look,
-    /// The title line.
-    pub(crate) title: Title,
-    /// The area of the pane with its title; empty if the pane is hidden.
-    pub(crate) area: Rect,
-}
-
-pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
-    let inner = pane.title.draw(&title(pane), pane.area, buffer);
-    let traded = pane.traded.and_then(|traded| Some((traded, traded.trade.as_ref()?)));
+pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
+    let inner = app.draw_title(Pane::Trade, &title(app), buffer);
+    let traded = app.tab.traded.as_ref().and_then(|traded| Some((traded, traded.trade.as_ref()?)));
     let Some((traded, trade)) = traded.filter(|(_, trade)| !trade.settings.is_empty()) else {
-        let words = match pane.traded {
+        let words = match app.tab.traded {
             Some(_) => "Computing the reference.".to_owned(),
-            None => format!("No benchmark yet: {} {INVITATION}", pane.title.key_to("m")),
+            None => format!("No benchmark yet: {} {INVITATION}", app.key_to(Pane::Trade, "m")),
         };
         return text::draw_words(&words, inner, buffer);
     };
     let lines = if inner.height > TALL { 2 } else { 1 };
     let [above, below] =
         Layout::vertical([Constraint::Fill(1), Constraint::Length(lines)]).areas(inner);
-    let draw = if pane.is_table { draw_table } else { draw_chart };
-    draw(pane, traded, trade, above, buffer);
+    let draw = if app.is_trade_table { draw_table } else { draw_chart };
+    draw(app, traded, trade, above, buffer);
     let width = usize::from(below.width).saturating_sub(2);
-    let about = text::fitted(&about(pane, traded, trade), width, lines.into()).join(" ");
+    let about = text::fitted(&about(app, traded, trade), width, lines.into()).join(" ");
     text::draw_words(&about, below, buffer);
 }
 
 /// The meaning of the signs in the pane.
-pub(crate) fn signs(pane: &TradePane<'_>) -> &'static str {
-    if pane.is_table {
+pub(crate) fn signs(app: &App) -> &'static str {
+    if app.is_trade_table {
         "Time of a solve with 64 stations, and its greatest difference from the reference in %; \
             * compliance of the case, ▸ selected."
     } else {
@@ -124,15 +107,15 @@ pub(crate) fn stepped(traded: &Traded, is_table: bool, by: isize) -> Option<Sett
     Some(settings[next])
 }
 
-fn title(pane: &TradePane<'_>) -> String {
-    let is_stale = |traded: &Traded| pane.inputs.is_none_or(|inputs| traded.is_stale(inputs));
-    let words = if pane.is_table {
+fn title(app: &App) -> String {
+    let is_stale = |traded: &Traded| app.tab.inputs().is_none_or(|inputs| traded.is_stale(inputs));
+    let words = if app.is_trade_table {
         "Run time and difference from the reference in %"
     } else {
         "Accuracy against run time, both logarithmic"
     };
-    if pane.traded.is_some_and(is_stale) {
-        format!("OUTDATED, {} runs it again: {words}", pane.title.key_to("m"))
+    if app.tab.traded.as_ref().is_some_and(is_stale) {
+        format!("OUTDATED, {} runs it again: {words}", app.key_to(Pane::Trade, "m"))
     } else {
         words.to_owned()
     }
@@ -140,7 +123,7 @@ fn title(pane: &TradePane<'_>) -> String {
 
 /// The text about the selected setting, the most important part first; without a selection the
 /// progress of the benchmark.
-fn about(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> String {
+fn about(app: &App, traded: &Traded, trade: &Trade) -> String {
     let is_selected = |measured: &&MeasuredSetting| traded.marked == Some(measured.setting);
     let selected = trade.settings.iter().find(is_selected);
     let first = match selected {
@@ -152,7 +135,7 @@ fn about(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> String {
     };
     let refused = trade.settings.iter().filter(|measured| measured.found.is_err()).count();
     let said = |holds: bool, words: &str| holds.then(|| words.to_owned());
-    let is_own = selected.is_some_and(|measured| own(pane) == Some(measured.setting));
+    let is_own = selected.is_some_and(|measured| own(app) == Some(measured.setting));
     let is_best = selected.is_some_and(|measured| trade.is_on_front(measured));
     let words = [
         Some(first),
@@ -189,20 +172,14 @@ fn visible(trade: &Trade, is_table: bool) -> Vec<Setting> {
     ordered(trade).into_iter().map(|measured| measured.setting).collect()
 }
 
-fn own(pane: &TradePane<'_>) -> Option<Setting> {
-    pane.inputs.map(Setting::of)
+fn own(app: &App) -> Option<Setting> {
+    app.tab.inputs().map(Setting::of)
 }
 
 /// Draws the settings over the line of the tolerance, and the steps of the least error for each
 /// time, below which is no setting.
-fn draw_chart(
-    pane: &TradePane<'_>,
-    traded: &Traded,
-    trade: &Trade,
-    area: Rect,
-    buffer: &mut Buffer,
-) {
-    let (theme, within, found) = (pane.look.theme, trade.within, ordered(trade));
+fn draw_chart(app: &App, traded: &Traded, trade: &Trade, area: Rect, buffer: &mut Buffer) {
+    let (theme, within, found) = (app.look.theme, trade.within, ordered(trade));
     let across = found.iter().map(|measured| measured.seconds().log10());
     let across = Axis::logarithmic("", across, power_of_time);
     let errors = found.iter().filter_map(|measured| measured.total());
@@ -238,7 +215,7 @@ fn draw_chart(
     };
     let of_setting = |setting| points(&move |measured| Some(measured.setting) == setting);
     let selected = marks("selected", of_setting(traded.marked), ('◆', theme.key));
-    let own = marks("case", of_setting(own(pane)), ('◇', theme.focus));
+    let own = marks("case", of_setting(own(app)), ('◇', theme.focus));
     let methods = [
         (Method::Paper, 'p', theme.faint),
         (Method::Exact, 'e', theme.other),
@@ -269,15 +246,9 @@ fn in_percent(error: f64) -> String {
 }
 
 /// Draws the table of methods and compliances, with the time to build the fields below it.
-fn draw_table(
-    pane: &TradePane<'_>,
-    traded: &Traded,
-    trade: &Trade,
-    area: Rect,
-    buffer: &mut Buffer,
-) {
+fn draw_table(app: &App, traded: &Traded, trade: &Trade, area: Rect, buffer: &mut Buffer) {
     let table = |is_wide: bool| {
-        let own = own(pane).and_then(|own| own.models);
+        let own = own(app).and_then(|own| own.models);
         let text = |cell: &Cell| {
             let mark = if traded.marked == Some(cell.setting) { "▸" } else { "" };
             if is_wide { format!("{mark}{cell}") } else { format!("{mark}{}", cell.total) }
@@ -291,7 +262,7 @@ fn draw_table(
     let [above, below] =
         Layout::vertical([Constraint::Length(lines.len() as u16 + 1), Constraint::Fill(1)])
             .areas(area);
-    super::draw_table(&lines, marked.map(|line| line - 1), pane.look.theme, above, buffer);
+    super::draw_table(&lines, marked.map(|line| line - 1), app.look.theme, above, buffer);
     text::draw_words(&build(trade), below, buffer);
 }
 

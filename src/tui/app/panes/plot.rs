@@ -10,8 +10,8 @@ use ratatui::widgets::{Block, Borders, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use crate::report::chart::{Axis, Cell as MapCell, Chart, Kind, Labels, Map, Point, Series, Span};
+use crate::tui::settings::Theme;
 use crate::tui::text;
-use crate::tui::theme::Theme;
 
 /// Least distance of labels below a plot, in columns.
 pub(crate) const LABEL_COLUMNS: u16 = 9;

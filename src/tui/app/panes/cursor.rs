@@ -1,96 +1,20 @@
-//! The dialog for the roll angle, time or point of the cursor.
+//! The cursor of charts and teeth: its range, its animation, and a typed angle, time or point.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Position;
-use ratatui::style::Style;
-use ratatui::text::Span;
-use unicode_width::UnicodeWidthStr;
-
-use super::{Dialog, Surroundings, said};
+use super::chart::curves::{CurveSource, curves};
+use super::chart::{Charts, columns, first_contact, last_contact};
 use crate::case::units::{self, Dimension};
 use crate::numeric::decimal::{shortest, significant};
 use crate::report::stations::GRAPHS;
 use crate::tui::app::App;
-use crate::tui::app::actions::Change;
-use crate::tui::layout::Place;
-use crate::tui::panes::chart::curves::{CurveSource, curves};
-use crate::tui::panes::chart::{Charts, columns, first_contact, last_contact};
-use crate::tui::text;
-use crate::tui::text::Line;
-
-/// The width at which the instruction has two lines.
-const WIDTH: u16 = 62;
-
-/// The instruction of the prompt.
-const HOW: &str = "Type an angle before E (1.2 deg, 20 mrad), a time after E (-80 us, 0.1 ms) \
-    or a point (D, E, B, L, peak).";
 
 /// Frames of the animation: four seconds at twelve frames a second.
 const PICTURES: f64 = 48.0;
 /// The start of the animation in the teeth pane, before D, as a multiple of the angle from D to E.
 const APPROACH: f64 = 1.6;
 
-/// The dialog with its typed text.
-#[derive(Debug, Clone)]
-pub struct CursorTo {
-    /// The typed text.
-    input: Line,
-    done: fn(&mut App, Result<f64, String>),
-}
-
-impl CursorTo {
-    /// A dialog that passes the angle, or the reason of its refusal, to `done`.
-    pub(crate) fn new(done: fn(&mut App, Result<f64, String>)) -> CursorTo {
-        CursorTo { input: Line::default(), done }
-    }
-}
-
-impl Dialog for CursorTo {
-    fn place(&self) -> Place {
-        Place::PATH
-    }
-
-    fn input(&mut self) -> Option<&mut Line> {
-        Some(&mut self.input)
-    }
-
-    fn accept(&mut self, around: &Surroundings<'_>) -> Option<Change> {
-        let (done, angle) = (self.done, parse_cursor(&around.cursor, self.input.value()));
-        if angle.is_err() {
-            // Typing replaces the invalid text.
-            self.input.select_all();
-        }
-        Some(Change::of(move |app| done(app, angle)))
-    }
-
-    fn draw(&self, around: &Surroundings<'_>, buffer: &mut Buffer) -> Option<Position> {
-        let (input, scope, theme) = (&self.input, &around.cursor, around.theme());
-        let typed = input.value();
-        let width = WIDTH.min(around.room().width);
-        let (meant, style) = match parse_cursor(scope, typed) {
-            _ if typed.trim().is_empty() => (String::new(), theme.faint),
-            Ok(angle) => (format!("= {}", describe(scope, angle)), theme.note),
-            Err(reason) => (reason, theme.faint),
-        };
-        let mut lines = vec![Span::styled(text::cut(&meant, width.into()), style).into()];
-        lines.extend(said(HOW, Style::new(), width));
-        let (line, cursor) = around.input_box("Cursor to", WIDTH, input, &lines, buffer);
-        text::ending(ending(scope, typed).as_deref(), typed.width(), line, theme, buffer);
-        cursor
-    }
-}
-
-/// The charts and the pane in which the cursor moves.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct CursorScope<'a> {
-    pub(crate) charts: Charts<'a>,
-    /// Whether it moves in the teeth pane.
-    pub(crate) is_in_teeth: bool,
-}
-
 /// The range of the cursor, in rad before E.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::tui) struct Reach {
+pub(crate) struct Reach {
     /// The first contact D, or E without corner contact.
     pub(crate) start: f64,
     /// The start of the animation.
@@ -107,13 +31,13 @@ pub(in crate::tui) struct Reach {
 
 impl Reach {
     /// The angle after a move by `columns` towards E; D if there is no cursor yet.
-    pub(in crate::tui) fn moved(self, cursor: Option<f64>, columns: isize) -> f64 {
+    pub(crate) fn moved(self, cursor: Option<f64>, columns: isize) -> f64 {
         let moved = cursor.map(|cursor| cursor - columns as f64 * self.column);
         self.held(moved.unwrap_or(self.start))
     }
 
     /// The angle of the next frame; `None` at the end.
-    pub(in crate::tui) fn played(self, cursor: f64) -> Option<f64> {
+    pub(crate) fn played(self, cursor: f64) -> Option<f64> {
         let next = cursor - (self.run_from - self.run_to) / PICTURES;
         (next > self.run_to && next < cursor).then_some(next)
     }
@@ -126,9 +50,9 @@ impl Reach {
 }
 
 /// The completion of a typed angle or time.
-fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
+fn ending(charts: Charts<'_>, typed: &str) -> Option<String> {
     if units::parse(typed, Dimension::Number, "").is_ok() {
-        let unit = scope.charts.ruler().1.unit;
+        let unit = charts.ruler().1.unit;
         return units::ending(typed, Dimension::of_unit(&unit)?, &unit);
     }
     let dimensions = [Dimension::Angle, Dimension::Time];
@@ -141,17 +65,17 @@ fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
 
 /// The range of the cursor in the focused pane, or in the visible pane. In a chart it is the range
 /// of the axis. In the teeth pane it extends to one base pitch after E.
-pub(in crate::tui) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
-    let solution = scope.charts.solution()?;
+pub(crate) fn cursor_range(charts: Charts<'_>) -> Option<Reach> {
+    let solution = charts.solution()?;
     let pitch = solution.geometry.base_pitch / solution.geometry.driver.base;
     let start = first_contact(solution).unwrap_or(0.0);
     let end = last_contact(solution).unwrap_or(0.0).min(0.0);
-    let ahead = scope.charts.ahead();
-    let axis = scope.charts.scale().across.shifted(-ahead);
+    let ahead = charts.ahead();
+    let axis = charts.scale().across.shifted(-ahead);
     let before =
         if axis.is_empty() { start.max(pitch / 10.0) } else { start.max(-axis.from.to_radians()) };
-    let columns = f64::from(columns(&scope.charts).max(2) - 1);
-    if scope.is_in_teeth {
+    let columns = f64::from(columns(charts).max(2) - 1);
+    if charts.is_in_teeth() {
         let (most, least) = (before.max(2.0 * start), end.min(-pitch));
         return Some(Reach {
             start,
@@ -162,7 +86,7 @@ pub(in crate::tui) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
             column: before / columns,
         });
     }
-    let window = scope.charts.window().shifted(-ahead);
+    let window = charts.window().shifted(-ahead);
     let (least, shown) = if axis.is_empty() {
         (end, before)
     } else {
@@ -174,15 +98,25 @@ pub(in crate::tui) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
     Some(Reach { start, run_from, run_to, most: before, least, column: shown / columns })
 }
 
+/// What a typed angle, time or point means, and its completion.
+pub(crate) fn meaning(app: &App, typed: &str) -> (Result<String, String>, Option<String>) {
+    let charts = app.charts();
+    let meant = match parse_cursor(charts, typed) {
+        _ if typed.trim().is_empty() => Ok(String::new()),
+        angle => angle.map(|angle| format!("= {}", describe(charts, angle))),
+    };
+    (meant, ending(charts, typed))
+}
+
 /// Parses an angle before E, a time or the name of a point; returns the driver's angle before E, in
 /// rad.
 ///
 /// # Errors
 /// Returns an error if the text is not valid, or if the angle is out of range.
-fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
+pub(crate) fn parse_cursor(charts: Charts<'_>, typed: &str) -> Result<f64, String> {
     const UNSOLVED: &str = "no valid results for a cursor";
-    let solution = scope.charts.solution().ok_or(UNSOLVED)?;
-    let reach = cursor_range(scope).ok_or(UNSOLVED)?;
+    let solution = charts.solution().ok_or(UNSOLVED)?;
+    let reach = cursor_range(charts).ok_or(UNSOLVED)?;
     let geometry = &solution.geometry;
     let angle = match typed.trim().to_lowercase().as_str() {
         "d" => first_contact(solution).ok_or("no corner contact, so no D")?,
@@ -191,36 +125,36 @@ fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
         "l" => {
             last_contact(solution).ok_or("only static and dynamic compute the last contact L")?
         }
-        "peak" => peak(scope).ok_or("the chart has no curve, so no peak")?,
-        _ => measured(scope, typed)?,
+        "peak" => peak(charts).ok_or("the chart has no curve, so no peak")?,
+        _ => measured(charts, typed)?,
     };
     let slack = 1e-9 * reach.column;
     if (reach.least - slack..=reach.most + slack).contains(&angle) {
         return Ok(reach.held(angle));
     }
-    let [angle, most, least] = [angle, reach.most, reach.least].map(|end| describe(scope, end));
+    let [angle, most, least] = [angle, reach.most, reach.least].map(|end| describe(charts, end));
     Err(format!("{angle} is out of range: from {most} to {least}"))
 }
 
 /// An angle as text, with its time from E.
-fn describe(scope: &CursorScope<'_>, angle: f64) -> String {
+fn describe(charts: Charts<'_>, angle: f64) -> String {
     let short = |number: f64, digits| {
         let rounded = significant(number, digits);
         rounded.parse().map_or(rounded, shortest)
     };
     let side = if angle < 0.0 { "after" } else { "before" };
-    let micros = Some(1e6 * angle.abs() / speed(scope)).filter(|micros| micros.is_finite());
+    let micros = Some(1e6 * angle.abs() / speed(charts)).filter(|micros| micros.is_finite());
     let time = micros.map(|micros| format!(" ({} us)", short(micros, 4))).unwrap_or_default();
     format!("{} deg{time} {side} E", short(angle.abs().to_degrees(), 5))
 }
 
-fn speed(scope: &CursorScope<'_>) -> f64 {
-    scope.charts.answer.map_or(0.0, |answer| answer.inputs.speed)
+fn speed(charts: Charts<'_>) -> f64 {
+    charts.answer().map_or(0.0, |answer| answer.inputs.speed)
 }
 
 // The angle at which the curve of the active method in the selected chart is farthest from 0.
-fn peak(scope: &CursorScope<'_>) -> Option<f64> {
-    let curves = curves(&scope.charts, &GRAPHS[scope.charts.pane.graph()]);
+fn peak(charts: Charts<'_>) -> Option<f64> {
+    let curves = curves(charts, &GRAPHS[charts.0.chart.graph()]);
     let own = curves.iter().find(|curve| matches!(curve.source, CurveSource::Active(_)))?;
     let highest =
         own.pieces.iter().flatten().max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
@@ -228,10 +162,11 @@ fn peak(scope: &CursorScope<'_>) -> Option<f64> {
 }
 
 // Angles count before E and times after E, as on the axes.
-fn measured(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
-    let whole = [typed, &ending(scope, typed).unwrap_or_default()].concat();
+fn measured(charts: Charts<'_>, typed: &str) -> Result<f64, String> {
+    let whole = [typed, &ending(charts, typed).unwrap_or_default()].concat();
     let angle = units::parse(&whole, Dimension::Angle, "deg");
-    let time = || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed(scope));
+    let time =
+        || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed(charts));
     angle.or_else(|_| time()).map_err(|_| match units::parse(typed.trim(), Dimension::Number, "") {
         Err(misread) if typed.contains(',') => misread.fix.to_string(),
         _ => format!("{} is not an angle, time or point", typed.trim()),

@@ -1,19 +1,23 @@
-//! An open case: its document, its form, its results and its views.
+//! An open case: its document, its form, its results and its views; and the header with the names of
+//! the open cases.
 
 use std::path::PathBuf;
+
+use ratatui::text::Span;
 
 use super::panes::chart::ChartWork;
 use super::panes::form::FormState;
 use super::panes::results::ResultsState;
 use super::panes::study::Study;
 use super::panes::trade::Traded;
-use super::rows;
-use super::session::{Access, OpenCase};
-use super::solver::{Answer, Request, Values, Variants, Wanted};
-use super::text::Line;
 use crate::case::{Case, Document, FIELDS, Limit, Problem, Spread, Variant, fields};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Refusal, Solution};
+use crate::tui::rows;
+use crate::tui::session::{Access, OpenCase};
+use crate::tui::settings::Theme;
+use crate::tui::solver::{Answer, Request, Values, Variants, Wanted};
+use crate::tui::text::{self, Line};
 
 /// An open case.
 #[derive(Debug, Clone)]
@@ -50,8 +54,6 @@ pub struct Tab {
     pub serial: u64,
     /// The results of that request.
     pub(crate) requested: Wanted,
-    /// The fields without effect.
-    pub(crate) idle: Vec<usize>,
     /// Progress of a slow solve.
     pub(crate) solving: Option<f64>,
     /// Whether the worker has answered the request, with results or without.
@@ -113,7 +115,6 @@ impl Tab {
             problems: Vec::new(),
             serial: 0,
             requested: Wanted::NOTHING,
-            idle: Vec::new(),
             solving: None,
             is_settled: false,
             answer: None,
@@ -131,8 +132,8 @@ impl Tab {
 
     /// The last request.
     pub fn request(&self) -> Request {
-        let (inputs, idle) = (self.inputs_so_far.clone(), self.idle.clone());
-        Request { serial: self.serial, inputs, wanted: self.requested, idle }
+        let inputs = self.inputs_so_far.clone();
+        Request { serial: self.serial, inputs, wanted: self.requested }
     }
 
     /// The inputs, if the form is valid.
@@ -226,20 +227,20 @@ impl Tab {
     }
 
     /// Stores the state before an edit of a row, with its results.
-    pub(super) fn before_edit(&mut self, row: usize) {
+    pub(crate) fn before_edit(&mut self, row: usize) {
         if self.history.before_edit(&self.case, self.form.focus, row) {
             self.remember();
         }
     }
 
     /// Stores the values, so that later changes can be marked.
-    pub(super) fn remember(&mut self) {
+    pub(crate) fn remember(&mut self) {
         self.earlier = self.answer.as_ref().map(Answer::values);
     }
 
     /// Focuses a row of the form, with the cursor at the end of its text. Leaving an empty limit or
     /// distribution removes it.
-    pub(super) fn focus_on(&mut self, at: usize) {
+    pub(crate) fn focus_on(&mut self, at: usize) {
         let at = at.min(rows::count(&self.case) - 1);
         let entry = rows::row(&self.case, at).entry();
         self.case.drop_empty(entry);
@@ -249,7 +250,7 @@ impl Tab {
     }
 
     /// Reads the text of the focused row from the case, as when the user leaves the row.
-    pub(super) fn read_line_anew(&mut self) {
+    pub(crate) fn read_line_anew(&mut self) {
         let text = rows::text(&self.case, self.form.focus).unwrap_or_default();
         if text != self.form.input.value() {
             self.form.input = Line::whole(text);
@@ -257,9 +258,8 @@ impl Tab {
     }
 
     /// Shows an answer to the present request.
-    pub(super) fn take(&mut self, mut answer: Answer) {
+    pub(crate) fn take(&mut self, mut answer: Answer) {
         self.has_failed = false;
-        self.idle.clone_from(&answer.idle);
         self.is_settled = answer.pending.is_none();
         self.solving = self.solving.filter(|_| !self.is_settled);
         self.refusal = answer.refusal().copied();
@@ -277,6 +277,57 @@ impl Tab {
     }
 }
 
+/// The header in a width: the open cases with their numbers, as many from the current one on and then
+/// before it as fit; a single case with its path and title. Each part with the index of its case.
+pub(crate) fn header(
+    tabs: &[&Tab],
+    current: usize,
+    theme: &Theme,
+    width: u16,
+) -> Vec<(Option<usize>, Span<'static>)> {
+    const HEAD: &str = "tipstrike";
+    const OTHER_TEXT: usize = 15;
+    const LONGEST_NAME: usize = 24;
+    let mut spans = vec![Span::styled(HEAD, theme.title), Span::raw("  ")];
+    if let [tab] = tabs {
+        let is_last = tab.origin == Origin::LastCase;
+        let last = if is_last { " (last case; Alt-T: Table 1)" } else { "" };
+        let unsaved = if tab.is_unsaved() { " *unsaved*" } else { "" };
+        let mark = format!("{unsaved}{}{last}", tab.marks());
+        let room = usize::from(width).saturating_sub(HEAD.len() + 2 + text::width(&mark));
+        let instead = tab.in_place_of.as_ref();
+        let instead = instead.map(|path| format!(" ({} cannot be opened)", path.display()));
+        let name = text::cut(&format!("{}{}", tab.name(), instead.unwrap_or_default()), room);
+        let left = room.saturating_sub(text::width(&name) + 3);
+        let title = Some(tab.case.title()).filter(|title| !title.is_empty() && left > 8);
+        let title = title.map(|title| format!("   {}", text::cut(title, left)));
+        let title = Span::raw(title.unwrap_or_default());
+        spans.extend([Span::raw(name), Span::styled(mark, theme.note), title]);
+        return spans.into_iter().map(|span| (None, span)).collect();
+    }
+    let name = |(at, tab): (usize, &&Tab)| {
+        let (name, marks) = (text::cut(&tab.short_name(), LONGEST_NAME), tab.marks());
+        let text = format!("{} {name}{}{marks}", at + 1, if tab.is_unsaved() { "*" } else { "" });
+        if at == current {
+            Span::styled(format!("[{text}]"), theme.key)
+        } else {
+            Span::raw(format!(" {text} "))
+        }
+    };
+    let names: Vec<Span<'_>> = tabs.iter().enumerate().map(name).collect();
+    let room = usize::from(width).saturating_sub(OTHER_TEXT);
+    let fits =
+        |from: usize, to: usize| names[from..to].iter().map(Span::width).sum::<usize>() <= room;
+    let to = (current + 1..=names.len()).rev().find(|&to| fits(current, to));
+    let to = to.unwrap_or(current + 1);
+    let from = (0..current).find(|&from| fits(from, to)).unwrap_or(current);
+    spans.push(Span::raw(if from > 0 { "‹ " } else { "" }));
+    let after = Span::raw(if to < names.len() { " ›" } else { "" });
+    let shown = names.into_iter().enumerate().take(to).skip(from);
+    let shown = shown.map(|(at, name)| (Some(at), name));
+    spans.into_iter().map(|span| (None, span)).chain(shown).chain([(None, after)]).collect()
+}
+
 /// States of a case, each with the field that had the focus.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct History {
@@ -289,7 +340,7 @@ pub(crate) struct History {
 impl History {
     /// Stores the state before the first edit of a visit to a row. Returns whether it is the first
     /// edit.
-    pub(super) fn before_edit(&mut self, case: &Case, focus: usize, row: usize) -> bool {
+    pub(crate) fn before_edit(&mut self, case: &Case, focus: usize, row: usize) -> bool {
         let is_first = self.visited != Some(row);
         if is_first {
             self.past.push(case, focus);
@@ -300,22 +351,22 @@ impl History {
     }
 
     /// The case before the first edit of this visit.
-    pub(super) fn before_visit(&self) -> Option<&Case> {
+    pub(crate) fn before_visit(&self) -> Option<&Case> {
         self.past.last.as_ref().filter(|_| self.visited.is_some()).map(|(case, _)| case)
     }
 
     /// Whether a row was edited in this visit.
-    pub(super) fn is_visited(&self, row: usize) -> bool {
+    pub(crate) fn is_visited(&self, row: usize) -> bool {
         self.visited == Some(row)
     }
 
     /// Ends the visit: the next edit stores a new state.
-    pub(super) fn end_visit(&mut self) {
+    pub(crate) fn end_visit(&mut self) {
         self.visited = None;
     }
 
     /// Exchanges the present state for the previous one, or for the undone one.
-    pub(super) fn travel(
+    pub(crate) fn travel(
         &mut self,
         case: &Case,
         focus: usize,

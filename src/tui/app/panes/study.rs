@@ -6,9 +6,9 @@ pub(crate) mod range;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
-use ratatui::text::Line;
+use ratatui::text::Text;
+use ratatui::widgets::Widget;
 
-use super::Title;
 use super::chart::curves::sign_of;
 use super::plot::{Look as SeriesLook, NO_CONTACT, REFUSED, TerminalChart};
 use crate::case::units::{self, System};
@@ -18,11 +18,12 @@ use crate::model::{Inputs, Outcome, Quantity};
 use crate::report::chart::{Axis, Cell as MapCell, Chart, Kind, Labels, Map, Point, Series, Span};
 use crate::report::charts::pieces;
 use crate::report::table::{Cell, Column, Table};
-use crate::report::{common_unit, shown_in, shown_with};
+use crate::report::{self, common_unit, shown_in, shown_with};
 use crate::study::axis::Axis as StudyAxis;
 use crate::study::batch::{PointOutcome, Refusals, Refused};
+use crate::tui::app::App;
+use crate::tui::layout::Pane;
 use crate::tui::text::{self, symbol};
-use crate::tui::theme::Look;
 
 /// Points of a curve over a range.
 pub(crate) const CURVE_POINTS: usize = 101;
@@ -122,8 +123,10 @@ pub enum End {
 }
 
 /// The points of a layer so far.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct LayerFound {
+    /// The layer.
+    pub(crate) layer: Layer,
     /// How each point ended.
     pub(crate) outcomes: Vec<PointOutcome>,
     /// The value of each point in SI.
@@ -170,6 +173,19 @@ impl Layer {
     /// The quantity.
     pub(crate) fn quantity(&self) -> Option<&'static Quantity> {
         Quantity::find(self.quantity)
+    }
+}
+
+impl LayerFound {
+    /// No points of a layer yet.
+    pub(crate) fn of(layer: &Layer) -> LayerFound {
+        let (layer, outcomes, values) = (layer.clone(), Vec::new(), Vec::new());
+        LayerFound { layer, outcomes, values, refusals: Refusals::default() }
+    }
+
+    /// The unit for all values of the layer.
+    fn unit(&self, units: System) -> Option<&'static str> {
+        Some(common_unit(self.layer.quantity()?, self.values.iter().flatten().copied(), units))
     }
 }
 
@@ -229,6 +245,16 @@ impl StudyResults {
         }
     }
 
+    /// The axes of a curve or a map.
+    fn axes(&self) -> &[StudyAxis] {
+        self.request.parameters.axes()
+    }
+
+    /// The number of points of a curve or a map.
+    fn count(&self) -> usize {
+        self.axes().iter().map(|axis| axis.points.len()).product()
+    }
+
     /// The method of the first curve.
     pub(crate) fn method(&self) -> Method {
         match &self.request.parameters {
@@ -241,7 +267,7 @@ impl StudyResults {
 
     fn of(request: StudyRequest) -> StudyResults {
         let layers = match &request.parameters {
-            StudyParameters::Grid(grid) => vec![LayerFound::default(); grid.layers.len()],
+            StudyParameters::Grid(grid) => grid.layers.iter().map(LayerFound::of).collect(),
             StudyParameters::Tolerance(_) => Vec::new(),
         };
         StudyResults { request, layers, page: Vec::new(), part: 0.0, end: None }
@@ -257,29 +283,6 @@ impl StudyResults {
     }
 }
 
-/// The pane with the study that it shows.
-#[derive(Debug, Clone)]
-pub(crate) struct StudyPane<'a> {
-    /// The state of the pane.
-    pub(crate) state: &'a StudyState,
-    /// The study of the open case.
-    pub(crate) study: &'a Study,
-    /// The case in the form.
-    pub(crate) case: &'a Case,
-    /// The value of the selected quantity in the present case, in SI.
-    pub(crate) present: Option<f64>,
-    /// The display units.
-    pub(crate) units: System,
-    /// The marker of curves.
-    pub(crate) marker: Marker,
-    /// The capabilities of the terminal.
-    pub(crate) look: Look,
-    /// The title line.
-    pub(crate) title: Title,
-    /// The area of the pane with its title; empty if the pane is hidden.
-    pub(crate) area: Rect,
-}
-
 /// The number of points of a map in a pane with an area, horizontally and vertically.
 pub(crate) fn map_points(area: Rect) -> (usize, usize) {
     let across = area.width.saturating_sub(MAP_MARGIN.0).clamp(2, MOST_CELLS.0);
@@ -288,34 +291,34 @@ pub(crate) fn map_points(area: Rect) -> (usize, usize) {
 }
 
 /// Draws the pane.
-pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
-    let inner = pane.title.draw(&title(pane), pane.area, buffer);
+pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
+    let inner = app.draw_title(Pane::Study, &title(app), buffer);
     if inner.is_empty() {
         return;
     }
-    if let Some(obstacle) = &pane.study.obstacle {
+    if let Some(obstacle) = &app.tab.study.obstacle {
         return text::draw_words(obstacle, inner, buffer);
     }
-    let Some(shown) = &pane.study.shown else {
+    let Some(shown) = &app.tab.study.shown else {
         return text::draw_words("Computing.", inner, buffer);
     };
-    let StudyParameters::Grid(grid) = &shown.request.parameters else {
-        return draw_page(pane, shown, inner, buffer);
-    };
-    let (about, width) = (below(pane, shown), usize::from(inner.width).saturating_sub(2));
+    if let StudyParameters::Tolerance(_) = shown.request.parameters {
+        return draw_page(app, shown, inner, buffer);
+    }
+    let (about, width) = (below(app, shown), usize::from(inner.width).saturating_sub(2));
     let (plot, words) = split(inner, text::wrap(&about, width).len());
-    if pane.state.is_table {
-        draw_table(pane, shown, grid, plot, buffer);
+    if app.study.is_table {
+        draw_table(app, shown, plot, buffer);
     } else {
-        draw_points(pane, shown, grid, plot, buffer);
+        draw_points(app, shown, plot, buffer);
     }
     text::draw_words(&about, words, buffer);
 }
 
 /// The hint line while the pane has the focus.
-pub(crate) fn hint(pane: &StudyPane<'_>) -> String {
-    let shown = pane.study.shown.as_ref();
-    let shown = shown.filter(|_| pane.study.obstacle.is_none());
+pub(crate) fn hint(app: &App) -> String {
+    let shown = app.tab.study.shown.as_ref();
+    let shown = shown.filter(|_| app.tab.study.obstacle.is_none());
     match shown.map(|shown| &shown.request.parameters) {
         Some(StudyParameters::Grid(_)) => {
             format!("● present value, ▴ cursor, {NO_CONTACT} no contact, {REFUSED} refused point.")
@@ -328,20 +331,20 @@ pub(crate) fn hint(pane: &StudyPane<'_>) -> String {
 }
 
 /// The text of each varied field at the cursor, in the syntax of a case file.
-pub(crate) fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
-    let shown = pane.study.shown.iter();
-    let places = shown.flat_map(|shown| places(pane, shown));
+pub(crate) fn at_cursor(app: &App) -> Vec<(usize, String)> {
+    let shown = app.tab.study.shown.iter();
+    let places = shown.flat_map(|shown| places(app, shown));
     places.map(|(axis, at)| (axis.field, axis.with_unit(at))).collect()
 }
 
 /// The cursor after a move by points on the visible axes.
-pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(usize, usize)> {
-    let shown = pane.study.shown.as_ref()?;
-    let places = places(pane, shown);
-    if pane.state.is_table && !places.is_empty() {
+pub(crate) fn moved(app: &App, across: isize, up: isize) -> Option<(usize, usize)> {
+    let shown = app.tab.study.shown.as_ref()?;
+    let places = places(app, shown);
+    if app.study.is_table && !places.is_empty() {
         let [width, height] =
             [0, 1].map(|at| places.get(at).map_or(1, |(axis, _)| axis.points.len()));
-        let (x, y) = cursor(pane, shown);
+        let (x, y) = cursor(app, shown);
         let next = (y * width + x).saturating_add_signed(across - up).min(width * height - 1);
         return Some((next % width, next / width));
     }
@@ -353,36 +356,36 @@ pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(u
 }
 
 /// The first visible line of the tolerance after scrolling by lines downwards.
-pub(crate) fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
-    let Some(shown) = &pane.study.shown else {
+pub(crate) fn scrolled(app: &App, by: isize) -> usize {
+    let Some(shown) = &app.tab.study.shown else {
         return 0;
     };
-    let last = shown.page.len().saturating_sub(page_height(pane));
-    top(pane, shown).saturating_add_signed(by).min(last)
+    let last = shown.page.len().saturating_sub(page_height(app));
+    top(app, shown).saturating_add_signed(by).min(last)
 }
 
 /// The first visible line after scrolling by pages, which overlap by one line.
-pub(crate) fn paged(pane: &StudyPane<'_>, by: isize) -> usize {
-    let page = page_height(pane).saturating_sub(1).max(1);
-    scrolled(pane, by * isize::try_from(page).unwrap_or(1))
+pub(crate) fn paged(app: &App, by: isize) -> usize {
+    let page = page_height(app).saturating_sub(1).max(1);
+    scrolled(app, by * isize::try_from(page).unwrap_or(1))
 }
 
 /// The axes, the horizontal one first, each with the point of the cursor; without a cursor, with the
 /// point of the present case.
-fn places<'a>(pane: &StudyPane<'_>, shown: &'a StudyResults) -> Vec<(&'a StudyAxis, usize)> {
-    let chosen = pane.study.cursor.map(|(x, y)| [x, y]);
-    let axes = shown.request.parameters.axes().iter().rev().enumerate();
+fn places<'a>(app: &App, shown: &'a StudyResults) -> Vec<(&'a StudyAxis, usize)> {
+    let chosen = app.tab.study.cursor.map(|(x, y)| [x, y]);
+    let axes = shown.axes().iter().rev().enumerate();
     let place = |(at, axis): (usize, &'a StudyAxis)| {
         let chosen = chosen.map(|chosen| chosen[at]);
-        let point = chosen.or_else(|| range::nearest(axis, pane.case)).unwrap_or(0);
+        let point = chosen.or_else(|| range::nearest(axis, &app.tab.case)).unwrap_or(0);
         (axis, point.min(axis.points.len().saturating_sub(1)))
     };
     axes.map(place).collect()
 }
 
 /// The point of the cursor on the horizontal and on the vertical axis.
-fn cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> (usize, usize) {
-    let places = places(pane, shown);
+fn cursor(app: &App, shown: &StudyResults) -> (usize, usize) {
+    let places = places(app, shown);
     let at = |axis: usize| places.get(axis).map_or(0, |(_, at)| *at);
     (at(0), at(1))
 }
@@ -398,7 +401,7 @@ fn split(inner: Rect, lines: usize) -> (Rect, Rect) {
 }
 
 /// Draws the page of a tolerance study from its first visible line on.
-fn draw_page(pane: &StudyPane<'_>, shown: &StudyResults, inner: Rect, buffer: &mut Buffer) {
+fn draw_page(app: &App, shown: &StudyResults, inner: Rect, buffer: &mut Buffer) {
     if shown.page.is_empty() {
         let words = match &shown.end {
             Some(End::Failed(reason)) => reason.as_str(),
@@ -407,34 +410,33 @@ fn draw_page(pane: &StudyPane<'_>, shown: &StudyResults, inner: Rect, buffer: &m
         };
         return text::draw_words(words, inner, buffer);
     }
-    let top = top(pane, shown);
+    let top = top(app, shown);
     let page = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
-    let lines: Vec<Line> = shown.page[top..].iter().map(|line| Line::raw(line.as_str())).collect();
-    text::draw_lines(&lines, page, buffer);
+    Text::from_iter(shown.page[top..].iter().map(String::as_str)).render(page, buffer);
     text::scroll_bar_beside(top, shown.page.len(), page, buffer);
 }
 
 /// The number of lines of the tolerance that fit.
-fn page_height(pane: &StudyPane<'_>) -> usize {
-    usize::from(pane.area.height.saturating_sub(1))
+fn page_height(app: &App) -> usize {
+    usize::from(app.area(Pane::Study).height.saturating_sub(1))
 }
 
 /// The first visible line of the tolerance.
-fn top(pane: &StudyPane<'_>, shown: &StudyResults) -> usize {
-    let last = shown.page.len().saturating_sub(page_height(pane));
-    pane.state.top.min(last)
+fn top(app: &App, shown: &StudyResults) -> usize {
+    let last = shown.page.len().saturating_sub(page_height(app));
+    app.study.top.min(last)
 }
 
-fn title(pane: &StudyPane<'_>) -> String {
-    let shown = pane.study.shown.as_ref().filter(|_| pane.study.obstacle.is_none());
+fn title(app: &App) -> String {
+    let shown = app.tab.study.shown.as_ref().filter(|_| app.tab.study.obstacle.is_none());
     let Some(shown) = shown.filter(|shown| shown.quantity().is_some()) else {
         return "Study".to_owned();
     };
     let state = progress(shown);
     let words = match &shown.request.parameters {
-        StudyParameters::Tolerance(_) => format!("Tolerance{}{state}", position(pane, shown)),
-        StudyParameters::Grid(grid) => {
-            let chart = chart(pane, shown, grid);
+        StudyParameters::Tolerance(_) => format!("Tolerance{}{state}", position(app, shown)),
+        StudyParameters::Grid(_) => {
+            let chart = chart(app, shown);
             format!(
                 "Study{state}: {}",
                 chart.map_or_else(String::new, |(chart, _)| chart.quantities())
@@ -442,17 +444,17 @@ fn title(pane: &StudyPane<'_>) -> String {
         }
     };
     let outdated =
-        if pane.study.is_stale() { "OUTDATED, the new result is computed: " } else { "" };
-    symbol(&format!("{outdated}{words}"), pane.look.ascii).into_owned()
+        if app.tab.study.is_stale() { "OUTDATED, the new result is computed: " } else { "" };
+    symbol(&format!("{outdated}{words}"), app.look.ascii).into_owned()
 }
 
 /// The visible lines of a tolerance, if some do not fit.
-fn position(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
-    let (lines, height) = (shown.page.len(), page_height(pane));
+fn position(app: &App, shown: &StudyResults) -> String {
+    let (lines, height) = (shown.page.len(), page_height(app));
     if lines <= height {
         return String::new();
     }
-    let top = top(pane, shown);
+    let top = top(app, shown);
     format!(" {} to {} of {lines}", top + 1, (top + height).min(lines))
 }
 
@@ -463,32 +465,28 @@ fn progress(shown: &StudyResults) -> String {
         (Some(End::Stopped), _) => ", stopped".to_owned(),
         (Some(End::Failed(_)), _) => ", failed".to_owned(),
         (None, StudyParameters::Tolerance(_)) => format!(", {:.0} % solved", 100.0 * shown.part),
-        (None, StudyParameters::Grid(grid)) => {
-            let points: usize = grid.axes.iter().map(|axis| axis.points.len()).product();
+        (None, StudyParameters::Grid(_)) => {
             let solved: usize = shown.layers.iter().map(|found| found.outcomes.len()).sum();
-            let all = (points * grid.layers.len()).max(1);
+            let all = (shown.count() * shown.layers.len()).max(1);
             format!(", {:.0} % solved", 100.0 * solved as f64 / all as f64)
         }
     }
 }
 
 /// The text below the plot: why the study failed, the values at the cursor, the refused points.
-fn below(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
+fn below(app: &App, shown: &StudyResults) -> String {
     let failed = match &shown.end {
         Some(End::Failed(reason)) => Some(reason.clone()),
         _ => None,
     };
-    let parts = [failed, Some(values_at_cursor(pane, shown)), refused(shown)];
+    let parts = [failed, Some(values_at_cursor(app, shown)), refused(shown)];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
-    symbol(&parts.join(". "), pane.look.ascii).into_owned()
+    symbol(&parts.join(". "), app.look.ascii).into_owned()
 }
 
 /// The varied values at the cursor, and the value of each curve.
-fn values_at_cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
-    let StudyParameters::Grid(grid) = &shown.request.parameters else {
-        return String::new();
-    };
-    let places = places(pane, shown);
+fn values_at_cursor(app: &App, shown: &StudyResults) -> String {
+    let places = places(app, shown);
     let settings = places.iter().map(|(axis, at)| {
         let known = &FIELDS[axis.field];
         let name = if known.symbol.is_empty() { known.label } else { known.symbol };
@@ -496,32 +494,26 @@ fn values_at_cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
     });
     let settings: Vec<String> = settings.collect();
     let index = places.iter().rev().fold(0, |index, (axis, at)| index * axis.points.len() + at);
-    let layers = grid.layers.iter().zip(&shown.layers);
-    let value = |(layer, found): (&Layer, &LayerFound)| {
-        let words = value_words(layer, found, index, pane.units, true)?;
-        Some(format!("{} {words}", layer.name()))
+    let value = |found: &LayerFound| {
+        let words = value_words(found, index, app.settings.units, true)?;
+        Some(format!("{} {words}", found.layer.name()))
     };
-    let values: Vec<String> = layers.filter_map(value).collect();
+    let values: Vec<String> = shown.layers.iter().filter_map(value).collect();
     format!("{}: {}", settings.join(", "), values.join(", "))
 }
 
 /// The value of a point, or why there is none; with the symbol and unit of the quantity.
-fn value_words(
-    layer: &Layer,
-    found: &LayerFound,
-    at: usize,
-    units: System,
-    has_name: bool,
-) -> Option<String> {
-    let known = layer.quantity()?;
+fn value_words(found: &LayerFound, at: usize, units: System, has_name: bool) -> Option<String> {
+    let known = found.layer.quantity()?;
     Some(match (found.outcomes.get(at)?, found.values.get(at)?) {
         (_, Some(value)) if has_name => {
-            format!("{} {}", known.symbol_in(layer.inputs.method), shown_in(known, *value, units))
+            format!(
+                "{} {}",
+                known.symbol_in(found.layer.inputs.method),
+                shown_in(known, *value, units)
+            )
         }
-        (_, Some(value)) => {
-            let unit = common_unit(known, found.values.iter().flatten().copied(), units);
-            shown_with(known, *value, unit).number
-        }
+        (_, Some(value)) => shown_with(known, *value, found.unit(units)?).number,
         (PointOutcome::Refused, None) => "refused".to_owned(),
         (PointOutcome::Solved(Outcome::NoCornerContact), None) => "no contact".to_owned(),
         (PointOutcome::Solved(_), None) => "no value".to_owned(),
@@ -543,34 +535,28 @@ fn refused(shown: &StudyResults) -> Option<String> {
 const LABELS: u16 = 7;
 
 /// Draws the curves or the map, with the limit, the present value and the cursor.
-fn draw_points(
-    pane: &StudyPane<'_>,
-    shown: &StudyResults,
-    grid: &GridParameters,
-    area: Rect,
-    buffer: &mut Buffer,
-) {
-    let Some((chart, looks)) = chart(pane, shown, grid) else { return };
-    let (theme, is_map) = (pane.look.theme, chart.map.is_some());
+fn draw_points(app: &App, shown: &StudyResults, area: Rect, buffer: &mut Buffer) {
+    let Some((chart, looks)) = chart(app, shown) else { return };
+    let (theme, is_map) = (app.look.theme, chart.map.is_some());
     let words = (!is_map).then(|| ("▴ cursor".to_owned(), theme.focus)).into_iter().collect();
     let margin = if is_map { LABELS } else { 0 };
-    let spans = match grid.axes.as_slice() {
+    let spans = match shown.axes() {
         [axis] => (chart.spans().0.and(ends(axis)), chart.spans().1),
         _ => chart.spans(),
     };
     let drawn = TerminalChart { chart: &chart, looks, words, is_compared: false, theme };
     let plot = drawn.draw(area, spans, margin, buffer);
-    let (at, row) = cursor(pane, shown);
-    match grid.axes.as_slice() {
+    let (at, row) = cursor(app, shown);
+    match shown.axes() {
         _ if plot.cells.is_empty() => (),
         [axis] => {
             let limit =
-                pane.case.limits.iter().find(|limit| shown.quantity() == Some(limit.quantity));
+                app.tab.case.limits.iter().find(|limit| shown.quantity() == Some(limit.quantity));
             if let Some(limit) = limit.filter(|limit| limit.of.is_none()) {
                 let factor = units::factor(&chart.up.unit).unwrap_or(1.0);
                 plot.draw_level(limit.value / factor, "╌", theme.rule, buffer);
             }
-            if let Some(present) = present(pane, axis) {
+            if let Some(present) = present(app, axis) {
                 plot.draw_upright(present, "│", theme.faint, buffer);
             }
             plot.draw_cursor(x(axis, at), theme, buffer);
@@ -580,10 +566,9 @@ fn draw_points(
 }
 
 /// The chart of the shown points as a picture.
-pub(crate) fn picture(pane: &StudyPane<'_>) -> Option<Chart> {
-    let shown = pane.study.shown.as_ref().filter(|_| pane.study.obstacle.is_none())?;
-    let StudyParameters::Grid(grid) = &shown.request.parameters else { return None };
-    let (known, (mut chart, _)) = (shown.quantity()?, chart(pane, shown, grid)?);
+pub(crate) fn picture(app: &App) -> Option<Chart> {
+    let shown = app.tab.study.shown.as_ref().filter(|_| app.tab.study.obstacle.is_none())?;
+    let (known, (mut chart, _)) = (shown.quantity()?, chart(app, shown)?);
     let (label, is_map) = (known.label.trim(), chart.map.is_some());
     let second = if is_map { format!(" and {}", chart.up.name) } else { String::new() };
     chart.title = format!("{label} over {}{second}", chart.across.name);
@@ -595,39 +580,31 @@ pub(crate) fn picture(pane: &StudyPane<'_>) -> Option<Chart> {
 }
 
 /// The curves or the map of the points, with their looks.
-fn chart(
-    pane: &StudyPane<'_>,
-    shown: &StudyResults,
-    grid: &GridParameters,
-) -> Option<(Chart, Vec<SeriesLook>)> {
-    match grid.axes.as_slice() {
-        [axis] => curves(pane, shown, grid, axis),
-        [up, across] => map(pane, shown, (across, up)),
+fn chart(app: &App, shown: &StudyResults) -> Option<(Chart, Vec<SeriesLook>)> {
+    match shown.axes() {
+        [axis] => curves(app, shown, axis),
+        [up, across] => map(app, shown, (across, up)),
         _ => None,
     }
 }
 
 /// The methods over each other, the active one on top and the baseline behind them, the present
 /// value, and signs where the active method has no value.
-fn curves(
-    pane: &StudyPane<'_>,
-    shown: &StudyResults,
-    grid: &GridParameters,
-    axis: &StudyAxis,
-) -> Option<(Chart, Vec<SeriesLook>)> {
-    let (theme, known) = (pane.look.theme, shown.quantity()?);
+fn curves(app: &App, shown: &StudyResults, axis: &StudyAxis) -> Option<(Chart, Vec<SeriesLook>)> {
+    let (theme, known) = (app.look.theme, shown.quantity()?);
     let all = shown.layers.iter().flat_map(|found| found.values.iter().flatten().copied());
-    let unit = common_unit(known, all, pane.units);
+    let unit = common_unit(known, all, app.settings.units);
     let factor = units::factor(unit).unwrap_or(1.0);
     let is_joined = axis.points.iter().all(|point| point.number.is_some());
     let longest = if is_joined { f64::INFINITY } else { 0.0 };
     let mut series: Vec<(Series, SeriesLook)> = Vec::new();
-    for (at, (layer, found)) in grid.layers.iter().zip(&shown.layers).enumerate() {
+    for (at, found) in shown.layers.iter().enumerate() {
+        let layer = &found.layer;
         let points = found.values.iter().enumerate();
         let points = points.map(|(at, value)| (x(axis, at), value.map(|value| value / factor)));
         let pieces = pieces(points, longest);
         let look = match (at, layer.is_baseline) {
-            (0, _) => (pane.marker, theme.active),
+            (0, _) => (app.settings.marker, theme.active),
             (_, true) => (Marker::Custom('+'), theme.baseline),
             (_, false) => (sign_of(layer.inputs.method), theme.other),
         };
@@ -641,14 +618,15 @@ fn curves(
         let series_of = Series { name: name.to_owned(), pieces, kind: Kind::Marks(None) };
         series.push((series_of, (Marker::Custom(look.0), look.1)));
     };
-    let now = present(pane, axis);
+    let now = present(app, axis);
     // A quantity that only the study computes has its present value at the point of the case.
     let of_point = || {
-        let at = range::nearest(axis, pane.case)?;
+        let at = range::nearest(axis, &app.tab.case)?;
         let is_present = (x(axis, at) - now?).abs() <= SAME * now?.abs();
         shown.layers.first()?.values.get(at).copied().flatten().filter(|_| is_present)
     };
-    let now = now.zip(pane.present.or_else(of_point)).map(|(x, value)| (x, value / factor));
+    let now =
+        now.zip(present_value(app, shown).or_else(of_point)).map(|(x, value)| (x, value / factor));
     let now = now.filter(|now| ends(axis).covers(Span::new(now.0, now.0)));
     if let Some(now) = now {
         mark("now", vec![now], ('●', theme.focus));
@@ -675,13 +653,13 @@ fn curves(
 
 /// The cells of a map, by the indices of its points.
 fn map(
-    pane: &StudyPane<'_>,
+    app: &App,
     shown: &StudyResults,
     (across, up): (&StudyAxis, &StudyAxis),
 ) -> Option<(Chart, Vec<SeriesLook>)> {
-    let (theme, known, found) = (pane.look.theme, shown.quantity()?, shown.layers.first()?);
+    let (theme, known, found) = (app.look.theme, shown.quantity()?, shown.layers.first()?);
     let all = || found.values.iter().flatten().copied();
-    let unit = common_unit(known, all(), pane.units);
+    let unit = common_unit(known, all(), app.settings.units);
     let worded = |value| (value, shown_with(known, value, unit).to_string());
     let cell = |(outcome, value): (&PointOutcome, &Option<f64>)| match (outcome, value) {
         (PointOutcome::Refused, _) => MapCell::Refused,
@@ -689,7 +667,7 @@ fn map(
         (PointOutcome::Solved(Outcome::NoCornerContact), None) => MapCell::NoContact,
         (PointOutcome::Solved(_), None) => MapCell::Blank,
     };
-    let limit = pane.case.limits.iter().find(|limit| limit.quantity == known);
+    let limit = app.tab.case.limits.iter().find(|limit| limit.quantity == known);
     let limit = limit.and_then(|limit| limit.bound(|_| None)).filter(|value| value.is_finite());
     let values = Span::of(all());
     let numbers = |axis: &StudyAxis| (0..axis.points.len()).map(|at| at as f64).collect();
@@ -700,7 +678,7 @@ fn map(
         let labels = points.into_iter().map(|at| (at as f64, axis.points[at].text.clone()));
         Axis { labels: labels.collect(), ..field_axis(axis) }
     };
-    let now = range::nearest(across, pane.case).zip(range::nearest(up, pane.case));
+    let now = range::nearest(across, &app.tab.case).zip(range::nearest(up, &app.tab.case));
     let now = now.map(|(x, y)| vec![(x as f64, y as f64)]).into_iter().collect();
     let chart = Chart {
         across: labelled(across),
@@ -729,10 +707,15 @@ fn field_axis(axis: &StudyAxis) -> Axis {
     Axis::new(FIELDS[axis.field].full_label(), axis.unit.clone())
 }
 
+/// The value of the shown quantity in the present case, in SI.
+fn present_value(app: &App, shown: &StudyResults) -> Option<f64> {
+    report::value(shown.quantity()?, app.tab.present()?)
+}
+
 /// The position of the present case on an axis.
-fn present(pane: &StudyPane<'_>, axis: &StudyAxis) -> Option<f64> {
-    let nearest = || range::nearest(axis, pane.case).map(|at| x(axis, at));
-    range::present(axis, pane.case).or_else(nearest)
+fn present(app: &App, axis: &StudyAxis) -> Option<f64> {
+    let nearest = || range::nearest(axis, &app.tab.case).map(|at| x(axis, at));
+    range::present(axis, &app.tab.case).or_else(nearest)
 }
 
 /// The position of a point on the axis: its number, or the index of a choice.
@@ -745,42 +728,34 @@ fn ends(axis: &StudyAxis) -> Span {
 }
 
 /// Draws the points as a table: the varied fields, then each curve.
-fn draw_table(
-    pane: &StudyPane<'_>,
-    shown: &StudyResults,
-    grid: &GridParameters,
-    area: Rect,
-    buffer: &mut Buffer,
-) {
-    let layers: Vec<_> = grid.layers.iter().zip(&shown.layers).collect();
-    let (width, (x, y)) =
-        (grid.axes.last().map_or(1, |axis| axis.points.len()), cursor(pane, shown));
-    let count: usize = grid.axes.iter().map(|axis| axis.points.len()).product();
+fn draw_table(app: &App, shown: &StudyResults, area: Rect, buffer: &mut Buffer) {
+    let (axes, layers) = (shown.axes(), &shown.layers);
+    let (width, (x, y)) = (axes.last().map_or(1, |axis| axis.points.len()), cursor(app, shown));
+    let count = shown.count();
     let (marked, rows) = (y * width + x, usize::from(area.height.saturating_sub(1)));
     let top = marked.saturating_sub(rows / 2).min(count.saturating_sub(rows));
-    let lines = |layers: &[(&Layer, &LayerFound)], is_short: bool| {
-        let curves = layers.iter().filter_map(|(layer, found)| {
-            let known = layer.quantity()?;
-            let unit = common_unit(known, found.values.iter().flatten().copied(), pane.units);
-            let symbol = known.symbol_in(layer.inputs.method);
-            Some(Axis::new(format!("{} {symbol}", layer.name()), unit))
+    let lines = |layers: &[LayerFound], is_short: bool| {
+        let curves = layers.iter().filter_map(|found| {
+            let symbol = found.layer.quantity()?.symbol_in(found.layer.inputs.method);
+            let name = format!("{} {symbol}", found.layer.name());
+            Some(Axis::new(name, found.unit(app.settings.units)?))
         });
         let field = |axis: &StudyAxis| match FIELDS[axis.field].symbol {
             symbol if is_short && !symbol.is_empty() => Axis::new(symbol, axis.unit.clone()),
             _ => field_axis(axis),
         };
         let column = |name: Axis| {
-            let title = symbol(&name.in_unit(), pane.look.ascii).into_owned();
+            let title = symbol(&name.in_unit(), app.look.ascii).into_owned();
             Column::text("", title).to_the_right().wide(2, 0)
         };
-        let columns = grid.axes.iter().map(field).chain(curves).map(column).collect();
+        let columns = axes.iter().map(field).chain(curves).map(column).collect();
         let row = |at: usize| {
             let places = [at / width, at % width];
-            let axes = grid.axes.iter().zip(&places[2 - grid.axes.len()..]);
+            let axes = axes.iter().zip(&places[2 - axes.len()..]);
             let fields = axes.map(|(axis, at)| axis.points[*at].text.clone());
-            let values = layers.iter().map(|(layer, found)| {
-                value_words(layer, found, at, pane.units, false).unwrap_or_default()
-            });
+            let values = layers
+                .iter()
+                .map(|found| value_words(found, at, app.settings.units, false).unwrap_or_default());
             fields.chain(values).map(Cell::from).collect()
         };
         Table::new("", columns).with((top..count.min(top + rows)).map(row)).lines()
@@ -795,5 +770,5 @@ fn draw_table(
         (count == 1 && is_short || fits(&lines)).then_some(lines)
     });
     let lines = lines.unwrap_or_default();
-    super::draw_table(&lines, Some(marked - top), pane.look.theme, area, buffer);
+    super::draw_table(&lines, Some(marked - top), app.look.theme, area, buffer);
 }

@@ -10,9 +10,8 @@ use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
 
-use super::Title;
 use super::plot::{LABEL_COLUMNS, Look as SeriesLook, Plot, TerminalChart, Words};
-use crate::case::units::{self, System};
+use crate::case::units;
 pub use crate::model::contact_state::first_contact_of_driver as first_contact;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity, Solution};
@@ -23,10 +22,11 @@ use crate::report::charts::{PATTERN, Pattern, pattern_chart};
 use crate::report::shown_in;
 use crate::report::stations::{GRAPHS, Graph};
 use crate::report::verdict::without_contact;
+use crate::tui::app::App;
+use crate::tui::layout::Pane;
 use crate::tui::solver::Answer;
 use crate::tui::text;
 use crate::tui::text::symbol;
-use crate::tui::theme::Look;
 
 pub(crate) use curves::last_contact;
 pub use curves::readout;
@@ -198,109 +198,108 @@ impl ChartPane {
     }
 
     /// The key of the selected chart, as in `plot --chart`.
-    pub fn key(&self) -> &'static str {
+    pub fn key(self) -> &'static str {
         self.own_axes().map_or(GRAPHS[self.graph()].key, OwnChart::key)
     }
 }
 
-/// The pane with the results that it shows.
+/// The chart pane of the workbench.
 #[derive(Debug, Clone, Copy)]
-pub struct Charts<'a> {
-    /// The state of the pane.
-    pub(crate) pane: &'a ChartPane,
-    /// The last valid results.
-    pub(crate) answer: Option<&'a Answer>,
-    /// The results of the baseline.
-    pub(crate) baseline: Option<&'a Answer>,
-    /// The cursor: the driver's roll angle before E, in rad.
-    pub(crate) cursor: Option<f64>,
-    /// Whether the results are older than the form.
-    pub(crate) is_stale: bool,
-    /// The prefix of a letter key: a field takes letters as text.
-    pub(crate) leave: &'static str,
-    /// Whether method `paper` has a curve beside the other methods.
-    pub(crate) shows_every_method: bool,
-    /// The chart that the worker computes for the case.
-    pub work: &'a ChartWork,
-    /// The display units.
-    pub(crate) units: System,
-    /// The marker of the active curve.
-    pub(crate) marker: Marker,
-    /// The capabilities of the terminal.
-    pub(crate) look: Look,
-    /// The area of the pane with its title; empty if the pane is hidden.
-    pub(crate) area: Rect,
-}
+pub struct Charts<'a>(pub(crate) &'a App);
 
-impl Charts<'_> {
+impl<'a> Charts<'a> {
+    /// The last valid results.
+    pub(crate) fn answer(self) -> Option<&'a Answer> {
+        self.0.tab.answer.as_ref()
+    }
+
     /// The results of the active method.
-    pub fn solution(&self) -> Option<&Solution> {
-        self.answer.and_then(|answer| answer.of(answer.active))
+    pub fn solution(self) -> Option<&'a Solution> {
+        self.0.tab.solution()
+    }
+
+    /// The results of the baseline.
+    fn pinned(self) -> Option<&'a Answer> {
+        self.0.baseline.as_ref().map(|baseline| &baseline.answer)
+    }
+
+    /// The area of the pane with its title; empty if the pane is hidden.
+    fn area(self) -> Rect {
+        self.0.area(Pane::Chart)
+    }
+
+    /// Whether the cursor moves in the teeth pane: in the focused pane, or in the visible one.
+    pub(crate) fn is_in_teeth(self) -> bool {
+        let plan = self.0.layout.plan();
+        let is_alone = !plan.shows(Pane::Chart) && plan.shows(Pane::Teeth);
+        self.0.layout.focus == Pane::Teeth || is_alone
     }
 
     /// The visible roll angles, in deg after E.
-    pub fn window(&self) -> Span {
+    pub fn window(self) -> Span {
         self.view().window(&self.scale())
     }
 
     /// The view of the pane. A chart of the path or of the plane of contact starts with the whole contact.
-    pub(crate) fn view(&self) -> ChartView {
-        match self.pane.view {
-            ChartView::Opening if self.is_by_model() || self.pane.is_pattern() => ChartView::Whole,
+    pub(crate) fn view(self) -> ChartView {
+        match self.0.chart.view {
+            ChartView::Opening if self.is_by_model() || self.0.chart.is_pattern() => {
+                ChartView::Whole
+            }
             view => view,
         }
     }
 
     /// The view, scrolled if necessary to show the cursor.
-    pub(crate) fn following(&self, cursor: f64) -> ChartView {
+    pub(crate) fn following(self, cursor: f64) -> ChartView {
         let view = self.view().following(self.ahead() - cursor.to_degrees(), &self.scale());
-        if view == self.view() { self.pane.view } else { view }
+        if view == self.view() { self.0.chart.view } else { view }
     }
 
     /// Whether the selected chart has a curve for each compliance model.
-    fn is_by_model(&self) -> bool {
-        GRAPHS[self.pane.graph()].by_model.is_some()
+    fn is_by_model(self) -> bool {
+        GRAPHS[self.0.chart.graph()].by_model.is_some()
     }
 
     /// The view zoomed by steps around the cursor, or around D without a cursor.
-    pub(crate) fn zoomed(&self, steps: i32) -> ChartView {
+    pub(crate) fn zoomed(self, steps: i32) -> ChartView {
         let start = self.solution().and_then(first_contact);
-        let around = 0.0 - self.cursor.or(start).unwrap_or(0.0).to_degrees();
+        let around = 0.0 - self.0.cursor.or(start).unwrap_or(0.0).to_degrees();
         self.view().zoomed(steps, around, &self.scale())
     }
 
     /// The line load of the active method over the face width.
-    pub(crate) fn pattern(&self) -> Option<Pattern<'_>> {
-        Pattern::of(&self.answer?.inputs, self.solution()?)
+    pub(crate) fn pattern(self) -> Option<Pattern<'a>> {
+        Pattern::of(&self.answer()?.inputs, self.solution()?)
     }
 
     /// The same while the contact pattern is selected.
-    fn shown_pattern(&self) -> Option<Pattern<'_>> {
-        self.pattern().filter(|_| self.pane.is_pattern())
+    fn shown_pattern(self) -> Option<Pattern<'a>> {
+        self.pattern().filter(|_| self.0.chart.is_pattern())
     }
 
     /// The roll angle by which the plane of the cursor is ahead in the contact pattern, in deg.
-    pub(crate) fn ahead(&self) -> f64 {
-        let ahead = self.shown_pattern().map(|pattern| pattern.ahead(self.pane.z));
+    pub(crate) fn ahead(self) -> f64 {
+        let ahead = self.shown_pattern().map(|pattern| pattern.ahead(self.0.chart.z));
         ahead.unwrap_or_default().to_degrees()
     }
 
     /// The chart with its own axes, as far as it is computed.
-    fn own_chart(&self) -> Option<Cow<'_, Chart>> {
-        match self.pane.own_axes()? {
+    fn own_chart(self) -> Option<Cow<'a, Chart>> {
+        match self.0.chart.own_axes()? {
             OwnChart::Pattern => {
                 let pattern = self.pattern()?;
-                let angle = self.cursor.map_or(pattern.at_peak(), |cursor| 0.0 - cursor);
-                let chart = pattern.chart(angle, self.window(), self.units);
+                let angle = self.0.cursor.map_or(pattern.at_peak(), |cursor| 0.0 - cursor);
+                let chart = pattern.chart(angle, self.window(), self.0.settings.units);
                 Some(Cow::Owned(Chart { across: self.across(), ..chart }))
             }
-            chart => self.work.drawn(chart).map(Cow::Borrowed),
+            chart => self.0.tab.chart_work.drawn(chart).map(Cow::Borrowed),
         }
     }
 
     /// The x axis in the visible range.
-    fn across(&self) -> Axis {
-        let width = self.area.width.saturating_sub(MARGIN + 5);
+    fn across(self) -> Axis {
+        let width = self.area().width.saturating_sub(MARGIN + 5);
         let ((factor, across), window) = (self.ruler(), self.window());
         let ends = Span::NONE.with(factor * window.from).with(factor * window.to);
         let labels = ends.ticks(width / LABEL_COLUMNS).into_iter();
@@ -309,25 +308,25 @@ impl Charts<'_> {
     }
 
     /// The point or mark `by` places from the cursor of that chart; the first without a cursor.
-    pub(crate) fn moved(&self, by: isize) -> Option<f64> {
+    pub(crate) fn moved(self, by: isize) -> Option<f64> {
         let chart = self.own_chart()?;
         let points = chart.series.iter().flat_map(|series| series.pieces.iter().flatten());
         let points = points.map(|point| point.0).chain(chart.marks.iter().map(|mark| mark.0));
         let mut points: Vec<f64> = points.collect();
         points.sort_by(f64::total_cmp);
         points.dedup();
-        let now = self.pane.place.map(|place| points.partition_point(|point| *point < place));
+        let now = self.0.chart.place.map(|place| points.partition_point(|point| *point < place));
         let at = now.map_or(0, |now| now.saturating_add_signed(by)).min(points.len().max(1) - 1);
         points.get(at).copied()
     }
 
     /// The values of that chart at its cursor, or its description without a cursor.
-    pub(crate) fn own_readout(&self) -> String {
-        if let Some((pattern, cursor)) = self.shown_pattern().zip(self.cursor) {
+    pub(crate) fn own_readout(self) -> String {
+        if let Some((pattern, cursor)) = self.shown_pattern().zip(self.0.cursor) {
             return self.pattern_readout(&pattern, cursor);
         }
-        let Some((chart, place)) = self.own_chart().zip(self.pane.place) else {
-            return self.pane.own_axes().map_or("", |chart| chart.words()[2]).to_owned();
+        let Some((chart, place)) = self.own_chart().zip(self.0.chart.place) else {
+            return self.0.chart.own_axes().map_or("", |chart| chart.words()[2]).to_owned();
         };
         let value = |value: f64, unit: &str| {
             let unit = unit.split(';').next().unwrap_or_default();
@@ -348,28 +347,31 @@ impl Charts<'_> {
     }
 
     /// The values at a place without a curve: at the present speed, the dynamic factor of the results.
-    fn beside_curves(&self, chart: &Chart) -> String {
+    fn beside_curves(self, chart: &Chart) -> String {
         let factor = Quantity::find("tooth_force_factor");
-        let present = self.pane.own_axes() == Some(OwnChart::Speed)
+        let present = self.0.chart.own_axes() == Some(OwnChart::Speed)
             && chart
                 .marks
                 .iter()
-                .any(|(x, name)| *name == "present" && Some(*x) == self.pane.place);
+                .any(|(x, name)| *name == "present" && Some(*x) == self.0.chart.place);
         let found = factor.filter(|_| present).zip(self.solution());
         let found =
             found.and_then(|(factor, solution)| Some((factor, factor.finite_value(solution)?)));
         match found {
             Some((factor, value)) => {
-                let name = symbol(factor.symbol, self.look.ascii);
-                format!("{name} {}, outside the curves", shown_in(factor, value, self.units))
+                let name = symbol(factor.symbol, self.0.look.ascii);
+                format!(
+                    "{name} {}, outside the curves",
+                    shown_in(factor, value, self.0.settings.units)
+                )
             }
             None => "no value, outside the curves".to_owned(),
         }
     }
 
     /// The line load at the cursor, and the values of the tooth at its roll angle.
-    fn pattern_readout(&self, pattern: &Pattern<'_>, cursor: f64) -> String {
-        let (z, angle) = (self.pane.z, pattern.ahead(self.pane.z) - cursor);
+    fn pattern_readout(self, pattern: &Pattern<'_>, cursor: f64) -> String {
+        let (z, angle) = (self.0.chart.z, pattern.ahead(self.0.chart.z) - cursor);
         let side = if angle < 0.0 { "before" } else { "after" };
         let [z, load] = [
             ("static_peak_line_load_z", z),
@@ -377,7 +379,9 @@ impl Charts<'_> {
         ]
         .map(|(key, value)| {
             let known = Quantity::find(key);
-            known.map_or_else(String::new, |known| shown_in(known, value, self.units).to_string())
+            known.map_or_else(String::new, |known| {
+                shown_in(known, value, self.0.settings.units).to_string()
+            })
         });
         let angle = significant(angle.abs().to_degrees(), DIGITS);
         let place = format!("In the plane at z {z} {angle} deg {side} E");
@@ -385,15 +389,15 @@ impl Charts<'_> {
     }
 
     /// The roll angles of every visible curve, with round ends.
-    pub fn scale(&self) -> Scale {
-        let Some(answer) = self.answer else { return Scale::default() };
+    pub fn scale(self) -> Scale {
+        let Some(answer) = self.answer() else { return Scale::default() };
         if let Some(pattern) = self.shown_pattern() {
             let across = pattern.span().scaled(1f64.to_degrees());
             let strike = Span::new(across.from, -AFTER_E * across.from);
             let strike = if strike.is_empty() { Span::default() } else { strike };
             return Scale { across, strike };
         }
-        let pinned = self.baseline.and_then(|base| base.of(base.beside(answer.active)));
+        let pinned = self.pinned().and_then(|base| base.of(base.beside(answer.active)));
         let solved = answer.methods.iter().filter_map(|(_, found)| found.as_ref().ok());
         let ways = solved.chain(pinned).map(curves::way).fold(Span::NONE, Span::and);
         let ways = if self.is_by_model() { ways.and(curves::path(answer)) } else { ways };
@@ -405,29 +409,33 @@ impl Charts<'_> {
     }
 
     /// The visible charts: the selected chart, and below it the next charts of the active method.
-    pub fn shown(&self) -> Vec<usize> {
-        let chosen = self.pane.graph();
+    pub fn shown(self) -> Vec<usize> {
+        let chosen = self.0.chart.graph();
         let others = (1..GRAPHS.len()).map(|by| (chosen + by) % GRAPHS.len());
         let has_curve = |graph: &usize| {
-            let (graph, answer) = (&GRAPHS[*graph], self.answer);
+            let (graph, answer) = (&GRAPHS[*graph], self.answer());
             graph.by_model.is_none()
                 && answer.is_some_and(|answer| graph.column(answer.active).is_some())
         };
         std::iter::once(chosen).chain(others.filter(has_curve)).take(self.count()).collect()
     }
 
-    fn count(&self) -> usize {
-        if self.area.is_empty() { 0 } else { usize::from((self.area.height / ROWS).clamp(1, MOST)) }
+    fn count(self) -> usize {
+        if self.area().is_empty() {
+            0
+        } else {
+            usize::from((self.area().height / ROWS).clamp(1, MOST))
+        }
     }
 
     /// The factor from deg after E to the x axis, and its quantity: the driver's angle before E, or
     /// the time after E.
-    pub(crate) fn ruler(&self) -> (f64, Axis) {
+    pub(crate) fn ruler(self) -> (f64, Axis) {
         let window = self.window();
-        let speed = self.answer.map_or(0.0, |answer| answer.inputs.speed);
+        let speed = self.answer().map_or(0.0, |answer| answer.inputs.speed);
         let micros = 1f64.to_radians() / speed * 1e6;
         let longest = micros * window.from.abs().max(window.to.abs());
-        match self.pane.by_time {
+        match self.0.chart.by_time {
             false => (-1.0, Axis::new("roll angle before E", "deg")),
             true if longest < MOST_MICROS => (micros, Axis::new("time after E", "us")),
             true => (1e-3 * micros, Axis::new("time after E", "ms")),
@@ -435,7 +443,7 @@ impl Charts<'_> {
     }
 
     /// The values of a chart within the visible roll angles, with round ends.
-    pub fn upright(&self, graph: usize) -> Span {
+    pub fn upright(self, graph: usize) -> Span {
         let (graph, window) = (&GRAPHS[graph], self.window());
         let values = curves(self, graph).into_iter().map(|curve| curve.upright_within(window));
         let values = values.fold(Span::NONE, Span::and);
@@ -443,25 +451,25 @@ impl Charts<'_> {
     }
 
     /// The chart of a graph: its curves with their looks.
-    fn of_graph(&self, at: usize) -> Shown<'_> {
+    fn of_graph(self, at: usize) -> Shown<'a> {
         let (graph, curves) = (&GRAPHS[at], curves(self, &GRAPHS[at]));
-        let own = self.answer.and_then(|answer| graph.column(answer.active));
-        let shares_load = self.answer.is_some_and(|answer| answer.active.shares_load());
+        let own = self.answer().and_then(|answer| graph.column(answer.active));
+        let shares_load = self.answer().is_some_and(|answer| answer.active.shares_load());
         let label = if own.is_none() && shares_load && !curves.is_empty() {
             format!("Free impact: {}", graph.label.to_lowercase())
         } else {
             graph.label.to_owned()
         };
         let up = own.or_else(|| graph.all_columns().next()).map(|column| {
-            let symbol = symbol(column.symbol, self.look.ascii);
-            Axis::new(format!("{label} {symbol}"), self.units.unit(column.shown))
+            let symbol = symbol(column.symbol, self.0.look.ascii);
+            Axis::new(format!("{label} {symbol}"), self.0.settings.units.unit(column.shown))
         });
         let (series, looks) = curves.iter().rev().map(|curve| curve.series(self)).unzip();
         let chart =
             Chart { across: self.across(), up: up.unwrap_or_default(), series, ..Chart::default() };
         let is_drawn = !curves.is_empty() && !self.window().is_empty();
         Shown {
-            title: if self.answer.is_some() { chart.quantities() } else { "Chart".to_owned() },
+            title: if self.answer().is_some() { chart.quantities() } else { "Chart".to_owned() },
             missing: self.missing(graph, &curves),
             spans: (self.window(), self.upright(at)),
             chart: is_drawn.then_some(Cow::Owned(chart)),
@@ -470,15 +478,15 @@ impl Charts<'_> {
             margin: MARGIN,
             is_compared: graph.by_model.is_some(),
             marks: marks(self),
-            cursor: self.cursor.map(|cursor| (0.0 - cursor.to_degrees(), None)),
+            cursor: self.0.cursor.map(|cursor| (0.0 - cursor.to_degrees(), None)),
         }
     }
 
     /// The chart with its own axes, or why it is missing.
-    fn of_own(&self, of: OwnChart) -> Shown<'_> {
+    fn of_own(self, of: OwnChart) -> Shown<'a> {
         const SIGNS: [char; 4] = ['*', '+', '×', '∘'];
         let (theme, chart, is_pattern) =
-            (self.look.theme, self.own_chart(), of == OwnChart::Pattern);
+            (self.0.look.theme, self.own_chart(), of == OwnChart::Pattern);
         // The contact lines lean as the teeth do.
         let lean = match self.shown_pattern().map_or(0.0, |pattern| pattern.ahead(1.0)) {
             0.0 => '|',
@@ -497,26 +505,27 @@ impl Charts<'_> {
                 Kind::Marks(_) if is_pattern => (Marker::Custom('◆'), theme.focus),
                 Kind::Marks(_) => (Marker::Custom('×'), theme.note),
                 Kind::Bars => (Marker::Custom(if at == 0 { '█' } else { '▒' }), style),
-                Kind::Curve | Kind::Bound if at == 0 => (self.marker, style),
+                Kind::Curve | Kind::Bound if at == 0 => (self.0.settings.marker, style),
                 Kind::Curve | Kind::Bound => (Marker::Custom(SIGNS[at % SIGNS.len()]), style),
             }
         };
         let looks =
             chart.iter().flat_map(|chart| chart.series.iter().enumerate().map(look)).collect();
-        let running = self.work.is_running && !self.is_stale && !is_pattern;
+        let running =
+            self.0.tab.chart_work.is_running && !self.0.tab.shows_last_valid() && !is_pattern;
         let words =
             chart.as_ref().map_or_else(|| of.words()[0].to_owned(), |chart| chart.quantities());
-        let missing = || match self.answer {
+        let missing = || match self.answer() {
             Some(answer) if is_pattern => {
                 let solution: Vec<_> = self.solution().into_iter().collect();
                 let reason = pattern_chart(&answer.inputs, &solution).err();
                 let words = reason.map(|reason| format!("No chart: {reason}. j: next chart."));
                 words.unwrap_or_default()
             }
-            _ => self.work.missing(of),
+            _ => self.0.tab.chart_work.missing(of),
         };
         let up = chart.as_ref().map_or("", |chart| &chart.up.unit);
-        let height = self.pane.z / units::factor(up).unwrap_or(1.0);
+        let height = self.0.chart.z / units::factor(up).unwrap_or(1.0);
         let in_pattern = |cursor: f64| (self.ahead() - cursor.to_degrees(), Some(height));
         Shown {
             title: format!("{}{words}", if running { "computing: " } else { "" }),
@@ -528,17 +537,17 @@ impl Charts<'_> {
             is_compared: matches!(of, OwnChart::ToothCompliance(_)),
             marks: Vec::new(),
             cursor: if is_pattern {
-                self.cursor.map(in_pattern)
+                self.0.cursor.map(in_pattern)
             } else {
-                self.pane.place.map(|place| (place, None))
+                self.0.chart.place.map(|place| (place, None))
             },
             chart,
         }
     }
 
     // The reason why the active method has no curve.
-    fn missing(&self, graph: &Graph, curves: &[Curve]) -> Option<String> {
-        let Some(answer) = self.answer else {
+    fn missing(self, graph: &Graph, curves: &[Curve]) -> Option<String> {
+        let Some(answer) = self.answer() else {
             return Some("No results yet.".to_owned());
         };
         if curves.iter().any(Curve::is_main) {
@@ -546,7 +555,9 @@ impl Charts<'_> {
         }
         let (label, active) = (graph.label.to_lowercase(), answer.active);
         Some(match (answer.of(active), &answer.stiffness) {
-            _ if self.is_stale => "The charts are not redrawn while a field is invalid.".to_owned(),
+            _ if self.0.tab.shows_last_valid() => {
+                "The charts are not redrawn while a field is invalid.".to_owned()
+            }
             (_, Some(Err(refusal))) if graph.by_model.is_some() => {
                 format!("No {label}: {refusal}.")
             }
@@ -563,7 +574,7 @@ impl Charts<'_> {
             (Some(solution), _) if solution.outcome == Outcome::NoCornerContact => {
                 format!("No corner contact: {}; no impact.", without_contact(solution))
             }
-            _ => format!("No {label} between D and E; {}n shows the reason.", self.leave),
+            _ => format!("No {label} between D and E; {}n shows the reason.", self.0.leave()),
         })
     }
 }
@@ -589,8 +600,8 @@ struct Shown<'a> {
 
 impl Shown<'_> {
     /// Draws the reason and the chart below it.
-    fn draw(self, charts: &Charts, area: Rect, buffer: &mut Buffer) -> Plot {
-        let theme = charts.look.theme;
+    fn draw(self, charts: Charts<'_>, area: Rect, buffer: &mut Buffer) -> Plot {
+        let theme = charts.0.look.theme;
         let missing = self.missing.unwrap_or_default();
         let lines = text::wrap(&missing, usize::from(area.width).saturating_sub(2)).len();
         text::draw_words(&missing, area, buffer);
@@ -616,19 +627,23 @@ impl Shown<'_> {
 }
 
 /// Draws the charts below their titles. Returns their plots.
-pub(crate) fn draw(charts: &Charts, title: Option<&Title>, buffer: &mut Buffer) -> Vec<Plot> {
-    let all: Vec<Shown> = match charts.pane.own_axes() {
+pub(crate) fn draw(charts: Charts<'_>, buffer: &mut Buffer) -> Vec<Plot> {
+    let all: Vec<Shown> = match charts.0.chart.own_axes() {
         Some(of) => vec![charts.of_own(of)],
         None => charts.shown().into_iter().map(|graph| charts.of_graph(graph)).collect(),
     };
-    let areas = Layout::vertical(vec![Constraint::Fill(1); all.len()]).split(charts.area);
-    let stale = if charts.is_stale { "LAST VALID, " } else { "" };
+    let areas = Layout::vertical(vec![Constraint::Fill(1); all.len()]).split(charts.area());
+    let stale = if charts.0.tab.shows_last_valid() { "LAST VALID, " } else { "" };
     let draw = |(at, (shown, area)): (usize, (Shown, &Rect))| {
-        let inner = match title {
-            Some(title) if at == 0 => title.draw(&format!("{stale}{}", shown.title), *area, buffer),
+        let inner = match at {
+            0 => {
+                let title = format!("{stale}{}", shown.title);
+                charts.0.draw_title(Pane::Chart, &title, buffer).intersection(*area)
+            }
             _ => {
-                let theme = charts.look.theme;
-                text::titled(&shown.title, theme.title, *area, theme, buffer)
+                let theme = charts.0.look.theme;
+                let title = text::titled(None, &shown.title, theme.title, area.width, theme);
+                text::framed(&title, *area, buffer)
             }
         };
         shown.draw(charts, inner, buffer)
@@ -637,37 +652,37 @@ pub(crate) fn draw(charts: &Charts, title: Option<&Title>, buffer: &mut Buffer) 
 }
 
 /// The plots of the visible charts.
-fn plots(charts: &Charts) -> Vec<Plot> {
-    if charts.area.is_empty() {
+fn plots(charts: Charts<'_>) -> Vec<Plot> {
+    if charts.area().is_empty() {
         return Vec::new();
     }
-    draw(charts, None, &mut Buffer::empty(charts.area))
+    draw(charts, &mut Buffer::empty(charts.area()))
 }
 
 /// The width of the visible chart in columns, or of a default chart if none is visible.
-pub(crate) fn columns(charts: &Charts) -> u16 {
+pub(crate) fn columns(charts: Charts<'_>) -> u16 {
     let columns = plots(charts).first().map_or(0, |plot| plot.cells.width);
     if columns > 1 { columns } else { USUAL_COLUMNS }
 }
 
 /// The driver's roll angle before E at a cell of a plot, in rad, with the place along the face, in m.
-pub(crate) fn cursor_at(charts: &Charts, at: Position) -> Option<(f64, f64)> {
+pub(crate) fn cursor_at(charts: Charts<'_>, at: Position) -> Option<(f64, f64)> {
     let plot = plots(charts).into_iter().find(|plot| plot.cells.contains(at))?;
     let angle = plot.value(at.x).to_radians();
     let pattern = charts.shown_pattern();
-    let (ahead, z) = pattern.as_ref().map_or((0.0, charts.pane.z), |pattern| {
-        let unit = units::factor(charts.units.unit("mm")).unwrap_or(1.0);
+    let (ahead, z) = pattern.as_ref().map_or((0.0, charts.0.chart.z), |pattern| {
+        let unit = units::factor(charts.0.settings.units.unit("mm")).unwrap_or(1.0);
         let z = pattern.beside(unit * plot.height(at.y), 0);
         (pattern.ahead(z), z)
     });
-    let is_angle = charts.pane.own_axes().is_none() || pattern.is_some();
+    let is_angle = charts.0.chart.own_axes().is_none() || pattern.is_some();
     (is_angle && angle.is_finite()).then_some((ahead - angle, z))
 }
 
 /// The marks of the contact: E; D; the last contact L; B, the end of the path of contact; D of the
 /// other methods.
-fn marks(charts: &Charts) -> Vec<(f64, &'static str, Style)> {
-    let (Some(answer), theme) = (charts.answer, charts.look.theme) else {
+fn marks(charts: Charts<'_>) -> Vec<(f64, &'static str, Style)> {
+    let (Some(answer), theme) = (charts.answer(), charts.0.look.theme) else {
         return Vec::new();
     };
     let own = charts.solution().map(|solution| {

@@ -7,6 +7,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Position, Rect, Size};
 use ratatui::style::{Modifier, Style};
 use ratatui::symbols::Marker;
+use ratatui::text::Line;
+use ratatui::widgets::Widget;
 
 use super::plot::{Plot, bounds, put};
 use crate::case::units::{System, shown};
@@ -17,8 +19,10 @@ use crate::report::chart::{Point, Span};
 use crate::report::charts::Pattern;
 use crate::report::stations::{COLUMNS, Column};
 use crate::report::teeth::{Ink, Scene, Window, round_down, scale_bar};
+use crate::tui::app::App;
+use crate::tui::layout::Pane;
+use crate::tui::settings::Look;
 use crate::tui::text::{self, symbol};
-use crate::tui::theme::Look;
 
 /// Least width and height of the picture, in cells.
 const SMALLEST: (u16, u16) = (12, 4);
@@ -133,6 +137,35 @@ impl fmt::Display for Reading {
     }
 }
 
+impl App {
+    /// The picture of the teeth, if the active method has results.
+    pub(crate) fn picture(&self) -> Option<Picture<'_>> {
+        Some(Picture {
+            inputs: &self.tab.answer.as_ref()?.inputs,
+            solution: self.tab.solution()?,
+            cursor: self.cursor,
+            z: self.chart.z,
+            view: &self.teeth,
+            look: self.look,
+            marker: self.settings.marker,
+            units: self.settings.units,
+            is_stale: self.tab.shows_last_valid(),
+        })
+    }
+}
+
+/// Draws the pane.
+pub(crate) fn draw_pane(app: &App, buffer: &mut Buffer) {
+    let stale = if app.tab.shows_last_valid() { "LAST VALID, " } else { "" };
+    let words = format!("{stale}Teeth, true to scale, around {}", app.teeth.centre.name());
+    let inner = app.draw_title(Pane::Teeth, &words, buffer);
+    match (app.picture(), &app.tab.answer) {
+        (Some(picture), _) => draw(&picture, inner, buffer),
+        (None, Some(_)) => text::draw_words("This method has no valid results.", inner, buffer),
+        (None, None) => text::draw_words("No results yet.", inner, buffer),
+    }
+}
+
 /// Draws the teeth, and below them the values at the cursor.
 pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
     let area = area.intersection(buffer.area);
@@ -151,13 +184,7 @@ pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
             let text = symbol(&value.to_string(), picture.look.ascii).into_owned();
             text::padded(&text, usize::from(VALUE) - 1) + " "
         });
-        text::put(
-            &values.collect::<String>(),
-            (row.x + 1, row.y),
-            row.width.saturating_sub(1).into(),
-            Style::new(),
-            buffer,
-        );
+        Line::raw(format!(" {}", values.collect::<String>())).render(row, buffer);
     }
     if plot.width >= SMALLEST.0 && plot.height >= SMALLEST.1 {
         Painter::new(picture, plot).draw(moment.as_ref(), buffer);
@@ -204,8 +231,7 @@ impl<'a> Painter<'a> {
             put(&self.plot().layer(&curves, self.marker), buffer);
         }
         for (at, word, style) in self.words(&scene, moment.map(|_| factor)) {
-            let room = self.area.right().saturating_sub(at.x).into();
-            text::put(&word, at, room, Style::reset().patch(style), buffer);
+            buffer.set_string(at.x, at.y, word, Style::reset().patch(style));
         }
     }
 
