@@ -219,17 +219,15 @@ pub(super) fn draw_words(words: &str, area: Rect, buffer: &mut Buffer) {
 /// The extension of a case file.
 pub(super) const CASE_ENDING: &str = ".toml";
 
-/// The extensions of an export, of which a typed one replaces the suggested one.
-const EXPORT_ENDINGS: [&str; 5] = [".html", ".md", ".csv", ".json", ".svg"];
-
 /// A line of text with a cursor and a selection.
 #[derive(Debug, Clone, Default)]
 pub struct Line {
     input: Input,
     /// In characters; never an empty range.
     selected: Option<Range<usize>>,
-    /// The extension that typing keeps; `None` for a line that is not a path.
-    ending: Option<String>,
+    /// Whether it is a path: typing also replaces the extension, and a path from the root or from home
+    /// the folder.
+    is_path: bool,
 }
 
 impl Line {
@@ -240,9 +238,8 @@ impl Line {
         line
     }
 
-    /// A path in which typing replaces the file stem and keeps folder and extension. A typed path
-    /// from the root or from home also replaces the folder, and a typed extension replaces the old
-    /// one.
+    /// A path in which the file stem is selected: typing replaces the name of the file and keeps the
+    /// folder.
     pub(crate) fn named(path: impl Into<String>) -> Line {
         let path = path.into();
         let name = path.rfind('/').map_or(0, |slash| slash + 1);
@@ -250,7 +247,7 @@ impl Line {
         let place = |at: usize| path[..at].chars().count();
         let selected = place(name)..place(end);
         Line {
-            ending: Some(path[end..].to_owned()),
+            is_path: true,
             input: Input::new(path).with_cursor(selected.end),
             selected: Some(selected).filter(|part| !part.is_empty()),
         }
@@ -296,26 +293,13 @@ impl Line {
     pub(crate) fn insert(&mut self, typed: &str) {
         let here = self.input.cursor();
         let mut part = self.selected.take().unwrap_or(here..here);
-        if self.ending.is_some() && !part.is_empty() && typed.starts_with(['/', '~']) {
-            part.start = 0;
+        if self.is_path && !part.is_empty() {
+            part.end = self.input.value().chars().count();
+            if typed.starts_with(['/', '~']) {
+                part.start = 0;
+            }
         }
         self.put(part, typed);
-        self.drop_repeated_ending();
-    }
-
-    // Drops the kept extension if the typed name has an extension.
-    fn drop_repeated_ending(&mut self) {
-        let Some(ending) = self.ending.as_deref().filter(|ending| !ending.is_empty()) else {
-            return;
-        };
-        let cursor = self.input.cursor();
-        let typed: String = self.input.value().chars().take(cursor).collect();
-        let is_rest = self.input.value().strip_prefix(&typed) == Some(ending);
-        let exports = EXPORT_ENDINGS.iter().filter(|_| EXPORT_ENDINGS.contains(&ending));
-        let mut known = exports.copied().chain([ending, CASE_ENDING]);
-        if is_rest && known.any(|known| typed.ends_with(known)) {
-            self.input = Input::new(typed).with_cursor(cursor);
-        }
     }
 
     // One insertion, because inserting each character would cost the square of the length of a
@@ -339,7 +323,7 @@ impl Deref for Line {
 
 impl From<String> for Line {
     fn from(text: String) -> Line {
-        Line { input: Input::new(text), selected: None, ending: None }
+        Line { input: Input::new(text), ..Line::default() }
     }
 }
 
@@ -522,7 +506,7 @@ mod tests {
     #[test]
     fn typing_replaces_the_selection_and_a_move_keeps_the_text() {
         for (requests, text) in [
-            (&[][..], "μ/x.toml"),
+            (&[][..], "μ/x"),
             (&[DeletePrevChar], "μ/x.toml"),
             (&[DeleteNextChar], "μ/x.toml"),
             (&[DeletePrevChar, DeletePrevChar], "μx.toml"),
@@ -539,42 +523,24 @@ mod tests {
     }
 
     #[test]
-    fn a_typed_extension_replaces_the_kept_one() {
+    fn typing_replaces_the_name_of_a_file_and_a_whole_path_the_folder() {
         for (path, typed, text) in [
-            ("case.toml", "pair.toml", "pair.toml"),
-            ("a/case.toml", "pair.v2.toml", "a/pair.v2.toml"),
-            ("a/case.toml", "pair.v2", "a/pair.v2.toml"),
-            ("a/case.txt", "pair.toml", "a/pair.toml"),
-            ("a/case.txt", "pair.txt", "a/pair.txt"),
-            ("a/case", "pair.toml", "a/pair.toml"),
-            ("a/case.html", "pair.svg", "a/pair.svg"),
-            ("a/case.toml", "pair.svg", "a/pair.svg.toml"),
-            ("a/case.toml", "/b/pair.toml", "/b/pair.toml"),
-            ("a/case.toml", "~/pair", "~/pair.toml"),
-            ("a/case.toml", "b/pair", "a/b/pair.toml"),
+            ("a/case.toml", "pair.svg", "a/pair.svg"),
+            ("a/case.toml", "/b/pair", "/b/pair"),
+            ("a/case.toml", "~/pair", "~/pair"),
+            ("a/case.toml", "b/pair", "a/b/pair"),
         ] {
-            let mut pasted = Line::named(path);
-            pasted.insert(typed);
-            let mut letters = Line::named(path);
-            for letter in typed.chars() {
-                letters.insert(letter.encode_utf8(&mut [0; 4]));
-            }
-            assert_eq!((pasted.value(), letters.value()), (text, text), "{path}");
+            let mut line = Line::named(path);
+            line.insert(typed);
+            assert_eq!(line.value(), text, "{path}");
         }
-    }
-
-    #[test]
-    fn a_name_is_selected_without_folder_and_ending() {
         for (path, selected) in
-            [("case.toml", 0..4), ("a.b/pair.v2.toml", 4..11), ("/a/pair", 3..7), (".toml", 0..5)]
+            [("case.toml", Some(0..4)), ("μ/pair.v2.toml", Some(2..9)), ("a/", None)]
         {
-            assert_eq!(Line::named(path).selected(), Some(selected), "{path}");
+            assert_eq!(Line::named(path).selected(), selected, "{path}");
         }
-        assert_eq!(
-            (Line::named("μ/pair.toml").kept(), Line::from("μ").kept(), Line::whole("μ").kept()),
-            (8, 2, 0)
-        );
-        assert_eq!((Line::named("a/").selected(), Line::whole("").selected()), (None, None));
+        assert_eq!((Line::from("μ").kept(), Line::whole("μ").kept()), (2, 0));
+        assert_eq!(Line::whole("").selected(), None);
     }
 
     #[test]

@@ -387,7 +387,9 @@ impl Bench {
     fn draw(&self, size: Size) {
         let area = Rect::new(0, 0, size.width, size.height);
         let mut buffer = Buffer::empty(area);
-        let cursor = view::draw(&self.app, &mut buffer);
+        let mut app = self.app.clone();
+        app.layout.size = size;
+        let cursor = view::draw(&app, &mut buffer);
         assert!(cursor.is_none_or(|cursor| area.contains(cursor)), "{cursor:?} in {size:?}");
         for cell in &buffer.content {
             let is_wrong = |letter| is_hostile(letter) || self.app.look.ascii && !letter.is_ascii();

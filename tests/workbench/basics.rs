@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use insta::assert_snapshot;
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect, Size};
+use ratatui::layout::{Position, Size};
 use ratatui::symbols::Marker;
 use tipstrike::case::{Document, fields};
 use tipstrike::model::compliance::ElasticGear;
@@ -355,9 +355,8 @@ fn the_results_have_a_cursor_a_page_and_are_copied() {
     desk.keys(&["1", "y"]);
     assert_eq!(desk.copied.as_deref(), Some("5 mm"));
     desk.keys(&["2", "G"]);
-    let results = desk.app.results();
-    let last = results.listed().last().map(|known| known.key);
-    assert_eq!(results.marked().map(|known| known.key), last);
+    let last = desk.app.listed_results().last().map(|known| known.key);
+    assert_eq!(desk.app.marked_result().map(|known| known.key), last);
 }
 
 #[test]

@@ -519,7 +519,7 @@ fn every_model_of_the_stiffness_is_visible_on_a_small_screen() {
         let mut desk = Desk::on(SMALL, "case.toml", example.text);
         desk.keys(&["Esc", ":", "mesh stiff", "Enter"]);
         let charts = desk.app.charts();
-        let curves = curves::curves(&charts, &GRAPHS[charts.shown()[0]]);
+        let curves = curves::curves(charts, &GRAPHS[charts.shown()[0]]);
         assert!(curves.len() > 1, "{}", example.name);
         let top = curves.last().expect("a curve").source;
         assert!(matches!(top, CurveSource::Model { is_own: true, .. }), "{top:?}");

@@ -39,21 +39,27 @@ pub(super) fn ask(app: &mut App) {
     if refuse_faulty(app) {
         return;
     }
-    let ending = match app.layout.focus {
-        Pane::Chart | Pane::Teeth => "svg",
-        Pane::Study => "csv",
-        _ => "html",
-    };
     let beside = app.tab.path.as_deref().unwrap_or(Path::new("case.toml"));
-    let input = Line::named(beside.with_extension(ending).display().to_string());
+    let input = Line::named(beside.with_extension(usual_ending(app)).display().to_string());
     let done = |app: &mut App, name: &str, _| begin(app, name.trim().into(), false);
     app.prompts.push(Prompt::Path(PathDialog::new(EXPORT, HOW, input, done)));
 }
 
-/// Starts the export.
-pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) {
+fn usual_ending(app: &App) -> &'static str {
+    match app.layout.focus {
+        Pane::Chart | Pane::Teeth => "svg",
+        Pane::Study => "csv",
+        _ => "html",
+    }
+}
+
+/// Starts the export. A name without an extension gets the usual one.
+pub(super) fn begin(app: &mut App, mut path: PathBuf, replaces: bool) {
     if path.as_os_str().is_empty() {
         return app.complain("a file needs a name");
+    }
+    if path.extension().is_none() {
+        path.set_extension(usual_ending(app));
     }
     if refuse_faulty(app) {
         return;

@@ -245,12 +245,10 @@ fn save_under(app: &mut App, name: &str, next: Next) {
     if name.trim().is_empty() {
         return app.complain("type a name for the file");
     }
-    let is_own = app.tab.path.as_deref() == Some(Path::new(name));
-    let (path, over) = if is_own {
-        (PathBuf::from(name), Over::Own)
-    } else {
-        (store::at_home(&named(name.trim())), Over::Nothing)
-    };
+    let own = app.tab.path.as_deref();
+    let is_own = own == Some(Path::new(name));
+    let path = if is_own { name.into() } else { store::at_home(&named(name.trim())) };
+    let over = if own == Some(&*path) { Over::Own } else { Over::Nothing };
     write(app, path, over, next);
 }
 
@@ -489,8 +487,9 @@ fn write(app: &mut App, path: PathBuf, over: Over, next: Next) {
 // The list of cases in a folder shows only names with the extension.
 fn named(name: &str) -> PathBuf {
     let last = name.rsplit('/').next().unwrap_or_default();
-    let is_whole =
-        matches!(last, "" | "." | ".." | "~") || last.rfind('.').is_some_and(|dot| dot > 0);
+    let extension = last.rsplit_once('.').filter(|(stem, _)| !stem.is_empty());
+    let has_extension = |(_, extension): (&str, &str)| extension.chars().all(char::is_alphabetic);
+    let is_whole = matches!(last, "" | "." | ".." | "~") || extension.is_some_and(has_extension);
     PathBuf::from(if is_whole { name.to_owned() } else { format!("{name}{CASE_ENDING}") })
 }
 
