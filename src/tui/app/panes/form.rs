@@ -161,9 +161,9 @@ fn reasons(app: &App, row: usize) -> Vec<Row> {
     if app.is_unfinished(row) || rows::lacks(&app.tab.case, row) {
         return Vec::new();
     }
-    let width = usize::from(app.area(Pane::Form).width).saturating_sub(6);
     let own = app.tab.problems.iter().filter(|(at, _)| *at == row);
     own.flat_map(|(_, problem)| {
+        let width = usize::from(app.area(Pane::Form).width).saturating_sub(6);
         let lines = text::wrap(&format!("{}: {}", problem.cause, problem.fix), width);
         let marks = ["  ! "].into_iter().chain(std::iter::repeat("    "));
         marks.zip(lines).map(|(mark, line)| Row::Reason(format!("{mark}{line}")))
