@@ -54,26 +54,34 @@ impl Spread {
     /// If the field cannot have a distribution, the shape is unknown, or the width is not a value
     /// of the field's dimension.
     pub fn new(key: &str, text: &str) -> Result<Spread, Problem> {
-        Spread::read(key, text).map_err(|mut problems| problems.swap_remove(0))
+        let (shape, width) = parts(text);
+        Spread::read(key, Some(shape), Some(width)).map_err(|mut problems| problems.swap_remove(0))
     }
 
-    /// The same with every problem, of which there is one at least.
-    pub(super) fn read(key: &str, text: &str) -> Result<Spread, Vec<Problem>> {
+    /// The same with every problem, of which there is one at least. An entry of a file may lack one
+    /// shape or one width.
+    pub(super) fn read(
+        key: &str,
+        shape: Option<&str>,
+        written: Option<&str>,
+    ) -> Result<Spread, Vec<Problem>> {
         let at = |problem: Problem| problem.at(&place(key));
         let (field, dimension) = spreadable(key).map_err(|problem| vec![at(problem)])?;
-        let (shape, written) = parts(text);
-        let (shape, is_bare) = (named(shape), written.trim().parse::<f64>().is_ok());
-        let width = match shape {
-            Ok(Shape::Grade) => grade(field, written),
-            // It may be a grade.
-            Err(_) if is_bare => Ok(0.0),
-            _ => width(dimension, field, written),
+        let name = shape.unwrap_or(Shape::Normal.name());
+        let known = named(name);
+        let width = match (&known, written) {
+            (Ok(known), None) => Err(malformed(shape.and(Some(*known)), field)),
+            (Ok(Shape::Grade), Some(text)) => grade(field, text),
+            // The shape may be meant as a grade.
+            (Err(_), text) if text.is_none_or(|text| text.trim().parse::<f64>().is_ok()) => Ok(0.0),
+            (_, text) => width(dimension, field, text.unwrap_or_default()),
         };
-        match (shape, width) {
+        match (known, width) {
             (Ok(shape), Ok(width)) => {
-                Ok(Spread { field: field.key, text: text.to_owned(), shape, width })
+                let text = format!("{name} {}", written.unwrap_or_default());
+                Ok(Spread { field: field.key, text, shape, width })
             }
-            (shape, width) => Err(shape.err().into_iter().chain(width.err()).map(at).collect()),
+            (known, width) => Err(known.err().into_iter().chain(width.err()).map(at).collect()),
         }
     }
 
@@ -81,25 +89,17 @@ impl Spread {
     pub fn written_width(&self) -> &str {
         parts(&self.text).1
     }
+}
 
-    /// The problem of an entry without exactly one shape and one width. `shape` is the name of its
-    /// only member.
-    pub fn malformed(key: &str, shape: Option<&str>) -> Problem {
-        let problem = match (spreadable(key), shape.map(named)) {
-            (Err(problem), _) | (_, Some(Err(problem))) => problem,
-            (Ok((field, _)), shape) => {
-                let (shape, others) = match shape {
-                    Some(Ok(shape)) => (shape, ""),
-                    _ => {
-                        (Shape::Normal, ", or uniform, triangular or truncated in place of normal")
-                    }
-                };
-                let fix = format!("write {}{others}", by_example(shape, field));
-                Problem::new("", "this is not a distribution", fix)
-            }
-        };
-        problem.at(&place(key))
-    }
+/// The problem of an entry without exactly one shape, or without one width.
+fn malformed(shape: Option<Shape>, field: &Field) -> Problem {
+    let others = if shape.is_some() {
+        ""
+    } else {
+        ", or uniform, triangular or truncated in place of normal"
+    };
+    let fix = format!("write {}{others}", by_example(shape.unwrap_or(Shape::Normal), field));
+    Problem::new("", "this is not a distribution", fix)
 }
 
 /// The name of the shape and the width in the text of a distribution.

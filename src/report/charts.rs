@@ -498,9 +498,9 @@ fn unbroken<'a>(points: impl Iterator<Item = Option<&'a AtSpeed>>) -> Vec<Vec<Po
 /// The keys of the charts of the driver and of the driven gear.
 pub const TOOTH_KEYS: [&str; 2] = ["tooth_compliance_driver", "tooth_compliance_driven"];
 
-const MILLIMETRE: f64 = 1e-3;
+pub(super) const MILLIMETRE: f64 = 1e-3;
 /// The factor from um mm/N to m²/N.
-const MICRON_MILLIMETRE: f64 = 1e-9;
+pub(super) const MICRON_MILLIMETRE: f64 = 1e-9;
 
 /// The chart of the tooth compliance of a gear, the driver if `gear` is 0: first the finite
 /// elements, which the models are compared with. A model without values has an empty curve.

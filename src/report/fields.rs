@@ -57,14 +57,14 @@ pub fn write_fields(is_json: bool, out: &mut dyn Write) -> io::Result<()> {
         return write_list(field_table(), out);
     }
     FIELDS.iter().try_for_each(|field| {
-        let (from, to) = range(field).unzip();
+        let (from, to) = field.range().map(|range| (range.from, range.to)).unzip();
         let choices = Some(field.choices()).filter(|choices| !choices.is_empty());
         let default = if let Absent::Default(text) = field.absent { Some(text) } else { None };
         let line = json!({
             "key": field.key,
             "symbol": field.symbol,
             "label": field.label,
-            "unit": unit(field),
+            "unit": field.range().map_or("", |range| range.unit),
             "from": from,
             "to": to,
             "choices": choices,
@@ -96,14 +96,6 @@ pub fn write_quantities(is_json: bool, out: &mut dyn Write) -> io::Result<()> {
 fn write_list(mut table: Table, out: &mut dyn Write) -> io::Result<()> {
     table.columns[0].gap = 0;
     table.wrapped(WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))
-}
-
-fn unit(field: &Field) -> &'static str {
-    field.range().map_or("", |range| range.unit)
-}
-
-fn range(field: &Field) -> Option<(f64, f64)> {
-    field.range().map(|range| (range.from, range.to))
 }
 
 fn meaning(field: &Field) -> String {

@@ -133,25 +133,16 @@ fn today() -> String {
     date(given.unwrap_or_else(now) / 86_400)
 }
 
-/// The date some days after 1970-01-01.
+/// The date some days after 1970-01-01, by years that begin in March.
 fn date(days: u64) -> String {
-    let (mut year, mut day) = (1970, days.min(1 << 22));
-    let is_leap = |year: u64| {
-        year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400))
-    };
-    while day >= 365 + u64::from(is_leap(year)) {
-        day -= 365 + u64::from(is_leap(year));
-        year += 1;
-    }
-    let february = 28 + u64::from(is_leap(year));
-    let mut month = 1;
-    for length in [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30] {
-        if day < length {
-            break;
-        }
-        (day, month) = (day - length, month + 1);
-    }
-    format!("{year}-{month:02}-{:02}", day + 1)
+    let days = days.min(1 << 22) + 719_468;
+    let (era, day) = (days / 146_097, days % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let (of_month, is_next) = (day - (153 * month + 2) / 5 + 1, month / 10);
+    let (year, month) = (400 * era + year + is_next, month + 3 - 12 * is_next);
+    format!("{year}-{month:02}-{of_month:02}")
 }
 
 impl<'a> Page<'a> {

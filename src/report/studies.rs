@@ -1,7 +1,7 @@
 //! Sweeps, crossings, excitation and stiffness as text, CSV, JSON and charts.
 
 use super::chart::{self, Axis, Chart, Series};
-use super::charts::pieces;
+use super::charts::{MICRON_MILLIMETRE, MILLIMETRE, pieces};
 use super::table::{
     Cell, Column, Json, Named, Results, Table, item, json, measured, object, reason, sorted,
     write_line,
@@ -494,10 +494,6 @@ impl Results for Excitation {
         table
     }
 }
-
-/// The compliance um mm/N in m²/N.
-const MICRON_MILLIMETRE: f64 = 1e-9;
-const MILLIMETRE: f64 = 1e-3;
 
 /// A comparison and its case.
 #[derive(Debug)]

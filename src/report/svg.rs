@@ -7,6 +7,7 @@ use crate::model::contact_state::{first_contact_of_driver, first_contact_point};
 use crate::model::outline::on_line_of_action;
 use crate::model::{ContactState, Inputs, Solution};
 use crate::report::chart::{Axis, Cell, Chart, Kind, Map, Point, Series, Span};
+use crate::report::table::escaped;
 use crate::report::teeth::{Ink, Scene, Window, scale_bar};
 use nalgebra::{Point2, Vector2};
 use std::fmt::Write;
@@ -374,15 +375,6 @@ fn style() -> String {
         }
     }
     format!("{light}@media screen and (prefers-color-scheme:dark){{{dark}}}")
-}
-
-/// Escapes a text for an element or an attribute.
-pub(crate) fn escaped(text: &str) -> String {
-    sanitize(text)
-        .replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
 }
 
 const HEIGHT: f64 = 388.0;

@@ -339,9 +339,10 @@ impl Table {
     }
 }
 
-/// A text as content of HTML.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&#38;").replace('<', "&#60;").replace('>', "&#62;").replace('"', "&#34;")
+/// Escapes a text for an element or an attribute of HTML or SVG.
+pub(super) fn escaped(text: &str) -> String {
+    let text = sanitize(text).replace('&', "&amp;").replace('<', "&lt;");
+    text.replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Writes records as CSV.

@@ -275,18 +275,18 @@ impl<'l> Reader<'l> {
             let is_part = |entry: &&&Entry| entry.path.len() > depth || entry.value != Value::Table;
             let mut parts = entries.iter().filter(is_part);
             let only = parts.next().filter(|_| parts.next().is_none());
-            let read = match only.map(|entry| (&entry.path[depth..], &entry.value)) {
-                Some(([], value)) if scope > 0 && value.is_empty() => {
-                    self.scopes[scope].give(spread::place(key), "").map_err(|problem| vec![problem])
-                }
+            let only = only.map(|entry| (&entry.path[depth..], &entry.value));
+            let text = match only {
+                Some(([], value)) if scope > 0 && value.is_empty() => Ok(String::new()),
                 Some(([shape], Value::String(width) | Value::Number(width))) => {
-                    let text = format!("{shape} {width}");
-                    let mut give = |_| self.scopes[scope].give(spread::place(key), &text);
-                    Spread::read(key, &text).and_then(|own| give(own).map_err(|one| vec![one]))
+                    Spread::read(key, Some(shape), Some(width)).map(|own| own.text)
                 }
-                Some(([shape], _)) => Err(vec![Spread::malformed(key, Some(shape))]),
-                _ => Err(vec![Spread::malformed(key, None)]),
+                Some(([shape], _)) => Spread::read(key, Some(shape), None).map(|own| own.text),
+                _ => Spread::read(key, None, None).map(|own| own.text),
             };
+            let own = &mut self.scopes[scope];
+            let give = |text: String| own.give(spread::place(key), &text).map_err(|one| vec![one]);
+            let read = text.and_then(give);
             for problem in read.err().into_iter().flatten() {
                 self.fault(scope, entries[0].span.start, problem);
             }
@@ -495,10 +495,9 @@ fn syntax_fault(error: &TomlError, source: &str) -> (usize, Problem) {
     }
     if let Some((key, _)) = named
         && above.rsplit('[').next().is_some_and(|table| table.starts_with("limits]"))
-        && let Some(known) = check::quantity("", key).ok().filter(|known| known.key != key)
+        && check::quantity("", key).is_ok_and(|known| known.key != key)
     {
-        let cause = format!("{} is the symbol of {}", quoted(key), known.key);
-        return (start, Problem::new("limits", cause, format!("write {}", known.key)));
+        return (start, check::unknown_quantity("limits", key));
     }
     let cause = message.split(", expected").next().unwrap_or(message);
     let known = FIXES.iter().find(|(part, _)| message.contains(part));
