@@ -659,16 +659,20 @@ pub(super) fn unknown_quantity(field: &str, written: &str) -> Problem {
     })
 }
 
-/// The keys of the first quantities with every word of a name in their key, label or meaning.
+/// The keys of the quantities with every word of a name in their key, label or meaning, those with more
+/// of them in the key first.
 fn by_words(name: &str) -> Vec<&'static str> {
     const MOST: usize = 3;
-    let has_words = |known: &&Quantity| {
-        let text = [known.key, known.label, known.meaning].join(" ");
-        let is_in = |word: &str| {
-            let mut words = text.split(|c: char| !c.is_alphanumeric());
-            words.any(|own| own.eq_ignore_ascii_case(word))
-        };
-        name.split(['_', '-']).all(is_in)
+    let words = || name.split(['_', '-']);
+    let has = |text: &str, word: &str| {
+        let mut own = text.split(|c: char| !c.is_alphanumeric());
+        own.any(|own| own.eq_ignore_ascii_case(word))
     };
-    QUANTITIES.iter().filter(has_words).map(|known| known.key).take(MOST).collect()
+    let text =
+        |known: &Quantity| [known.key, known.label, known.meaning].join(" ").replace('_', " ");
+    let has_words = |known: &&Quantity| words().all(|word| has(&text(known), word));
+    let mut keys: Vec<&str> = QUANTITIES.iter().filter(has_words).map(|known| known.key).collect();
+    keys.sort_by_key(|key| words().filter(|word| !has(&key.replace('_', " "), word)).count());
+    keys.truncate(MOST);
+    keys
 }

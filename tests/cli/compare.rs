@@ -69,6 +69,7 @@ fn the_columns_of_auto_have_one_method() {
         assert_eq!(column["method"], "dynamic");
         assert!(column["quantities"]["dynamic_peak_force"]["value"].is_f64(), "{column}");
     }
+    has(&run(&[&["compare", &case], &only[..]].concat()).1, &["; alone auto takes static, as in"]);
     let alone = ["solve", &case, "--variant", "slow", "--method", "auto", "--format", "json"];
     assert_eq!(json(&alone)["method"], "static");
 }

@@ -2,7 +2,7 @@
 //! dedendum coefficients.
 use std::fs;
 
-use crate::program::{has, program, texts};
+use crate::program::{has, json, page, program, ran, texts};
 use serde_json::Value;
 use tipstrike::case::fields::index_of;
 use tipstrike::case::{Case, Document, FIELDS};
@@ -25,22 +25,6 @@ fn run(case: &str, arguments: &[&str]) -> (i32, String, String) {
     texts(program(arguments).current_dir(folder.path()).output().unwrap())
 }
 
-fn stdout(case: &str, arguments: &[&str]) -> String {
-    let (_, text, problem) = run(case, arguments);
-    assert_eq!(problem, "", "{arguments:?}");
-    text
-}
-
-fn refusal(case: &str, arguments: &[&str]) -> String {
-    let (code, _, problem) = run(case, arguments);
-    assert_ne!(code, 0);
-    problem
-}
-
-fn quantities(json: &str) -> Value {
-    serde_json::from_str::<Value>(json).unwrap()["quantities"].take()
-}
-
 #[test]
 fn a_case_from_a_drawing_has_the_results_of_its_coefficients() {
     let coefficients = TABLE_1
@@ -48,8 +32,11 @@ fn a_case_from_a_drawing_has_the_results_of_its_coefficients() {
         .replace("bore_radius = \"20 mm\"", "bore_radius = \"0.5 in\"");
     for method in ["paper", "exact", "static"] {
         let solve = ["solve", "case.toml", "--format", "json", "--method", method];
-        let [own, expected] =
-            [&drawing(), &coefficients].map(|case| quantities(&stdout(case, &solve)));
+        let [own, expected] = [&drawing(), &coefficients].map(|case| {
+            let (_, text, errors) = run(case, &solve);
+            assert_eq!(errors, "");
+            serde_json::from_str::<Value>(&text).unwrap()["quantities"].take()
+        });
         let expected = expected.as_object().unwrap();
         assert_eq!(own.as_object().unwrap().len(), expected.len());
         for (key, quantity) in expected {
@@ -75,7 +62,7 @@ fn both_ways_to_give_one_size_are_refused_at_the_second() {
         ("[pair]\n", "[pair]\ndiametral_pitch = \"8 1/in\"\n", "are both given: remove one"),
         ("module = \"5 mm\"\n", "", "neither pair.module nor pair.diametral_pitch is given"),
     ] {
-        has(&refusal(&TABLE_1.replace(from, to), &["solve", "case.toml"]), &[message]);
+        has(&run(&TABLE_1.replace(from, to), &["solve", "case.toml"]).2, &[message]);
     }
 }
 
@@ -96,35 +83,30 @@ fn a_diameter_beyond_the_range_of_its_coefficient_is_refused_with_the_range() {
         ),
         ("driver.root_diameter", "3 in", "gives the dedendum coefficient"),
     ] {
-        let set = format!("{key}={diameter}");
-        let found = refusal(TABLE_1, &["solve", "case.toml", "--set", &set]);
-        assert!(found.contains(key) && found.contains(message), "{found}");
+        let (code, _, found) = ran(&format!("solve TABLE_1 --set '{key}={diameter}'"));
+        assert!(code == 3 && found.contains(key) && found.contains(message), "{found}");
     }
-    let sweep = ["sweep", "case.toml", "--vary", "driven.tip_diameter=110,130 mm"];
-    let (_, rows, _) = run(TABLE_1, &[&sweep[..], &["--only", "contact_ratio"]].concat());
+    let sweep = "sweep TABLE_1 --vary 'driven.tip_diameter=110,";
+    let rows = ran(&format!("{sweep}130 mm' --only contact_ratio")).1;
     let last = rows.lines().last().unwrap();
     assert!(last.starts_with("130,") && last.contains("refused"), "{rows}");
-    let interferes = ["sweep", "case.toml", "--vary", "driven.tip_diameter=110,120 mm"];
-    let (_, _, errors) = run(TABLE_1, &interferes);
+    let errors = ran(&format!("{sweep}120 mm'")).2;
     has(&errors, &["at driven.tip_diameter = 120 mm: driven.tip_diameter: interference"]);
 }
 
 #[test]
 fn a_setting_replaces_its_alternative_and_a_sweep_varies_it() {
-    let ratio = ["--only", "contact_ratio", "--format", "json"];
     let with = |set: &str| {
-        let json = stdout(TABLE_1, &[&["solve", "case.toml", "--set", set], &ratio[..]].concat());
-        quantities(&json)["contact_ratio"]["value"].as_f64().unwrap()
+        let solve = format!("solve TABLE_1 --only contact_ratio --format json --set '{set}'");
+        json(&solve)["quantities"]["contact_ratio"]["value"].as_f64().unwrap()
     };
     assert!((with("driven.tip_diameter=109 mm") - with("driven.addendum=0.9")).abs() < 1e-12);
-    let sweep = ["sweep", "case.toml", "--vary", "driven.tip_diameter=109..110 mm"];
-    let rows =
-        stdout(TABLE_1, &[&sweep[..], &["--points", "2", "--only", "contact_ratio"]].concat());
+    let sweep = "sweep TABLE_1 --vary 'driven.tip_diameter=109..110 mm' --points 2";
+    let rows = page(&format!("{sweep} --only contact_ratio"));
     let first: f64 = rows.lines().nth(1).unwrap().split(',').nth(1).unwrap().parse().unwrap();
     assert!((first - with("driven.addendum=0.9")).abs() < 1e-12, "{rows}");
-    let vary = ["sweep", "case.toml", "--vary", "pair.module=4..5 mm"];
-    let both = [&vary[..], &["--set", "pair.diametral_pitch=8 1/in"]].concat();
-    has(&refusal(TABLE_1, &both), &["--vary replaces this value"]);
+    let both = "sweep TABLE_1 --vary 'pair.module=4..5 mm' --set 'pair.diametral_pitch=8 1/in'";
+    has(&ran(both).2, &["--vary replaces this value"]);
 }
 
 #[test]
@@ -141,7 +123,7 @@ fn saving_keeps_the_size_that_the_user_wrote() {
 
 #[test]
 fn the_page_of_a_quantity_shows_the_coefficient_that_a_diameter_gives() {
-    let page = stdout(&drawing(), &["explain", "contact_ratio", "case.toml"]);
+    let (_, page, _) = run(&drawing(), &["explain", "contact_ratio", "case.toml"]);
     has(&page, &["driver.tip_diameter", "2.75 in", "3.175 mm"]);
     assert!(!page.contains("driver.addendum "), "{page}");
 }

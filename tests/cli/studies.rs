@@ -300,6 +300,42 @@ fn a_bad_distribution_gets_place_cause_and_fix() {
 }
 
 #[test]
+fn every_fault_of_the_distributions_is_reported_at_once() {
+    let lines = "\"deviations.base_pich\" = { gauss = 1 }\n\"pair.module\" = { gauss = \"4 kg\" }";
+    let (_folder, case) = with_spread(lines);
+    let (_, _, errors) = ran(&format!("tolerance {case}"));
+    has(&errors, &["did you mean deviations.base_pitch?", "is a unit of mass"]);
+    assert_eq!(errors.matches("unknown distribution `gauss`").count(), 2, "{errors}");
+}
+
+#[test]
+fn the_contact_at_the_exit_has_a_name_in_every_study() {
+    let vary = "--vary 'driver.tip_relief=0..90 um'";
+    for pair in ["", "--set 'pair.helix_angle=12 deg' --set model.slices=17"] {
+        let options = format!("--method static --set 'driven.tip_relief=80 um' {pair}");
+        let until = "--until exit_outcome=no-corner-contact --points 19 --format json";
+        let found = json(&format!("seek TABLE_1 {options} {vary} {until}"));
+        let least = found["crossings"][0]["to"]["at"].as_f64().unwrap();
+        // The headline has the same relief, rounded up.
+        let headline = page(&format!("check TABLE_1 {options}"));
+        let named = headline.split("on the driver's tip; ").nth(1).unwrap();
+        let named: f64 = named.split(' ').next().unwrap().parse().unwrap();
+        assert!(least - 0.1 < named && named < 1.005 * least + 0.1, "{named} {least}");
+    }
+    let options = "--method static --set 'driven.tip_relief=80 um'";
+    let rows = page(&format!("sweep TABLE_1 {options} {vary} --points 2 --only F_st,B"));
+    has(
+        &rows,
+        &["outcome,method,exit_outcome\n", "static,corner-contact\n90,0.0,no-corner-contact"],
+    );
+    let (_folder, case) = with_spread("\"driver.tip_relief\" = { uniform = \"30 um\" }");
+    let nominal = "--set 'driver.tip_relief=40 um' --samples 200 --format json";
+    let found = json(&format!("tolerance {case} {options} {nominal}"));
+    let part = found["exit_corner_contact"]["value"].as_f64().unwrap();
+    assert!(0.0 < part && part < 1.0 && found["corner_contact"]["value"] == 0.0, "{found}");
+}
+
+#[test]
 fn a_study_explains_a_quantity_that_its_methods_do_not_compute() {
     let (_folder, case) = with_spread("\"deviations.base_pitch\" = { normal = \"2 um\" }");
     let command = format!("tolerance {case} --samples 20 --only dynamic_peak_force");

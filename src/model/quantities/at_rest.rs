@@ -117,8 +117,8 @@ pub(super) const TABLE: &[Quantity] = &[
             ["static_force_at_start", "F_st,E", "static: force before E"],
             ("N", "N", 5),
             |s| Some(s.static_load.as_ref()?.force_at_start),
-            "The greatest force at rest that the incoming tooth carries before E, on its tip edge; of a \
-            spur pair the force at E. A sufficient tip relief reduces this force to 0.",
+            "The greatest force at rest that the incoming tooth carries before the entry E, on its tip \
+            edge; of a spur pair the force at E. A sufficient tip relief reduces this force to 0.",
             Cases(&[
                 (in_slices, Found("the largest Σ w_k F_k of the slices before their E", SHARED)),
                 (always, Difference("max(k_E (x_E + Δf_0 - C_E), 0)")),

@@ -178,10 +178,16 @@ impl Face {
         if bend > 0.0 { (z - 0.5 * slope / bend).clamp(before.0, after.0) } else { z }
     }
 
-    /// How far before E the incoming tooth touches, in the plane where this is farthest, in m.
-    fn deepest(&self, loads: &Loads) -> f64 {
+    /// How far before E the incoming tooth touches, or after B, in the plane where this is farthest, in
+    /// m.
+    fn deepest(&self, loads: &Loads, part: Part) -> f64 {
         let touching = (0..self.slices.len()).filter(|&at| loads.at(0, at) > 0.0);
-        touching.map(|at| -self.path(loads, 0, at)).fold(0.0, f64::max)
+        let paths = touching.map(|at| self.path(loads, 0, at));
+        let beyond = |path: f64| match part {
+            Part::AfterEnd => path - self.mesh.length,
+            _ => -path,
+        };
+        paths.map(beyond).fold(0.0, f64::max)
     }
 
     /// The force of a pair in a part of the path, in N: all of it as in the balance, a part of it up to its
@@ -612,19 +618,22 @@ impl<'a> Passage<'a> {
         }
         let ahead = |place: &FacePlace| -place.path / mesh.base_radii.1;
         let behind = |place: &FacePlace| (place.path - mesh.length) / mesh.base_radii.0;
-        let before_start = line_peak(Part::BeforeStart);
-        // Reliefs can let the tooth touch after E at its end and before E farther inside.
-        let strikes = before_start.is_some().then(|| {
-            let (_, deepest) = extreme(&|loads| face.deepest(loads));
-            deepest / mesh.base_radii.1
-        });
+        let [before_start, after_end] = [Part::BeforeStart, Part::AfterEnd].map(line_peak);
+        // Reliefs can let the tooth touch after E at its end and before E farther inside; alike at B.
+        let strikes = |part: Part, peak: Option<LinePeak>, radius: f64| {
+            peak.map(|_| extreme(&|loads| face.deepest(loads, part)).1 / radius)
+        };
+        let (first_strike, last_strike) = (
+            strikes(Part::BeforeStart, before_start, mesh.base_radii.1),
+            strikes(Part::AfterEnd, after_end, mesh.base_radii.0),
+        );
         let is_apart = |angle: &f64| *angle > 0.0;
         let at_slices =
             |loads: &Rc<Loads>| (0..face.slices.len()).map(|at| loads.at(0, at)).collect();
         Ok(Some(Passed {
             ends: (
-                Some(ahead(&first_place)).filter(is_apart).or(strikes),
-                Some(behind(&last_place)).filter(is_apart),
+                Some(ahead(&first_place)).filter(is_apart).or(first_strike),
+                Some(behind(&last_place)).filter(is_apart).or(last_strike),
             ),
             force_at_start: extreme(&|loads| face.force(loads, 0, Part::BeforeStart)).1,
             force_at_end: extreme(&|loads| face.force(loads, 0, Part::AfterEnd)).1,
@@ -639,7 +648,7 @@ impl<'a> Passage<'a> {
                 least_gap: None,
                 peak: line_peak(Part::All).ok_or(Refusal::BeyondReach)?,
                 before_start,
-                after_end: line_peak(Part::AfterEnd),
+                after_end,
                 pattern: samples.iter().map(at_slices).collect(),
                 paths: places,
             },
