@@ -1,7 +1,6 @@
 //! Draws charts as self-contained pictures (SVG): true axes, a legend below the field, light and
 //! dark.
 
-use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 use crate::model::contact_state::{first_contact_of_driver, first_contact_point};
 use crate::model::outline::on_line_of_action;

@@ -211,19 +211,20 @@ fn stages_that_are_no_external_cylindrical_pair_are_refused_by_name() {
         ));
         has(&refusal_of(&helical(&wheel, 2000.0)), &[reason]);
     }
+    let spur = "spur-2.0.rexsj";
     for (name, from, to, reason) in [
         (
-            "spur-2.0.rexsj",
-            "\"deg\", \"floating_point\": 0.0",
-            "\"deg\", \"floating_point\": 50.0",
-            "is 50 deg, more than 45 deg",
+            spur,
+            "deg\", \"floating_point\": 0.0",
+            "deg\", \"floating_point\": 50.0",
+            "more than 45 deg",
         ),
         ("two-stages-1.0.rexs", "\"cylindrical_stage\"", "\"bevel_stage\"", "is a bevel stage"),
         (
-            "spur-2.0.rexsj",
-            "\"id\": 16, \"type\": \"cylindrical_gear\"",
-            "\"id\": 16, \"type\": \"ring_gear\"",
-            "is a stage with a ring gear",
+            spur,
+            "16, \"type\": \"cylindrical_gear\"",
+            "16, \"type\": \"ring_gear\"",
+            "with a ring gear",
         ),
     ] {
         has(&refusal_of(&edited(name, from, to)), &[reason]);
@@ -237,13 +238,10 @@ fn stages_that_are_no_external_cylindrical_pair_are_refused_by_name() {
 
 #[test]
 fn unequal_flanks_and_load_cases_are_named_and_no_value_is_guessed() {
-    let unequal = edited(
-        "two-stages-1.0.rexs",
-        "362\" name=\"\" type=\"flank_geometry\">\n      <attribute id=\"normal_pressure_angle\" \
-            unit=\"°\">20.0",
-        "362\" name=\"\" type=\"flank_geometry\">\n      <attribute id=\"normal_pressure_angle\" \
-            unit=\"°\">25.0",
-    );
+    let flank = "362\" name=\"\" type=\"flank_geometry\">\n      <attribute id=\"normal_pressure_angle\" \
+        unit=\"°\">";
+    let [own, other] = ["20.0", "25.0"].map(|angle| flank.to_owned() + angle);
+    let unequal = edited("two-stages-1.0.rexs", &own, &other);
     let message = refusal_of(&unequal);
     has(&message, &["of flank_geometry 361 is 20 deg", "362 is 25 deg"]);
     let cases = edited(
@@ -321,30 +319,25 @@ fn a_hostile_model_is_refused_with_its_limit_within_five_seconds() {
     let json =
         |parts: String| format!("{{\"model\":{{\"version\":\"1.0\",{parts}}}}}").into_bytes();
     let long = "n".repeat(10_000_000);
+    let names = each(400_000, &|at| format!(" a{at}=\"\""));
+    let values = "<attribute id=\"a\">1</attribute>".repeat(200_000);
+    let loads = "{\"id\":1},".repeat(40_000);
+    let loads = format!("{{\"load_cases\":[{{\"id\":1,\"components\":[{loads}{{\"id\":1}}]}}]}}");
+    let one = format!("<relation>{}</relation>", reference(7));
+    let files = b"PK\x01\x02".repeat(2000);
     for (name, bytes, limit) in [
         ("spaces.rexs", nested(8000).into_bytes(), "the root element is \"a\""),
         ("deep.rexs", with_parts(&nested(8000)), "this is not XML"),
-        (
-            "attributes.rexs",
-            with_parts(&format!("<a {}/>", each(400_000, &|at| format!(" a{at}=\"\"")))),
-            "no gear stage",
-        ),
+        ("attributes.rexs", with_parts(&format!("<a {names}/>")), "no gear stage"),
         ("elements.rexs", with_parts(&"<a/>".repeat(4_000_000)), "2000000 elements"),
         ("stages.rexs", components(each(30_000, &component("cylindrical_stage"))), "200 stages"),
         ("entries.rexs", components("<component/>".repeat(1_300_000)), "250000 entries"),
         (
             "values.rexs",
-            components(format!(
-                "<component id=\"1\">{}</component>",
-                "<attribute id=\"a\">1</attribute>".repeat(200_000)
-            )),
+            components(format!("<component id=\"1\">{values}</component>")),
             "1000 attributes of one component",
         ),
-        (
-            "relations.rexs",
-            relations(format!("<relation>{}</relation>", reference(7)).repeat(60_000)),
-            "1000 relations of one component",
-        ),
+        ("relations.rexs", relations(one.repeat(60_000)), "1000 relations of one component"),
         (
             "references.rexs",
             relations(format!("<relation>{}</relation>", each(60_000, &reference))),
@@ -364,17 +357,10 @@ fn a_hostile_model_is_refused_with_its_limit_within_five_seconds() {
         ),
         (
             "loads.rexsj",
-            json(format!(
-                "\"load_spectrum\":{{\"load_cases\":[{{\"id\":1,\"components\":[{}{{\"id\":1}}]}}]}}",
-                "{\"id\":1},".repeat(40_000)
-            )),
+            json(format!("\"load_spectrum\":{loads}")),
             "1000 load cases of one component",
         ),
-        (
-            "files.rexsz",
-            [b"PK\x03\x04", b"PK\x01\x02".repeat(2000).as_slice()].concat(),
-            "more than 1000 files",
-        ),
+        ("files.rexsz", [b"PK\x03\x04", &files[..]].concat(), "more than 1000 files"),
     ] {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);

@@ -1,8 +1,6 @@
 //! The command `stiffness`: its text, CSV and JSON, and gears without values.
-use crate::program;
-use serde_json::Value;
+use crate::program::{has, json, page, ran};
 
-const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 const HEADER: &str = "gear,radius [m],kuang_yang [m2/N],beam [m2/N],finite_element [m2/N],\
     contact_half_width [m],finite_element_surface [m2/N],neighbour_ahead [m2/N],\
     neighbour_behind [m2/N]";
@@ -10,14 +8,9 @@ const HEADER: &str = "gear,radius [m],kuang_yang [m2/N],beam [m2/N],finite_eleme
 /// Columns of the finite-element values.
 const FIELD_COLUMNS: [usize; 4] = [4, 6, 7, 8];
 
-fn run(arguments: &[&str]) -> (i32, String, String) {
-    program::run(&[&["stiffness"], arguments].concat())
-}
-
 /// The rows of the CSV without its header, and the lines on standard error.
-fn csv(arguments: &[&str]) -> (Vec<Vec<String>>, String) {
-    let all: Vec<&str> = arguments.iter().copied().chain(["--format", "csv"]).collect();
-    let (code, text, errors) = run(&all);
+fn csv(options: &str) -> (Vec<Vec<String>>, String) {
+    let (code, text, errors) = ran(&format!("stiffness TABLE_1 {options} --format csv"));
     assert_eq!(code, 0, "{errors}");
     let mut lines = text.lines();
     assert_eq!(lines.next(), Some(HEADER));
@@ -27,16 +20,14 @@ fn csv(arguments: &[&str]) -> (Vec<Vec<String>>, String) {
 
 #[test]
 fn text_of_table_1_fits_80_columns() {
-    let (code, text, errors) = run(&[TABLE_1]);
-    assert_eq!((code, errors.as_str()), (0, ""));
-    let wide = text.lines().find(|line| line.chars().count() > 80);
-    assert_eq!(wide, None);
+    let text = page("stiffness TABLE_1");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     insta::assert_snapshot!("stiffness_zhou", text);
 }
 
 #[test]
 fn csv_has_one_row_per_gear_and_radius_from_the_form_circle_to_the_tip() {
-    let (rows, errors) = csv(&[TABLE_1, "--points", "5"]);
+    let (rows, errors) = csv("--points 5");
     assert_eq!(errors, "");
     let gears: Vec<&str> = rows.iter().map(|row| row[0].as_str()).collect();
     assert_eq!(gears, [["driver"; 5].as_slice(), &["driven"; 5]].concat());
@@ -56,11 +47,8 @@ fn csv_has_one_row_per_gear_and_radius_from_the_form_circle_to_the_tip() {
 
 #[test]
 fn json_agrees_with_the_csv() {
-    let (code, text, errors) = run(&[TABLE_1, "--points", "3", "--format", "json"]);
-    assert_eq!((code, errors.as_str()), (0, ""));
-    let found: Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(found["case"], TABLE_1);
-    let (rows, _) = csv(&[TABLE_1, "--points", "3"]);
+    let found = json("stiffness TABLE_1 --points 3 --format json");
+    let (rows, _) = csv("--points 3");
     let gears = found["gears"].as_array().unwrap();
     let points = gears.iter().flat_map(|gear| gear["points"].as_array().unwrap());
     let names = HEADER.split(',').map(|name| name.split(' ').next().unwrap());
@@ -79,40 +67,38 @@ fn json_agrees_with_the_csv() {
 
 #[test]
 fn a_gear_outside_the_fit_has_empty_cells_and_the_other_gear_has_values() {
-    let arguments = [TABLE_1, "--set", "driven.teeth=120", "--points", "3"];
-    let (rows, _) = csv(&arguments);
+    let options = "--set driven.teeth=120 --points 3";
+    let (rows, _) = csv(options);
     let is_empty: Vec<bool> = rows.iter().map(|row| row[2].is_empty()).collect();
     assert_eq!(is_empty, [false, false, false, true, true, true]);
     assert!(rows.iter().all(|row| !row[3].is_empty() && !row[4].is_empty()));
-    let (_, text, _) = run(&arguments);
-    assert!(text.contains("no value by kuang-yang: covers z 12..100"), "{text}");
+    let text = page(&format!("stiffness TABLE_1 {options}"));
+    has(&text, &["no value by kuang-yang: covers z 12..100"]);
 }
 
 #[test]
 fn a_gear_without_a_field_is_named_and_keeps_the_values_of_the_models() {
-    let arguments = [TABLE_1, "--set", "driver.poisson=0.495", "--points", "3"];
-    let reason =
-        "no finite-element values: Poisson's ratio is 0.495 and must be between 0 and 0.49";
-    let (rows, errors) = csv(&arguments);
-    assert_eq!(errors, format!("{TABLE_1}: driver: {reason}\n"));
+    let options = "--set driver.poisson=0.495 --points 3";
+    let reason = "no finite-element values: Poisson's ratio is 0.495";
+    let (rows, errors) = csv(options);
+    let end = " and must be between 0 and 0.49\n";
+    assert_eq!(errors, format!("cases/zhou-chen-2014.toml: driver: {reason}{end}"));
     for (index, row) in rows.iter().enumerate() {
         let is_driver = index < 3;
         assert!(!row[2].is_empty() && !row[3].is_empty());
         assert!(FIELD_COLUMNS.iter().all(|&column| row[column].is_empty() == is_driver));
     }
-    let (code, text, errors) = run(&arguments);
-    assert_eq!((code, errors.as_str()), (0, ""));
-    assert!(text.contains("  - no finite-element values: Poisson's ratio is 0.495"), "{text}");
+    has(&page(&format!("stiffness TABLE_1 {options}")), &[&format!("  - {reason}")]);
 }
 
 #[test]
 fn a_wrong_number_of_points_and_a_refused_case_have_exit_codes() {
     for points in ["1", "-3", "many", "10001"] {
-        let (code, text, errors) = run(&[TABLE_1, "--points", points]);
+        let (code, text, errors) = ran(&format!("stiffness TABLE_1 --points {points}"));
         assert_eq!((code, text.as_str()), (2, ""), "{points}");
-        assert!(errors.contains("from 2 to 10000"), "{errors}");
+        has(&errors, &["from 2 to 10000"]);
     }
-    let bore = run(&[TABLE_1, "--set", "driver.bore_radius=46 mm"]);
-    assert_eq!((bore.0, bore.1.as_str()), (3, ""));
-    assert!(bore.2.contains("driver.bore_radius"), "{}", bore.2);
+    let (code, text, errors) = ran("stiffness TABLE_1 --set 'driver.bore_radius=46 mm'");
+    assert_eq!((code, text.as_str()), (3, ""));
+    has(&errors, &["driver.bore_radius"]);
 }
