@@ -78,6 +78,14 @@ pub fn first_contact_of_driver(solution: &Solution) -> Option<f64> {
     first_contact(solution).map(|angle| angle * ratio)
 }
 
+/// The driver's angle before E at which the tooth first touches, in rad: of a helical pair the angle of
+/// the middle of the face, not that of the plane of the contact. `None` if no tooth strikes.
+pub fn first_touch_of_driver(solution: &Solution) -> Option<f64> {
+    let contact = first_contact_of_driver(solution)?;
+    let first = solution.own_stations().first().filter(|_| solution.helix.is_some());
+    Some(first.map_or(contact, |station| station.roll_angle_driver))
+}
+
 /// Whether the solution includes load sharing.
 pub fn shares_load(solution: &Solution) -> bool {
     solution.static_load.is_some() || solution.dynamic.is_some()

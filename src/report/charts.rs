@@ -276,19 +276,14 @@ fn stiffness(column: &Column, cases: &[NamedCase]) -> Result<Vec<Series>, String
 
 /// Marks at E and at the first contact D; of a helical pair also at the E of both ends of the face.
 fn marks(Report { inputs, solution, .. }: &Report) -> Vec<(f64, &'static str)> {
-    if let Some(pattern) = Pattern::of(inputs, solution).filter(|own| own.face.lead != 0.0) {
-        let (first, end) = (pattern.load.first, 0.5 * pattern.face.width);
-        let start = first.path / pattern.radius - pattern.ahead(first.z);
-        let ends = [(end, "E z+"), (0.0, "E"), (-end, "E z-")];
-        let ends = ends.map(|(z, name)| (0.0 - pattern.ahead(z), name));
-        let start = (first.path < 0.0).then_some((start, "D"));
-        let marks = start.into_iter().chain(ends);
-        return marks.map(|(angle, name)| (angle.to_degrees(), name)).collect();
-    }
-    let contact = contact_state::first_contact_of_driver(solution);
-    let contact = contact.filter(|angle| *angle > 0.0);
-    let contact = contact.map(|angle| (-angle.to_degrees(), "D"));
-    contact.into_iter().chain([(0.0, "E")]).collect()
+    let start = contact_state::first_touch_of_driver(solution).map(|angle| (-angle, "D"));
+    let pattern = Pattern::of(inputs, solution).filter(|own| own.face.lead != 0.0);
+    let end = |sign: f64| pattern.as_ref().map(|own| -own.ahead(0.5 * sign * own.face.width));
+    let ends =
+        [end(1.0).map(|at| (at, "E z+")), Some((0.0, "E")), end(-1.0).map(|at| (at, "E z-"))];
+    let marks =
+        start.filter(|(angle, _)| *angle < 0.0).into_iter().chain(ends.into_iter().flatten());
+    marks.map(|(angle, name)| (angle.to_degrees(), name)).collect()
 }
 
 /// A curve over the stations, in a unit and in pieces: the column of the method, or its comparison

@@ -12,7 +12,7 @@ use ratatui::symbols::Marker;
 
 use super::plot::{LABEL_COLUMNS, Look as SeriesLook, Plot, TerminalChart, Words};
 use crate::case::units;
-pub use crate::model::contact_state::first_contact_of_driver as first_contact;
+pub use crate::model::contact_state::first_touch_of_driver as first_contact;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity, Solution};
 use crate::numeric::decimal::significant;
