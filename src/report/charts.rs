@@ -281,9 +281,10 @@ fn marks(Report { inputs, solution, .. }: &Report) -> Vec<(f64, &'static str)> {
     let end = |sign: f64| pattern.as_ref().map(|own| -own.ahead(0.5 * sign * own.face.width));
     let ends =
         [end(1.0).map(|at| (at, "E z+")), Some((0.0, "E")), end(-1.0).map(|at| (at, "E z-"))];
-    let marks =
-        start.filter(|(angle, _)| *angle < 0.0).into_iter().chain(ends.into_iter().flatten());
-    marks.map(|(angle, name)| (angle.to_degrees(), name)).collect()
+    let start = start.filter(|(angle, _)| *angle < 0.0);
+    let mut marks: Vec<_> = start.into_iter().chain(ends.into_iter().flatten()).collect();
+    marks.sort_by(|one, other| one.0.total_cmp(&other.0));
+    marks.into_iter().map(|(angle, name)| (angle.to_degrees(), name)).collect()
 }
 
 /// A curve over the stations, in a unit and in pieces: the column of the method, or its comparison
