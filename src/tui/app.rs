@@ -127,22 +127,8 @@ pub struct Message {
 }
 
 impl App {
-    /// The workbench on a document with all its results, which may take long.
-    pub(crate) fn new(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
-        App::answered(document, path, (look, size), |request| Some(solver::answer(request)))
-    }
-
-    /// The workbench for the first frame, without results that need an elastic field.
-    pub fn at_start(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
-        App::answered(document, path, (look, size), solver::answer_without_fields)
-    }
-
-    fn answered(
-        document: Document,
-        path: Option<PathBuf>,
-        (look, size): (Look, Size),
-        answer: impl Fn(&Request) -> Option<Answer>,
-    ) -> App {
+    /// The workbench on a document that is not solved yet.
+    pub(super) fn new(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
         let mut app = App {
             tab: Tab::new(document, path),
             others: Vec::new(),
@@ -179,9 +165,6 @@ impl App {
             app.complain(NEWER);
         }
         app.follow();
-        if let Some(answer) = app.checked().and_then(|request| answer(&request)) {
-            app.take(answer);
-        }
         app
     }
 
@@ -404,7 +387,7 @@ impl App {
     }
 
     /// Checks the form and returns the request for its results if the form is valid.
-    fn checked(&mut self) -> Option<Request> {
+    pub(super) fn checked(&mut self) -> Option<Request> {
         let wanted = self.wanted();
         let tab = &mut self.tab;
         let (inputs, problems) = tab.case.read();
@@ -421,13 +404,6 @@ impl App {
         (tab.serial, tab.requested) = (self.last_serial, wanted);
         (tab.is_settled, tab.solving) = (false, None);
         Some(self.tab.request())
-    }
-
-    /// Solves what the first frame leaves out.
-    pub(super) fn complete(&mut self) {
-        if !self.tab.is_settled || self.tab.answer.is_some() && !self.has_results() {
-            self.solve();
-        }
     }
 
     /// Whether every requested result is present.
@@ -475,57 +451,5 @@ impl App {
     /// The tab that waits for the answer with this serial.
     pub(super) fn tab_of(&mut self, serial: u64) -> Option<&mut Tab> {
         self.tabs_mut().find(|tab| tab.serial == serial)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::inputs::Method;
-    use crate::model::{Refusal, Solution};
-    use crate::tui::store;
-
-    fn on_dynamic(first_frame: impl Fn(&Request) -> Option<Answer>) -> App {
-        let mut document = store::built_in();
-        let mut case = Case::table_1();
-        case.set("model.method", "dynamic").expect("a method");
-        document.case = case;
-        App::answered(document, None, (Look::FULL, Size::new(140, 45)), first_frame)
-    }
-
-    #[test]
-    fn the_worker_solves_the_results_that_the_first_frame_leaves_out() {
-        let whole = |request: &Request| Some(solver::answer(request));
-        let mut app = on_dynamic(whole);
-        app.complete();
-        assert!(!app.is_busy(Slot::Solve));
-
-        let without_relief = |request: &Request| {
-            let answer = solver::answer(request);
-            let stages = answer.stages.without(Stage::Clearing);
-            Some(Answer { stages, ..answer })
-        };
-        let closed_form = |exact: Result<Solution, Refusal>| {
-            move |request: &Request| {
-                Some(Answer {
-                    active: Method::Exact,
-                    pending: Some(Method::Dynamic),
-                    methods: vec![(Method::Exact, exact.clone())],
-                    ..solver::answer(request)
-                })
-            }
-        };
-        let inputs = Case::table_1().inputs().expect("Table 1 is valid");
-        let found = crate::model::solve(&inputs, Stages::EVERY);
-        let assert_asks = |mut app: App| {
-            app.complete();
-            assert!(app.is_busy(Slot::Solve), "a request for the worker");
-            assert_eq!(app.tab.request().inputs.method, Method::Dynamic);
-            assert!(!app.tab.is_settled);
-        };
-        assert_asks(on_dynamic(|_| None));
-        assert_asks(on_dynamic(without_relief));
-        assert_asks(on_dynamic(closed_form(found)));
-        assert_asks(on_dynamic(closed_form(Err(Refusal::Stopped))));
     }
 }

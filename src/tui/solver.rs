@@ -5,13 +5,12 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::case::Evaluator;
-use crate::model::compliance::without_field;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages};
 use crate::study::stiffness::{PATH_POINTS, PathComparison, compare_path};
 
 /// After this time the workbench shows the closed form until the slower method is finished.
-const PATIENCE: Duration = Duration::from_millis(30);
+pub(super) const PATIENCE: Duration = Duration::from_millis(30);
 
 /// Panics or blocks forever if a test requests a fault at this place.
 #[cfg(debug_assertions)]
@@ -179,25 +178,6 @@ pub fn answer(request: &Request) -> Answer {
     let mut last = None;
     solve(evaluator, request, &mut |answer| last = Some(answer.clone()), &|_| true);
     last.unwrap_or_else(|| at_once(evaluator, request, Instant::now()))
-}
-
-/// The answer for the first frame of the program, which does not wait for elastic fields: without
-/// the stiffness spread, and `None` if the compliance of the pair needs a field.
-pub(crate) fn answer_without_fields(request: &Request) -> Option<Answer> {
-    let mut methods = Method::CLOSED_FORM.into_iter().chain([request.inputs.method]);
-    if methods.any(|method| without_field(&Inputs { method, ..request.inputs.clone() }).is_some()) {
-        return None;
-    }
-    let (start, mut shown) = (Instant::now(), None);
-    let stages = request.wanted.stages.without(Stage::Band);
-    let wanted = Wanted { stages, stiffness: false, ..request.wanted };
-    let quick = Request { wanted, ..request.clone() };
-    let mut show = |answer: &Answer| shown = Some(answer.clone());
-    let go_on = |_| start.elapsed() < PATIENCE;
-    let evaluator = &mut Evaluator::default();
-    solve(evaluator, &quick, &mut show, &go_on);
-    let answer = shown.unwrap_or_else(|| at_once(evaluator, &quick, start));
-    Some(Answer { requested: request.wanted.stages, ..answer })
 }
 
 /// Shows the results of the closed forms, of the method of the case and, for `dynamic`, of the load

@@ -23,7 +23,7 @@ use super::app::panes::form;
 use super::app::tab::Tab;
 use super::layout::Pane;
 use super::settings::Look;
-use super::{rows, store};
+use super::{rows, solver, store};
 use crate::case::Document;
 use crate::model::Stage;
 
@@ -43,7 +43,6 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     }
     app.catch_up();
     settle(app);
-    panes::refresh_page(app);
     panes::follow_cursor(app, cursor);
     app.preview();
     studies::request(app);
@@ -54,16 +53,19 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
 }
 
 /// Scrolls form and results to their focused rows.
-pub(crate) fn settle(app: &mut App) {
+fn settle(app: &mut App) {
     if mem::take(&mut app.needs_scroll) {
         app.tab.form.top = form::top_for(app);
         app.tab.results.top = app.top_of_results();
     }
 }
 
-/// The workbench after it opens a document.
+/// The workbench after it opens and solves a document, which may take long.
 pub fn opened(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
     let mut app = App::new(document, path, look, size);
+    if let Some(request) = app.checked() {
+        app.take(solver::answer(&request));
+    }
     settle(&mut app);
     app
 }

@@ -20,10 +20,10 @@ use super::input::{self, Event, Events};
 use super::session::journal::JournalWriter;
 use super::session::{Autosave, Claim};
 use super::settings::{Look, Settings};
-use super::solver::on_demand;
+use super::solver::{PATIENCE, on_demand};
 use super::store::{self, State, WatchedFile};
 use super::terminal::Screen;
-use super::update::{self, update};
+use super::update::update;
 use crate::case::rexs;
 use crate::system::changes::{Changes, Places};
 use crate::system::files;
@@ -32,7 +32,8 @@ use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
 /// Time between two frames of the animation.
 const TICK: Duration = Duration::from_millis(83);
 
-/// The results of a fast solve arrive within this time and are drawn with the edit, in one frame.
+/// The results of a fast solve arrive within this time and are drawn with the edit, in one frame; those
+/// of the first frame within the time of a closed form.
 const QUICK: Duration = Duration::from_millis(3);
 
 /// How the workbench ended.
@@ -59,39 +60,32 @@ pub(super) fn session(
     let look = Look::of(|name| std::env::var_os(name));
     let look =
         settings.look(look, |name| std::env::var_os(name).is_some_and(|value| !value.is_empty()));
-    let start = |document, path| -> io::Result<App> {
-        let mut app = App::at_start(document, path, look, screen.size()?);
-        app.settings = settings;
-        update::settle(&mut app);
-        Ok(app)
+    let (document, faults) = match loaded {
+        Ok(document) => (document, None),
+        Err(faults) => (None, Some(faults)),
     };
-    let app = match (path, loaded) {
-        (Some(path), Ok(Some(document))) => {
-            store::add_recent(&path);
-            let mut app = start(*document, Some(rexs::case_path(&path)))?;
-            app.tab.origin = if is_named { Origin::Given } else { Origin::LastCase };
-            app
-        }
-        (Some(path), Err(faults)) => {
-            let mut app = start(store::built_in(), None)?;
-            app.tab.in_place_of = Some(path.clone());
-            if is_named {
-                update(&mut app, Action::Loaded(path, Err(faults)));
-            } else {
-                let reason = faults.into_iter().next().unwrap_or_default();
-                app.complain(format!("the last case cannot be opened: {reason}"));
-            }
-            app
-        }
-        _ => start(store::built_in(), None)?,
-    };
+    let case_path = path.as_deref().filter(|_| document.is_some()).map(rexs::case_path);
+    let is_last = case_path.is_some() && !is_named;
+    let document = document.map_or_else(store::built_in, |document| *document);
+    let mut app = App::new(document, case_path, look, screen.size()?);
+    app.settings = settings;
+    app.tab.origin = if is_last { Origin::LastCase } else { Origin::Given };
+    app.tab.in_place_of = path.clone().filter(|_| faults.is_some());
     screen.take_mouse(settings.mouse)?;
-    screen.draw(&app)?;
     let threads = Workers::start(Arc::new(events.action_sender()))?;
     let autosave = Autosave::new(State::find(), Arc::clone(journal_writer));
     let mut workbench = Workbench { app, screen, events, threads, autosave, alarm: None };
-    workbench.app.complete();
-    workbench.act(Action::Tick)?;
+    match (path, faults) {
+        (Some(path), None) => store::add_recent(&path),
+        (Some(path), Some(faults)) if is_named => {
+            workbench.act(Action::Loaded(path, Err(faults)))?;
+        }
+        (_, faults) => {
+            if let Some(reason) = faults.and_then(|faults| faults.into_iter().next()) {
+                workbench.app.complain(format!("the last case cannot be opened: {reason}"));
+            }
+        }
+    }
     workbench.stay()
 }
 
@@ -143,13 +137,13 @@ struct Workbench {
 
 impl Workbench {
     fn stay(mut self) -> io::Result<End> {
-        // Claims of the first case arrive after the first frame.
-        let mut batch = Vec::new();
+        let (mut batch, mut patience) = (vec![Event::Tick], PATIENCE);
         let end = loop {
-            if let Some(end) = self.take(batch)? {
+            if let Some(end) = self.take(batch, patience)? {
                 break end;
             }
             batch = self.events.batch(self.alarm, self.autosave.deadline());
+            patience = QUICK;
         };
         if matches!(end, End::Left) {
             self.autosave.end();
@@ -159,8 +153,8 @@ impl Workbench {
 
     // Applies all waiting events and draws one frame if the state changed. Returns how the
     // workbench ended, if it has ended.
-    fn take(&mut self, mut batch: Vec<Event>) -> io::Result<Option<End>> {
-        let (mut has_changed, quick) = (false, Instant::now() + QUICK);
+    fn take(&mut self, mut batch: Vec<Event>, patience: Duration) -> io::Result<Option<End>> {
+        let (mut has_changed, quick) = (false, Instant::now() + patience);
         while !batch.is_empty() {
             match self.apply(batch)? {
                 Ok(changed) => has_changed |= changed,

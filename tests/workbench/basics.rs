@@ -4,16 +4,13 @@ use crate::harness::{self, Desk, LARGE, SMALL, TABLE_1, name, requested};
 use std::sync::Arc;
 
 use insta::assert_snapshot;
-use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Size};
 use ratatui::symbols::Marker;
-use tipstrike::case::{Document, fields};
-use tipstrike::model::compliance::ElasticGear;
+use tipstrike::case::fields;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Stage, Stages};
 use tipstrike::tui::testing::{
-    Action, Answer, App, CONTRAST, Effect, Item, Look, Pane, Prompt, Settings, Slot, of_key,
-    update, view,
+    Action, Answer, CONTRAST, Effect, Item, Pane, Prompt, Settings, Slot, of_key, update,
 };
 
 const TINY: Size = Size { width: 60, height: 16 };
@@ -477,31 +474,4 @@ fn the_screens() {
     assert_snapshot!("tabs_80x24", three_cases(SMALL).screen());
     assert_snapshot!("opening_240x70", Desk::new(HUGE).screen());
     assert_snapshot!("opening_60x16", Desk::new(TINY).screen());
-}
-
-/// Gears that no other test uses, so that their fields are not cached.
-#[test]
-fn the_first_frame_waits_for_no_elastic_field() {
-    for (method, compliance, teeth) in [
-        ("exact", "", 41),
-        ("dynamic", "", 43),
-        ("auto", "", 47),
-        ("exact", "tooth_compliance = \"kuang-yang\"", 53),
-        ("dynamic", "tooth_compliance = \"beam\"", 59),
-    ] {
-        let text = TABLE_1
-            .replace("teeth = 20", &format!("teeth = {teeth}"))
-            .replace("tooth_compliance = \"kuang-yang\"", compliance)
-            .replace("method = \"exact\"", &format!("method = \"{method}\""));
-        let document = Document::parse("case.toml", &text).expect("a good case");
-        let inputs = document.case.inputs().expect("valid inputs");
-        let is_built = || {
-            let gears = [&inputs.driver, &inputs.driven];
-            gears.map(|gear| ElasticGear::of(&inputs, gear).is_field_built())
-        };
-        let app = App::at_start(document, None, Look::FULL, LARGE);
-        view::draw(&app, &mut Buffer::empty(LARGE.into()));
-        assert_eq!(is_built(), [false, false], "{method} {compliance}");
-        assert_eq!(app.tab.answer.is_some(), !compliance.is_empty(), "{method} {compliance}");
-    }
 }

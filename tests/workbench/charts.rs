@@ -176,13 +176,15 @@ fn the_latest_request_for_a_chart_of_the_worker_wins() {
 fn a_growing_curve_is_marked_as_unfinished() {
     let mut desk = at_method(SMALL, "exact");
     desk.keys(&["k"]);
+    // The work is requested again and not carried out.
+    desk.app.tab.chart_work.request = None;
+    assert!(requested(desk.effects("h"), Slot::Chart).is_some());
     let inputs = desk.app.tab.case.inputs().expect("a valid case");
     let mut curve = speeds(&inputs, &mut |_| true).expect("a curve");
     curve.up[60..].fill(None);
     curve.down.fill(None);
     let work = &mut desk.app.tab.chart_work;
     work.found.as_mut().expect("a curve").1 = speed_chart(&[("", &curve)]);
-    work.is_running = true;
     desk.assert_shows("computing: Dynamic factor");
 }
 

@@ -656,7 +656,7 @@ pub fn help() -> Vec<String> {
 }
 
 fn help_page(app: &mut App) {
-    app.prompts.push(Prompt::Read(Page::new("Help", help())));
+    app.prompts.push(Prompt::Read(Page::new("Help", Some(help()))));
 }
 
 fn cycle_marker(app: &mut App) {

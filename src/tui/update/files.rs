@@ -178,7 +178,7 @@ pub(super) fn loaded(app: &mut App, path: PathBuf, result: Result<Box<Document>,
         Err(faults) => {
             app.message = None;
             let title = format!("{} cannot be opened", path.display());
-            app.prompts.push(Prompt::Read(Page::new(title, faults)));
+            app.prompts.push(Prompt::Read(Page::new(title, Some(faults))));
         }
     }
 }

@@ -22,7 +22,7 @@ use crate::tui::app::panes::chart::{
     self, CHARTS, ChartRequest, ChartValues, OwnChart, first_contact,
 };
 use crate::tui::app::panes::cursor::{Reach, cursor_range, meaning, parse_cursor};
-use crate::tui::app::panes::results as results_pane;
+use crate::tui::app::panes::results::in_full;
 use crate::tui::app::panes::teeth::{Picture, TeethView};
 use crate::tui::layout::Pane;
 use crate::tui::session::Next;
@@ -137,23 +137,10 @@ pub(super) fn explain(app: &mut App) {
 
 /// Opens a page with the outcome, the limits and every note in full.
 pub(super) fn notes(app: &mut App) {
-    let lines = results_pane::in_full(app);
-    if lines.is_empty() {
+    if in_full(app).is_empty() {
         return app.complain("there are no results to show");
     }
-    let page = Page::new("Outcome, limits, notes", lines);
-    app.prompts.push(Prompt::Read(Page { is_of_results: true, ..page }));
-}
-
-/// Shows new results on that page while it is open.
-pub(super) fn refresh_page(app: &mut App) {
-    let is_of_results =
-        |prompt: &Prompt| matches!(prompt, Prompt::Read(page) if page.is_of_results);
-    let Some(at) = app.prompts.iter().position(is_of_results) else { return };
-    let lines = results_pane::in_full(app);
-    if let Prompt::Read(page) = &mut app.prompts[at] {
-        page.lines = lines;
-    }
+    app.prompts.push(Prompt::Read(Page::new("Outcome, limits, notes", None)));
 }
 
 /// Reports a letter without a command in the focused pane, and suggests a command.
@@ -374,30 +361,29 @@ pub(super) fn request_chart(app: &mut App) {
     });
     let Some((chart, inputs)) = chart.zip(inputs) else {
         if app.cancel(Slot::Chart) {
-            let work = &mut app.tab.chart_work;
-            (work.request, work.is_running) = (None, false);
+            app.tab.chart_work.request = None;
         }
         return;
     };
-    let last = &app.tab.chart_work;
-    // Another tab may have replaced the work.
-    let is_known = !last.is_running || app.runs(Slot::Chart, last.work);
     let request = ChartRequest { chart, inputs };
-    if is_known && last.request.as_ref() == Some(&request) {
+    if app.tab.chart_work.request.as_ref() == Some(&request) {
         return;
+    }
+    // The new work replaces unfinished work of another tab.
+    if app.is_busy(Slot::Chart) {
+        app.others.iter_mut().for_each(|tab| tab.chart_work.request = None);
     }
     let (tab, own) = (app.tab.id, request.clone());
     let work = Work::in_steps(Slot::Chart, move |running| compute(tab, &own, running));
     let failed = Err("internal error".to_owned());
-    let work = app.start(work.or(move |app| take_chart(app, tab, Some(failed), true)));
-    let chart = &mut app.tab.chart_work;
-    (chart.request, chart.is_running, chart.work) = (Some(request), true, work);
+    let work = app.start(work.or(move |app| take_chart(app, tab, failed)));
+    (app.tab.chart_work.request, app.tab.chart_work.work) = (Some(request), work);
 }
 
 /// Computes a chart for a tab and sends its values as they arrive.
 fn compute(tab: usize, request: &ChartRequest, running: &Running<'_>) {
     let inputs = &request.inputs;
-    let send = |found, is_over| running.send(move |app| take_chart(app, tab, found, is_over));
+    let send = |found| running.send(move |app| take_chart(app, tab, found));
     let found = match request.chart {
         OwnChart::ToothCompliance(gear) => compare_flanks(inputs, FLANK_POINTS)
             .map(|flanks| tooth_chart(gear, &flanks, model_of(inputs))),
@@ -416,7 +402,9 @@ fn compute(tab: usize, request: &ChartRequest, running: &Running<'_>) {
             let curve = speeds(inputs, &mut |curve| {
                 if sent.elapsed() >= CHART_STEP {
                     sent = Instant::now();
-                    send(speed_chart(&[("", curve)]).ok().map(Ok), false);
+                    if let Ok(chart) = speed_chart(&[("", curve)]) {
+                        send(Ok(chart));
+                    }
                 }
                 running.is_wanted()
             });
@@ -424,20 +412,20 @@ fn compute(tab: usize, request: &ChartRequest, running: &Running<'_>) {
         }
         OwnChart::Pattern => return,
     };
-    let found = match found {
-        Ok(found) => Some(found),
-        Err(Refusal::Stopped) => None,
-        Err(refusal) => Some(Err(format!("{refusal}: {}", refusal.fix()))),
-    };
-    send(found, true);
+    match found {
+        Ok(found) => send(found),
+        Err(Refusal::Stopped) => (),
+        Err(refusal) => send(Err(format!("{refusal}: {}", refusal.fix()))),
+    }
 }
 
-fn take_chart(app: &mut App, tab: usize, found: Option<ChartValues>, is_over: bool) {
-    let Some(work) = app.tab_with(tab).map(|tab| &mut tab.chart_work) else { return };
-    if let Some((request, found)) = work.request.as_ref().zip(found) {
+fn take_chart(app: &mut App, tab: usize, found: ChartValues) {
+    let work = app.tab_with(tab).map(|tab| &mut tab.chart_work);
+    if let Some(work) = work
+        && let Some(request) = &work.request
+    {
         work.found = Some((request.chart, found));
     }
-    work.is_running = !is_over;
 }
 
 fn range_of_cursor(app: &App) -> Option<Reach> {

@@ -13,6 +13,7 @@ use crate::report::Shown;
 use crate::report::explain::{Kind, Line, Page as ExplanationPage, lines};
 use crate::tui::app::App;
 use crate::tui::app::actions::Change;
+use crate::tui::app::panes::results::in_full;
 use crate::tui::layout::Place;
 use crate::tui::settings::Theme;
 use crate::tui::text::written_out;
@@ -20,23 +21,23 @@ use crate::tui::text::written_out;
 /// A page of text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Page {
-    pub(crate) title: String,
-    pub(crate) lines: Vec<String>,
+    title: String,
+    /// The lines; `None` for the present outcome of the open case with every note.
+    lines: Option<Vec<String>>,
     /// The first visible line.
-    pub(crate) top: usize,
-    /// Whether it shows the outcome of the open case.
-    pub(crate) is_of_results: bool,
+    top: usize,
 }
 
 impl Page {
     /// A page that shows its first line.
-    pub(crate) fn new(title: impl Into<String>, lines: Vec<String>) -> Page {
-        Page { title: title.into(), lines, top: 0, is_of_results: false }
+    pub(crate) fn new(title: impl Into<String>, lines: Option<Vec<String>>) -> Page {
+        Page { title: title.into(), lines, top: 0 }
     }
 
     fn wrapped(&self, app: &App) -> Vec<Words<'static>> {
         let width = app.room().width;
-        self.lines.iter().flat_map(|line| wrapped(line, width)).map(Words::from).collect()
+        let lines = self.lines.clone().unwrap_or_else(|| in_full(app));
+        lines.iter().flat_map(|line| wrapped(line, width)).map(Words::from).collect()
     }
 }
 

@@ -23,6 +23,7 @@ use crate::report::shown_in;
 use crate::report::stations::{GRAPHS, Graph};
 use crate::report::verdict::without_contact;
 use crate::tui::app::App;
+use crate::tui::app::actions::Slot;
 use crate::tui::layout::Pane;
 use crate::tui::solver::Answer;
 use crate::tui::text;
@@ -132,12 +133,10 @@ pub(crate) type ChartValues = Result<Chart, String>;
 /// The chart of a case: the last request and its values.
 #[derive(Debug, Clone, Default)]
 pub struct ChartWork {
-    /// The last request.
+    /// The last request, unless its work was stopped.
     pub request: Option<ChartRequest>,
     /// The values; those of an earlier request until the first values of the last one arrive.
     pub found: Option<(OwnChart, ChartValues)>,
-    /// Whether the last request is not computed yet.
-    pub is_running: bool,
     /// The number of its work.
     pub(crate) work: u64,
 }
@@ -149,10 +148,10 @@ impl ChartWork {
     }
 
     /// The reason why there is no chart.
-    pub fn missing(&self, chart: OwnChart) -> String {
+    fn missing(&self, chart: OwnChart, is_running: bool) -> String {
         match self.values(chart) {
             Some(Err(reason)) => format!("No chart: {reason}."),
-            _ if self.is_running => "Computing.".to_owned(),
+            _ if is_running => "Computing.".to_owned(),
             _ => "The form is not valid: no chart.".to_owned(),
         }
     }
@@ -511,8 +510,8 @@ impl<'a> Charts<'a> {
         };
         let looks =
             chart.iter().flat_map(|chart| chart.series.iter().enumerate().map(look)).collect();
-        let running =
-            self.0.tab.chart_work.is_running && !self.0.tab.shows_last_valid() && !is_pattern;
+        let is_running = self.0.runs(Slot::Chart, self.0.tab.chart_work.work);
+        let running = is_running && !self.0.tab.shows_last_valid() && !is_pattern;
         let words =
             chart.as_ref().map_or_else(|| of.words()[0].to_owned(), |chart| chart.quantities());
         let missing = || match self.answer() {
@@ -522,7 +521,7 @@ impl<'a> Charts<'a> {
                 let words = reason.map(|reason| format!("No chart: {reason}. j: next chart."));
                 words.unwrap_or_default()
             }
-            _ => self.0.tab.chart_work.missing(of),
+            _ => self.0.tab.chart_work.missing(of, is_running),
         };
         let up = chart.as_ref().map_or("", |chart| &chart.up.unit);
         let height = self.0.chart.z / units::factor(up).unwrap_or(1.0);
