@@ -79,7 +79,7 @@ struct Base<'a> {
 
 impl<'a> Base<'a> {
     /// The inputs with a quick tooth compliance if the quantity does not depend on the tooth
-    /// compliance, otherwise the same inputs. An elastic field for every changed gear takes longer
+    /// compliance, otherwise the same inputs. Finite elements for every changed gear take longer
     /// than all other stages.
     fn of(quantity: &'a Quantity, inputs: &Inputs, own: Option<f64>) -> Base<'a> {
         // A flag or a value of 0 can agree by chance.

@@ -41,7 +41,7 @@ pub struct FieldInput {
     pub poisson: f64,
 }
 
-/// The elastic field of a gear, for Young's modulus 1 and unit face width. A value divided by E is
+/// The solved finite elements of a gear, for Young's modulus 1 and unit face width. A value divided by E is
 /// a compliance in m²/N: the displacement in m for a load in N/m.
 ///
 /// A load acts on a flank at a radius, along the tangent to the base circle. Displacements are

@@ -208,7 +208,7 @@ pub enum Refusal {
         /// Radius of the form circle, in m.
         form: f64,
     },
-    /// The gear has no elastic field.
+    /// The gear has no finite elements.
     NoField {
         /// z.
         teeth: u32,

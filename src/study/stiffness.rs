@@ -10,7 +10,7 @@ use crate::model::profile::Profile;
 use crate::model::{Inputs, Refusal};
 use nalgebra::{DMatrix, DVector};
 
-/// The name of the elastic field among the models; a model of the list with this name has no column
+/// The name of the finite elements among the models; a model of the list with this name has no column
 /// of its own.
 pub const FIELD: &str = "finite-element";
 

@@ -219,7 +219,7 @@ pub(super) fn solve(
         answer = answer.with_notes();
     }
     if wanted.stiffness {
-        // The elastic fields of new gears are slow.
+        // The finite elements of new gears are slow.
         show(&answer);
         if !go_on(1.0) {
             return None;

@@ -13,7 +13,7 @@ use tipstrike::study::trade::Setting;
 
 use crate::table;
 
-/// With the elastic field, whose pairs are coupled, and the finest setting.
+/// With the finite elements, whose pairs are coupled, and the finest setting.
 #[test]
 fn two_ways_to_the_motion_agree() {
     let mut compared = 0;

@@ -1,4 +1,4 @@
-//! The elastic field and the inertia of single gears.
+//! The finite elements and the inertia of single gears.
 
 use serde_json::Value;
 use tipstrike::model::field::{Field, FieldInput};

@@ -61,7 +61,7 @@ pub enum Kind {
     Line(StiffnessLine),
     /// Computed from the circles and the radius of the load point at each call.
     Beam(Circles),
-    /// The elastic field of the gear.
+    /// The finite elements of the gear.
     Field(Arc<Field>),
     /// The table of the case, which [`Teeth`](super::Teeth) reads by the place of the pair.
     Given,
@@ -242,7 +242,7 @@ pub fn model_of(inputs: &Inputs) -> ToothCompliance {
     inputs.tooth_compliance.or(given).unwrap_or_else(by_range)
 }
 
-/// A tooth compliance that is quick to build, if the model of the pair needs an elastic field.
+/// A tooth compliance that is quick to build, if the model of the pair needs finite elements.
 pub fn without_field(inputs: &Inputs) -> Option<ToothCompliance> {
     let has_field = model_of(inputs) == ToothCompliance::FINITE_ELEMENT;
     has_field.then_some(ToothCompliance::BEAM)

@@ -71,7 +71,7 @@ const TOLERANCE: f64 = 1e-11;
 /// # Valid for
 /// Any tooth number, shift and pressure angle that leave a tooth. Linear elasticity of one tooth on
 /// its own body, without the twist of the body about its bore. The compliance is 4 to 22 % above
-/// the elastic field for bodies with r_f/r_h from 2 to 5 within the range of the foundation, and 50
+/// the finite elements for bodies with r_f/r_h from 2 to 5 within the range of the foundation, and 50
 /// to 200 % above it on thin rims and on the thick teeth of small gears.
 ///
 /// # Errors

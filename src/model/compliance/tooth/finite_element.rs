@@ -1,4 +1,4 @@
-//! Tooth compliance from the elastic field of the gear, by finite elements.
+//! Tooth compliance by finite elements of the whole gear.
 
 use super::{Kind, ToothModel};
 use crate::model::Refusal;

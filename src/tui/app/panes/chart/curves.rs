@@ -190,7 +190,7 @@ pub fn curves<'a>(charts: Charts<'a>, graph: &Graph) -> Vec<Curve<'a>> {
 }
 
 /// The mesh stiffness by every compliance model: that of the case is last, on top of the others, and
-/// the elastic field is below it.
+/// that of the finite elements is below it.
 fn models<'a>(answer: &Answer, column: &'static Column, unit: &'static str) -> Vec<Curve<'a>> {
     let Some(Ok(found)) = &answer.stiffness else {
         return Vec::new();
@@ -210,7 +210,7 @@ fn models<'a>(answer: &Answer, column: &'static Column, unit: &'static str) -> V
     curves
 }
 
-/// Whether it is the curve of the elastic field, which couples neighbouring teeth: the other models
+/// Whether it is the curve of the finite elements, which couple neighbouring teeth: the other models
 /// are compared with this curve.
 pub fn is_field(source: CurveSource) -> bool {
     matches!(source, CurveSource::Model { model, .. } if model.model().has_coupling)
