@@ -18,7 +18,7 @@ use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity};
 pub use changes::Change;
 pub use changes::{Override, Variant};
-pub use check::{Fix, NEWER_FORMAT, Problem};
+pub use check::{MISSING, NEWER_FORMAT, Problem};
 pub use check::{field_range, field_value, put as put_field, quantity, unknown_key, violated_rule};
 pub use dependencies::{Acting, partial_relevance, relevance};
 pub use evaluate::Evaluator;

@@ -118,7 +118,7 @@ fn solved(
 fn bad_case(problems: Vec<(String, Problem)>) -> PyErr {
     let parts = problems
         .into_iter()
-        .map(|(place, problem)| (place, problem.field, problem.cause, problem.fix.to_string()));
+        .map(|(place, problem)| (place, problem.field, problem.cause, problem.fix));
     CaseError::new_err((parts.collect::<Vec<_>>(),))
 }
 

@@ -287,8 +287,10 @@ impl Group {
 
     /// The heading in the results of a method.
     pub fn heading(&self, method: Method) -> String {
-        let beside = if self.is_beside(method) { FREE_IMPACT } else { "" };
-        format!("{beside}{}", self.title)
+        if self.is_beside(method) {
+            return format!("{FREE_IMPACT}{}{}", self.title[..1].to_lowercase(), &self.title[1..]);
+        }
+        self.title.to_owned()
     }
 
     // The last stages first; the closed form of the resolved impact at the end.

@@ -9,7 +9,7 @@ use crate::case::units::{self, Dimension};
 use crate::model::inputs::{Gear, Method, ToothCompliance};
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
 use crate::numeric::decimal::{shortest, significant};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A problem at one place: the cause and the fix.
@@ -22,31 +22,17 @@ pub struct Problem {
     /// The cause.
     pub cause: String,
     /// How to fix it.
-    pub fix: Fix,
+    pub fix: String,
 }
 
-/// The code of a required value that is missing.
-pub(super) const MISSING: &str = "missing";
+/// The code of a required value that is missing; its fix is an assignment.
+pub const MISSING: &str = "missing";
 /// The code of a file of a newer format.
 pub const NEWER_FORMAT: &str = "newer-format";
 
-/// How to fix a problem.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Fix {
-    /// Write a value of a field, such as this example in TOML.
-    Assign {
-        /// The key of the field.
-        key: &'static str,
-        /// The example.
-        example: String,
-    },
-    /// Any other fix.
-    Text(String),
-}
-
 impl Problem {
     /// A problem of a field without a code.
-    pub fn new(field: &str, cause: impl Into<String>, fix: impl Into<Fix>) -> Problem {
+    pub fn new(field: &str, cause: impl Into<String>, fix: impl Into<String>) -> Problem {
         Problem { field: field.to_owned(), code: "".into(), cause: cause.into(), fix: fix.into() }
     }
 
@@ -74,41 +60,11 @@ impl From<&Refusal> for Problem {
     }
 }
 
-impl<T: Into<String>> From<T> for Fix {
-    fn from(text: T) -> Fix {
-        Fix::Text(text.into())
-    }
-}
-
-impl Serialize for Fix {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
-    }
-}
-
-impl<'de> Deserialize<'de> for Fix {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Fix, D::Error> {
-        String::deserialize(deserializer).map(Fix::Text)
-    }
-}
-
 /// One line: `field: cause: fix`.
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Problem { field, cause, fix, .. } = self;
-        write!(f, "{}: {}: {}", sanitize(field), sanitize(cause), sanitize(&fix.to_string()))
-    }
-}
-
-impl fmt::Display for Fix {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Fix::Text(text) => f.write_str(text),
-            Fix::Assign { key, example } => match key.split_once('.') {
-                None => write!(f, "write {key} = {example}"),
-                Some((table, name)) => write!(f, "write {name} = {example} under [{table}]"),
-            },
-        }
+        write!(f, "{}: {}: {}", sanitize(field), sanitize(cause), sanitize(fix))
     }
 }
 
@@ -186,8 +142,11 @@ pub(super) fn assignment(field: &Field) -> String {
     format!("{} = {}", field.name(), example(field))
 }
 
-fn addition(field: &Field) -> Fix {
-    Fix::Assign { key: field.key, example: example(field) }
+/// How to add a field to a file, with an example value.
+fn addition(field: &Field) -> String {
+    let table = field.table();
+    let under = if table.is_empty() { String::new() } else { format!(" under [{table}]") };
+    format!("write {}{under}", assignment(field))
 }
 
 /// Neither of two fields is given of which one is required. Reported at the first field.
@@ -258,13 +217,10 @@ fn number(
         }
         if likely.is_empty() {
             let fix = format!("write a value from {}", known.range_text());
-            return Problem { fix: fix.into(), ..problem };
+            return Problem { fix, ..problem };
         }
         let meant = likely.iter().map(|unit| format!("\"{} {unit}\"", cut(text.trim())));
-        Problem {
-            fix: format!("write {}", meant.collect::<Vec<_>>().join(" or ")).into(),
-            ..problem
-        }
+        Problem { fix: format!("write {}", meant.collect::<Vec<_>>().join(" or ")), ..problem }
     })?;
     // The same end in another unit can differ by rounding.
     let slack = 4.0 * f64::EPSILON;

@@ -383,7 +383,7 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Fault { file, line, column, problem: Problem { field, cause, fix, .. } } = self;
         let (file, field, cause) = (sanitize(file), cut(field), sanitize(cause));
-        write!(f, "{file}:{line}:{column}: {field}: {cause}: {}", sanitize(&fix.to_string()))
+        write!(f, "{file}:{line}:{column}: {field}: {cause}: {}", sanitize(fix))
     }
 }
 

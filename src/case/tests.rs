@@ -106,7 +106,7 @@ fn all_problems_are_reported_in_the_order_of_the_fields() {
     let problems = case.inputs().unwrap_err();
     let fields: Vec<&str> = problems.iter().map(|problem| problem.field.as_str()).collect();
     assert_eq!(fields, ["pair.module", "driven.teeth", "operation.speed", "model.method"]);
-    assert_eq!(problems[3].fix.to_string(), "did you mean exact?");
+    assert_eq!(problems[3].fix, "did you mean exact?");
 }
 
 #[test]
@@ -152,7 +152,7 @@ fn a_form_accepts_an_incomplete_limit() {
     assert_eq!(case.limits[0].value, f64::INFINITY);
     let problem = only_problem(&case);
     assert_eq!(problem.field, "limits.impact_force");
-    assert!(problem.fix.to_string().contains("\"2600 N\""), "{}", problem.fix);
+    assert!(problem.fix.contains("\"2600 N\""), "{}", problem.fix);
     assert_eq!(case, case.clone());
     case.write_limit(quantity("impact_force"), "2600 N");
     assert_eq!((case.limits.len(), case.limits[0].value), (1, 2600.0));

@@ -120,21 +120,13 @@ fn quantity_lines(report: &Report) -> Vec<String> {
     };
     if is_whole {
         let tables = groups(method).into_iter().map(|group| {
-            let title = match group.heading(method).split_once(": ") {
-                Some((beside, title)) => format!("{beside}: {}", lower(title)),
-                None => group.title.to_owned(),
-            };
-            Table::new(title, columns.clone()).with(group.quantities().filter_map(row))
+            let rows = group.quantities().filter_map(row);
+            Table::new(group.heading(method), columns.clone()).with(rows)
         });
         let tables: Vec<Table> = tables.filter(|table| !table.rows.is_empty()).collect();
         return text(&tables).concat();
     }
     Table::new("", columns).with(report.selection.quantities().filter_map(row)).lines()
-}
-
-fn lower(title: &str) -> String {
-    let mut letters = title.chars();
-    letters.next().map(|first| first.to_lowercase().chain(letters).collect()).unwrap_or_default()
 }
 
 fn limits(report: &Report) -> Vec<String> {

@@ -457,7 +457,7 @@ pub fn measured(quantity: &Quantity, value: f64, of: Option<&'static str>) -> Js
 
 /// Why a case or a point has no result.
 pub fn reason(Problem { field, cause, fix, .. }: &Problem) -> Json {
-    json!({"field": field, "cause": cause, "fix": fix.to_string()})
+    json!({"field": field, "cause": cause, "fix": fix})
 }
 
 /// Writes a value as one line of JSON that is safe to print on a terminal. Members without a value

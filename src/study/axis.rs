@@ -308,7 +308,7 @@ fn within(problem: Problem, limits: Option<Range>) -> Problem {
     let Some(limits) = limits else { return problem };
     let [from, to] = [limits.from, limits.to].map(shortest);
     let to = with_unit(&to, limits.unit);
-    Problem { fix: format!("write a range within {from}..{to}").into(), ..problem }
+    Problem { fix: format!("write a range within {from}..{to}"), ..problem }
 }
 
 /// The value in `unit`; a bare number is already in that unit.

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use crate::case::fields::{Absent, FIELDS, Field, Kind, index_of};
 use crate::case::units::{self, Dimension, Open, System};
-use crate::case::{Case, Fix, Limit, Problem, Spread, changes};
+use crate::case::{Case, Limit, MISSING, Problem, Spread, changes};
 use crate::model::Quantity;
 use crate::model::explanation::tidy;
 use crate::numeric::decimal::significant;
@@ -199,11 +199,11 @@ impl Problem {
     /// The problem as the form shows it, where field and text are visible: `write 5 mm` for `write
     /// "5 mm"`, a label for a key, no advice to add a line to a file. Files keep the original.
     pub(crate) fn for_form(&self) -> Problem {
-        let fix = match &self.fix {
-            Fix::Assign { example, .. } => {
-                format!("write {example}, for example").replace(MARKS, "")
-            }
-            Fix::Text(fix) => for_form(fix),
+        let example = self.fix.split_once(" = ").filter(|_| &*self.code == MISSING);
+        let example = example.and_then(|(_, example)| example.split(" under [").next());
+        let fix = match example {
+            Some(example) => format!("write {example}, for example").replace(MARKS, ""),
+            None => for_form(&self.fix),
         };
         Problem {
             code: self.code.clone(),
@@ -499,10 +499,7 @@ mod tests {
         let mut case = Case::table_1();
         case.write(index_of("pair.module").unwrap(), "5");
         let problem = case.inputs().unwrap_err().remove(0);
-        assert_eq!(
-            (problem.field.as_str(), &*problem.fix.to_string()),
-            ("pair.module", "write \"5 mm\"")
-        );
+        assert_eq!((problem.field.as_str(), &*problem.fix), ("pair.module", "write \"5 mm\""));
     }
 
     /// A number as users type it, with a unit of the field.

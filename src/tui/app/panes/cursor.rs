@@ -168,7 +168,7 @@ fn measured(charts: Charts<'_>, typed: &str) -> Result<f64, String> {
     let time =
         || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed(charts));
     angle.or_else(|_| time()).map_err(|_| match units::parse(typed.trim(), Dimension::Number, "") {
-        Err(misread) if typed.contains(',') => misread.fix.to_string(),
+        Err(misread) if typed.contains(',') => misread.fix,
         _ => format!("{} is not an angle, time or point", typed.trim()),
     })
 }
