@@ -18,7 +18,7 @@ use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Solution, Stage, Stages, auto};
 use crate::numeric::decimal::significant;
-use crate::report::table::{Cell, Column, Table, WIDTH, count, flow, json, write_line};
+use crate::report::table::{Cell, Column, Table, WIDTH, count, flow, json, with, write_line};
 use crate::report::verdict::{Absence, Beside};
 use derivation::{GLUE, Known, factor};
 pub use derivation::{How, Leaf, STEP_UNITS, Token, Work, tokens};
@@ -26,9 +26,10 @@ use serde::Serialize;
 use std::io::{self, Write};
 
 /// An explained quantity.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Page {
     /// The quantity.
+    #[serde(skip)]
     pub quantity: &'static Quantity,
     /// Its symbol in the method of the solution.
     pub symbol: &'static str,
@@ -37,6 +38,7 @@ pub struct Page {
     /// The method of the solution.
     pub method: &'static str,
     /// Whether method `auto` chose this method.
+    #[serde(skip)]
     pub is_by_auto: bool,
     /// The value in SI, if any.
     pub value: Option<f64>,
@@ -51,6 +53,7 @@ pub struct Page {
     /// The formula of the quantity, then the formula of each step.
     pub derivation: Vec<Work>,
     /// The other quantities and the fields in the formulas.
+    #[serde(rename = "with")]
     pub leaves: Vec<Leaf>,
     /// Author, year, equation.
     pub source: &'static str,
@@ -59,10 +62,12 @@ pub struct Page {
     /// The assumptions of the formula.
     pub assumptions: &'static str,
     /// The ranges of validity with the values of the case.
+    #[serde(skip)]
     pub validity: Vec<Finding>,
     /// Sentences on the accuracy.
     pub accuracy: Vec<String>,
     /// The fields that the quantity depends on, with its change for a small step of each.
+    #[serde(rename = "sensitivity")]
     pub effects: Vec<Effect>,
 }
 
@@ -119,27 +124,12 @@ pub fn write_json(page: &Page, name: &str, out: &mut dyn Write) -> io::Result<()
     );
     let line = json!({
         "case": name,
-        "method": page.method,
         "key": quantity.key,
-        "symbol": page.symbol,
-        "label": page.label,
         "equation": quantity.equation,
         "unit": quantity.unit,
-        "value": page.value,
-        "shown": page.shown,
-        "missing": page.missing,
-        "meaning": page.meaning,
-        "beside": page.beside,
-        "derivation": page.derivation,
-        "with": page.leaves,
-        "source": page.source,
-        "corrections": page.corrections,
-        "assumptions": page.assumptions,
         "validity": validity.collect::<Vec<_>>(),
-        "accuracy": page.accuracy,
-        "sensitivity": page.effects,
     });
-    write_line(&line, out)
+    write_line(&with(line, json!(page)), out)
 }
 
 /// A misprint and its correction.

@@ -2,7 +2,7 @@
 
 use super::chart::{Axis, Chart, Kind, Series};
 use super::table::{Cell, Column, Table};
-use super::table::{Json, json};
+use super::table::{Json, json, with};
 use super::table::{Named, Results};
 use super::table::{WIDTH, item};
 use crate::case::fields::index_of;
@@ -434,16 +434,13 @@ impl Results for Specification {
         let results: Vec<usize> = (7..3 + self.numbers().len()).collect();
         let results = self.choices().of(&results).objects();
         let choice = |(choice, results): (&Choice, Json)| {
-            let mut line = json!({
+            let line = json!({
                 "name": choice.name,
                 "relief": self.relief(&choice.reliefs),
                 "transmission_errors": choice.errors,
                 "corner_contact": choice.worst.strikes,
             });
-            if let (Json::Object(line), Json::Object(results)) = (&mut line, results) {
-                line.extend(results);
-            }
-            line
+            with(line, results)
         };
         let point = |point: &MapPoint| {
             let relief = self.relief(&point.reliefs);

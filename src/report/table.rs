@@ -429,12 +429,16 @@ impl Named<'_> {
     pub fn json(self, results: &dyn Results) -> Json {
         let Named { name, title } = self;
         let version = env!("CARGO_PKG_VERSION");
-        let mut line = json!({"case": name, "title": title, "version": version});
-        if let (Json::Object(line), Json::Object(more)) = (&mut line, results.json()) {
-            line.extend(more);
-        }
-        line
+        with(json!({"case": name, "title": title, "version": version}), results.json())
     }
+}
+
+/// An object with the members of another one.
+pub(super) fn with(mut line: Json, more: Json) -> Json {
+    if let (Json::Object(line), Json::Object(more)) = (&mut line, more) {
+        line.extend(more);
+    }
+    line
 }
 
 /// An object, whose members [`write_line`] omits if they are null.
