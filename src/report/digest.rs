@@ -112,7 +112,9 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
     }
     let angle = own("approach_angle_driver", solution);
     let angle = angle.and_then(|own| printed(own.key, solution, system));
-    let angle = angle.map(|angle| format!(" {angle} before E")).unwrap_or_default();
+    // The planes of a helical tooth reach their E one after the other.
+    let plane = if solution.helix.is_some() { " in its plane" } else { "" };
+    let angle = angle.map(|angle| format!(" {angle} before E{plane}")).unwrap_or_default();
     let tip = own("impact_force", solution).and_then(|own| {
         let ratio = times(solution, own.key, "mesh_force")?;
         Some((printed(own.key, solution, system)?, ratio + "the mesh force)"))
