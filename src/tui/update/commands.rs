@@ -391,7 +391,7 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::CHART, "v", "strike", panes::show_strike,
         "Show the charts from D to shortly after E, or the whole contact.").shown(),
     row(Place::CHART, "t", "time axis", panes::switch_time,
-        "Switch the x axis of the charts: roll angle before E or time after E.").shown(),
+        "Switch the x axis of the charts between roll angle and time.").shown(),
     row(Place::TEETH, "+ =", "closer", |app| panes::zoom_teeth(app, 1),
         "Zoom the teeth in.").shown(),
     row(Place::TEETH, "-", "farther", |app| panes::zoom_teeth(app, -1),

@@ -24,7 +24,7 @@ use crate::tui::app::panes::chart::{
 use crate::tui::app::panes::cursor::{Reach, cursor_range, meaning, parse_cursor};
 use crate::tui::app::panes::results::in_full;
 use crate::tui::app::panes::teeth::{Picture, TeethView};
-use crate::tui::layout::Pane;
+use crate::tui::layout::{Layout, Pane};
 use crate::tui::session::Next;
 use crate::tui::text::Line;
 
@@ -42,7 +42,9 @@ pub(super) fn show(app: &mut App, pane: Pane) {
     app.tab.history.end_visit();
     app.layout.focus = pane;
     app.is_editing = false;
-    if pane.is_lower() && !app.layout.plan().shows(pane) {
+    // A zoomed pane stays visible when the zoom ends.
+    let unzoomed = Layout { is_zoomed: false, ..app.layout };
+    if pane.is_lower() && !unzoomed.plan().shows(pane) {
         app.layout.lower = pane;
     }
     app.follow();
@@ -228,7 +230,7 @@ pub(super) fn show_strike(app: &mut App) {
 /// Switches the x axis between roll angle and time.
 pub(super) fn switch_time(app: &mut App) {
     app.chart.by_time = !app.chart.by_time;
-    app.say(if app.chart.by_time { "time after E" } else { "driver roll angle before E" });
+    app.say(if app.chart.by_time { "time after E" } else { "driver roll angle" });
 }
 
 /// Scrolls to a moved cursor.

@@ -427,14 +427,15 @@ impl<'a> Charts<'a> {
         }
     }
 
-    /// The factor from deg after E to the x axis, and its quantity: the driver's angle before E, or
-    /// the time after E.
+    /// The factor from deg after E to the x axis, and its quantity: the driver's angle before E, after E
+    /// where most of the visible range is there, or the time after E.
     pub(crate) fn ruler(self) -> (f64, Axis) {
         let window = self.window();
         let speed = self.answer().map_or(0.0, |answer| answer.inputs.speed);
         let micros = 1f64.to_radians() / speed * 1e6;
         let longest = micros * window.from.abs().max(window.to.abs());
         match self.0.chart.by_time {
+            false if window.to > window.from.abs() => (1.0, Axis::new("roll angle after E", "deg")),
             false => (-1.0, Axis::new("roll angle before E", "deg")),
             true if longest < MOST_MICROS => (micros, Axis::new("time after E", "us")),
             true => (1e-3 * micros, Axis::new("time after E", "ms")),
