@@ -49,8 +49,25 @@ fn micro(value: f64) -> String {
 /// The code and the sentence of a note if its condition is true.
 type Found = Option<(&'static str, String)>;
 
-/// All notes, in order.
+/// All notes, in order: first that the pair cannot be assembled.
 const ROWS: &[fn(&Context) -> Found] = &[
+    |k| {
+        let (backlash, part) = backlash(k)?;
+        let value = milli(backlash);
+        if part < *USUAL_BACKLASH.start() {
+            let message = format!(
+                "the centre distance jams the mesh: the normal backlash is {value} mm and must not \
+                    be below 0"
+            );
+            return Some(("centre-distance-jams", message));
+        }
+        let message = format!(
+            "the centre distance opens the mesh: the normal backlash is {value} mm, above a tenth \
+                of the module, {} mm",
+            milli(USUAL_BACKLASH.end() * k.inputs.module)
+        );
+        (part > *USUAL_BACKLASH.end()).then_some(("centre-distance-opens", message))
+    },
     |k| {
         let choice = k.solution.choice?;
         let model = || format!("; tooth compliance `{}`", model_of(k.inputs).name());
@@ -285,23 +302,6 @@ const ROWS: &[fn(&Context) -> Found] = &[
             four(ratio)
         );
         (ratio < 1.0).then_some(("contact-ratio-below-1", message))
-    },
-    |k| {
-        let (backlash, part) = backlash(k)?;
-        let value = milli(backlash);
-        if part < *USUAL_BACKLASH.start() {
-            let message = format!(
-                "the centre distance jams the mesh: the normal backlash is {value} mm and must not \
-                    be below 0"
-            );
-            return Some(("centre-distance-jams", message));
-        }
-        let message = format!(
-            "the centre distance opens the mesh: the normal backlash is {value} mm, above a tenth \
-                of the module, {} mm",
-            milli(USUAL_BACKLASH.end() * k.inputs.module)
-        );
-        (part > *USUAL_BACKLASH.end()).then_some(("centre-distance-opens", message))
     },
     |k| {
         let length = k.solution.geometry.approach_length;
