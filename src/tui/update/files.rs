@@ -289,9 +289,12 @@ pub(super) fn built_in(app: &mut App) {
     }
 }
 
-/// Starts an empty case in a new tab.
+/// Starts an empty case in a new tab, at its first required field.
 pub(super) fn fresh_tab(app: &mut App) {
     add_tab(app, Origin::New, Document::new(Case::fresh()));
+    if let Some(first) = app.tab.problems.iter().map(|(row, _)| *row).min() {
+        app.focus_on(first);
+    }
     app.layout.focus = Pane::Form;
     app.is_editing = true;
     let missing = app.tab.problems.len();
