@@ -115,7 +115,7 @@ impl Layout {
     }
 
     /// The areas of the screen.
-    pub fn plan(&self) -> Plan {
+    pub fn plan(self) -> Plan {
         let size = self.size;
         if is_too_small(size) {
             return Plan::default();

@@ -129,13 +129,6 @@ impl Settings {
             other => other.to_string(),
         })
     }
-
-    /// The capabilities of a terminal, limited by the settings. No setting restores colours or
-    /// characters that the environment lacks.
-    pub(crate) fn look(self, able: Look, variable: impl Fn(&str) -> bool) -> Look {
-        let theme = self.theme.filter(|_| !variable("NO_COLOR")).unwrap_or(able.theme);
-        Look { theme, ascii: self.ascii || able.ascii }
-    }
 }
 
 /// The name of a marker in the file.
@@ -279,16 +272,20 @@ impl Look {
     /// Colours and full Unicode.
     pub const FULL: Look = Look { theme: &QUIET, ascii: false };
 
-    /// The capabilities according to the environment: `NO_COLOR`, `TERM`, and the locale by
-    /// `LC_ALL`, `LC_CTYPE`, `LANG`.
-    pub(crate) fn of(variable: impl Fn(&str) -> Option<OsString>) -> Look {
+    /// The settings, limited by the environment: `NO_COLOR`, `TERM`, and the locale by `LC_ALL`,
+    /// `LC_CTYPE`, `LANG`. No setting restores colours or characters that the environment lacks.
+    pub(crate) fn of(settings: &Settings, variable: impl Fn(&str) -> Option<OsString>) -> Look {
         let set = |name| variable(name).filter(|value| !value.is_empty());
         let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default();
         let locale = locale.to_string_lossy().to_ascii_lowercase();
         let utf8 = locale.contains("utf-8") || locale.contains("utf8");
         let term = set("TERM").unwrap_or_default();
         let bare = term == "linux" || term.to_string_lossy().starts_with("vt");
-        Look { theme: if set("NO_COLOR").is_some() { &MONO } else { &QUIET }, ascii: bare || !utf8 }
+        let usual = settings.theme.unwrap_or(&QUIET);
+        Look {
+            theme: if set("NO_COLOR").is_some() { &MONO } else { usual },
+            ascii: settings.ascii || bare || !utf8,
+        }
     }
 }
 
@@ -365,13 +362,13 @@ mod tests {
 
     #[test]
     fn no_color_overrides_the_theme_of_the_settings() {
-        let settings = Settings { theme: Some(&QUIET), ..Settings::default() };
-        assert_eq!(settings.look(Look { theme: &MONO, ascii: false }, |_| true).theme, &MONO);
-        assert_eq!(settings.look(Look { theme: &MONO, ascii: false }, |_| false).theme, &QUIET);
+        let settings = Settings { theme: Some(&CONTRAST), ..Settings::default() };
+        assert_eq!(Look::of(&settings, |_| Some("1".into())).theme, &MONO);
+        assert_eq!(Look::of(&settings, |_| None).theme, &CONTRAST);
     }
 
     fn look(variables: &[(&str, &str)]) -> Look {
-        Look::of(|name| {
+        Look::of(&Settings::default(), |name| {
             variables.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).into())
         })
     }

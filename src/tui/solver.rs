@@ -71,8 +71,6 @@ pub struct Answer {
     /// The present stages, if the methods have them: the requested stages, or these without the
     /// late stages while the worker computes them.
     pub stages: Stages,
-    /// The requested stages.
-    pub requested: Stages,
     /// The solved pair.
     pub inputs: Inputs,
     /// The method of the main results: the method of the case, or `exact` until that method is
@@ -124,11 +122,6 @@ impl Answer {
     /// Whether the incoming tooth strikes, by the active method.
     pub(crate) fn strikes(&self) -> bool {
         self.of(self.active).is_some_and(|solution| solution.outcome == Outcome::CornerContact)
-    }
-
-    /// Whether a requested stage is missing.
-    pub fn lacks(&self, stage: Stage) -> bool {
-        self.requested.has(stage) && !self.stages.has(stage)
     }
 
     /// Whether a stage was solved by a method.
@@ -268,7 +261,6 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
     let answer = Answer {
         serial: request.serial,
         stages,
-        requested: stages,
         inputs: request.inputs.clone(),
         active: if pending.is_some() { Method::Exact } else { asked },
         pending,
@@ -362,7 +354,7 @@ mod tests {
             let whole = shown.into_iter().filter(|answer| answer.pending.is_none());
             let found = whole.map(|answer| {
                 let clearing = answer.of(answer.active).and_then(|solution| solution.clearing);
-                assert_eq!(clearing.is_none(), answer.lacks(Stage::Clearing));
+                assert_eq!(clearing.is_some(), answer.stages.has(Stage::Clearing));
                 clearing.is_some_and(|clearing| clearing.relief.is_some())
             });
             assert_eq!(found.collect::<Vec<_>>(), expected, "{}", method.name());
@@ -374,7 +366,7 @@ mod tests {
         let shown = shown(&request(Method::Dynamic), &|_| true);
         let answer = shown.iter().find(|answer| answer.pending.is_none()).expect("an answer");
         let relief = |method| answer.of(method).and_then(|solution| solution.clearing);
-        assert!(answer.lacks(Stage::Clearing) && relief(Method::Dynamic).is_none());
+        assert!(!answer.stages.has(Stage::Clearing) && relief(Method::Dynamic).is_none());
         assert!(relief(Method::Static).is_some_and(|clearing| clearing.relief.is_some()));
     }
 }

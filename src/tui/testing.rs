@@ -18,7 +18,6 @@ pub use crate::tui::settings::Settings;
 pub use crate::tui::settings::{CONTRAST, Look, MONO};
 pub use crate::tui::solver::{Answer, Request, Wanted};
 pub use crate::tui::store::State;
-pub use crate::tui::store::folder::SearchResult;
 pub use crate::tui::update::commands::{BINDINGS, of_key};
 pub use crate::tui::update::{opened, update};
 pub use crate::tui::workbench::Workers;

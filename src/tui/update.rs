@@ -378,6 +378,7 @@ fn stop(app: &mut App, has_study: bool) -> bool {
 // Stops a slow solve, or the search for the required relief, which starts after the other results
 // are shown.
 fn stop_solve(app: &mut App) -> bool {
+    let is_searching = app.tab.lacks(Stage::Clearing);
     let (tab, mut words) = (&mut app.tab, None);
     let is_slow = tab.solving.take().is_some();
     let answer = tab.answer.as_mut().filter(|answer| is_slow || answer.serial == tab.serial);
@@ -385,8 +386,8 @@ fn stop_solve(app: &mut App) -> bool {
         if is_slow {
             let shown = "is stopped; the closed form is shown until the next edit";
             words = answer.pending.take().map(|method| format!("method {} {shown}", method.name()));
-        } else if answer.strikes() && answer.lacks(Stage::Clearing) {
-            answer.requested = answer.stages;
+        } else if answer.strikes() && is_searching {
+            answer.stages = tab.requested.stages;
             let search = "the search for the required relief is stopped until the next edit";
             words = Some(search.to_owned());
         }

@@ -90,7 +90,8 @@ fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
 
 fn draw_panes(app: &App, buffer: &mut Buffer) -> Option<Position> {
     let plan = app.layout.plan();
-    Line::from_iter(app.header().into_iter().map(|(_, span)| span)).render(plan.header, buffer);
+    let header = app.header().into_iter().map(|(_, span)| span);
+    header.collect::<Line<'_>>().render(plan.header, buffer);
     let mut cursor = None;
     for pane in Pane::ALL.into_iter().filter(|&pane| plan.shows(pane)) {
         match pane {

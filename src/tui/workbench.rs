@@ -57,9 +57,7 @@ pub(super) fn session(
     screen.enter()?;
     events.listen()?;
     let settings = Settings::read();
-    let look = Look::of(|name| std::env::var_os(name));
-    let look =
-        settings.look(look, |name| std::env::var_os(name).is_some_and(|value| !value.is_empty()));
+    let look = Look::of(&settings, |name| std::env::var_os(name));
     let (document, faults) = match loaded {
         Ok(document) => (document, None),
         Err(faults) => (None, Some(faults)),

@@ -20,8 +20,8 @@ use tipstrike::model::Stage;
 use tipstrike::model::inputs::Method;
 use tipstrike::tui::testing::store::recents;
 use tipstrike::tui::testing::{
-    Action, Answer, App, Autosave, Effect, Event, JournalWriter, Look, Prompt, Request, Slot,
-    State, Work, effects, opened, rows, solver, store, take_action, update, view,
+    Action, App, Autosave, Effect, Event, JournalWriter, Look, Prompt, Request, Slot, State, Work,
+    effects, opened, rows, solver, store, take_action, update, view,
 };
 
 use crate::values::{HOSTILE, field_and_text};
@@ -350,7 +350,7 @@ impl Bench {
                 quick.wanted.stages = request.wanted.stages.without(Stage::SpeedRun);
             }
             let answer = solver::answer(&quick);
-            self.app.take(Answer { requested: request.wanted.stages, ..answer });
+            self.app.take(answer);
             self.act(Action::Tick);
         }
     }
@@ -368,7 +368,7 @@ impl Bench {
             assert_eq!(said, row, "the line is the row's");
         }
         assert_eq!(app.tab.problems.is_empty(), app.tab.case.inputs().is_ok());
-        let is_known = app.tabs().all(|tab| self.on_disk.contains(&tab.saved));
+        let is_known = app.tabs().all(|tab| self.on_disk.contains(tab.document.loaded()));
         assert!(is_known, "the mark shows whether the file differs");
         let inputs = app.tab.case.inputs().ok();
         let is_pending = app.tab.is_stale() || self.waiting.is_some();

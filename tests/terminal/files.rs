@@ -121,7 +121,12 @@ fn a_failed_save_changes_nothing_and_skips_the_next_step() {
         assert!(update(&mut desk.app, failed).is_empty(), "{fault:?} {next:?}");
         let after = &desk.app.tab;
         let parts = |tab: &Tab| {
-            (tab.path.clone(), tab.case.clone(), tab.saved.clone(), tab.document.stamp())
+            (
+                tab.path.clone(),
+                tab.case.clone(),
+                tab.document.loaded().clone(),
+                tab.document.stamp(),
+            )
         };
         assert!(parts(after) == parts(&before), "{fault:?} {next:?}");
         assert!(after.is_unsaved() && desk.app.tabs().count() == 1, "{fault:?} {next:?}");

@@ -88,7 +88,7 @@ fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
     assert_eq!(journal.case.as_deref(), Some(folder.path().join("case.toml").as_path()));
     assert_eq!(journal.changes.len(), 1);
     assert_eq!(journal.changes[0].to.as_deref(), Some("no \u{1b}[2J number"));
-    app.tab.case = app.tab.saved.clone();
+    app.tab.case = app.tab.document.loaded().clone();
     autosave.follow(&app.sheets(), Instant::now());
     autosave.keep();
     assert!(journals(folder.path()).is_empty());

@@ -391,7 +391,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
     let effects = update(&mut stopped, cancel);
     assert!(matches!(effects[..], [Effect::Cancel(Slot::Solve)]) && stopped.message.is_some());
     // It is waited for no more.
-    assert!(!stopped.tab.answer.expect("an answer").lacks(Stage::Clearing));
+    assert!(!stopped.tab.lacks(Stage::Clearing));
     desk.show(whole);
     desk.assert_shows("40.1 um of").lacks(&["being"]);
 }

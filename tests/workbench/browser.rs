@@ -6,7 +6,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::symlink;
-use std::path::PathBuf;
+use std::path::Path;
 use std::process::Command;
 
 use insta::assert_snapshot;
@@ -317,14 +317,12 @@ fn a_search_below_is_bounded_and_asked_once_for_a_folder() {
     fs::create_dir_all(desk.path(deep)).expect("folders");
     desk.write("1/2/3/near.toml", TABLE_1);
     desk.write(&format!("{deep}/far.toml"), TABLE_1);
-    let find = |folder: PathBuf, go_on: &dyn Fn(f64) -> bool| {
-        case_search::find((folder.clone(), String::new()), &folder, go_on)
-    };
-    let below = find(desk.folder.path().to_owned(), &|_| true).expect("it is wanted");
-    let names: Vec<&str> = below.cases.iter().map(|case| case.name.as_str()).collect();
+    let (root, wanted) = (desk.folder.path(), || true);
+    let below = case_search::find(root, root, &wanted).expect("it is wanted");
+    let names: Vec<&str> = below.iter().map(|case| case.name.as_str()).collect();
     assert_eq!(names, ["sub/deep.toml", "1/2/3/near.toml"]);
-    assert_eq!(find(desk.folder.path().to_owned(), &|_| false), None);
-    assert_eq!(find("/no/such/folder".into(), &|_| true).expect("wanted").cases, []);
+    assert_eq!(case_search::find(root, root, &|| false), None);
+    assert_eq!(case_search::find(root, Path::new("/no/such/folder"), &wanted), Some(vec![]));
     desk.keys(&["Ctrl-O"]);
     let mut asked = Vec::new();
     for letter in "near".chars() {

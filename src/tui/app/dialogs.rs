@@ -265,14 +265,14 @@ impl App {
     ) -> (Rect, Option<Position>) {
         let inner = self.frame(title, Size::new(width, lines.len() as u16 + 1), buffer);
         let [line, below] = text::split(inner, 1);
-        Text::from_iter(lines).render(below, buffer);
+        Text::from(lines).render(below, buffer);
         (line, text::edited(input, line, self.look.theme.focus, buffer))
     }
 
     /// A box that shows the lines from `top`, with a scroll bar if they do not fit.
     fn page_box(&self, title: &str, lines: &[Words<'_>], top: usize, buffer: &mut Buffer) {
         let inner = self.frame(title, Size::new(WIDEST, extent(lines).height), buffer);
-        Text::from_iter(lines.iter().skip(top).cloned()).render(inner, buffer);
+        lines.iter().skip(top).cloned().collect::<Text<'_>>().render(inner, buffer);
         text::scroll_bar_beside(top, lines.len(), inner, buffer);
     }
 }
@@ -367,14 +367,12 @@ impl PreviewPane {
         }
         (self.target, self.preview) = (target.clone(), None);
         let own = target?;
-        let (path, wanted) = (own.path(), own.clone());
+        let path = own.path();
         let find =
             move |running: &Running<'_>| folder::preview(&own, units, &|_| running.is_wanted());
-        let show = move |app: &mut App, preview| {
+        let show = |app: &mut App, preview| {
             let prompt = app.prompts.last_mut();
-            if let Some((pane, _)) = prompt.and_then(|prompt| prompt.dialog_mut().preview())
-                && pane.target.as_ref() == Some(&wanted)
-            {
+            if let Some((pane, _)) = prompt.and_then(|prompt| prompt.dialog_mut().preview()) {
                 pane.preview = Some(preview);
             }
         };

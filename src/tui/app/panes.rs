@@ -41,7 +41,7 @@ pub(crate) fn draw_table(
     };
     let line = |line: &String| text::cut(line, area.width.into());
     let lines = lines.iter().enumerate().map(|(at, text)| Line::styled(line(text), style(at)));
-    Text::from_iter(lines).render(area, buffer);
+    lines.collect::<Text<'_>>().render(area, buffer);
 }
 
 impl App {

@@ -12,7 +12,7 @@ use super::panes::study::Study;
 use super::panes::trade::Traded;
 use crate::case::{Case, Document, FIELDS, Limit, Problem, Spread, Variant, fields};
 use crate::model::inputs::Method;
-use crate::model::{Inputs, Refusal, Solution};
+use crate::model::{Inputs, Refusal, Solution, Stage};
 use crate::tui::rows;
 use crate::tui::session::{Access, OpenCase};
 use crate::tui::settings::Theme;
@@ -32,8 +32,6 @@ pub struct Tab {
     pub origin: Origin,
     /// The case in the form.
     pub case: Case,
-    /// The case in the file.
-    pub saved: Case,
     /// The case at the time of a save that is still running.
     pub(crate) saving: Option<Case>,
     /// Whether the file may be written.
@@ -102,7 +100,6 @@ impl Tab {
             id: 0,
             access: Access::of(&document),
             form: FormState::at(&case, focus),
-            saved: case.clone(),
             saving: None,
             inputs_so_far: case.read().0,
             case,
@@ -136,6 +133,12 @@ impl Tab {
         Request { serial: self.serial, inputs, wanted: self.requested }
     }
 
+    /// Whether a requested stage is not computed yet.
+    pub fn lacks(&self, stage: Stage) -> bool {
+        let lacks = |answer: &Answer| !answer.stages.has(stage);
+        self.requested.stages.has(stage) && self.answer.as_ref().is_some_and(lacks)
+    }
+
     /// The inputs, if the form is valid.
     pub(crate) fn inputs(&self) -> Option<&Inputs> {
         self.problems.is_empty().then_some(&self.inputs_so_far)
@@ -155,7 +158,8 @@ impl Tab {
             case.drop_empty(None);
             case
         };
-        self.case != self.saved && without_empty(&self.case) != without_empty(&self.saved)
+        let saved = self.document.loaded();
+        self.case != *saved && without_empty(&self.case) != without_empty(saved)
     }
 
     /// Whether the user neither named nor edited it, so that another case may replace it.

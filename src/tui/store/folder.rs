@@ -65,21 +65,10 @@ impl Target {
 /// The content of a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Listing {
-    /// The folder of the browser, and the folders typed after it.
-    pub asked: (PathBuf, String),
     /// The full path of the folder.
     pub(crate) folder: PathBuf,
     /// The entries, including hidden ones; or the error of reading.
     pub entries: Result<Vec<Entry>, String>,
-}
-
-/// The result of a search.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SearchResult {
-    /// The folder of the browser, and the folders typed after it.
-    pub asked: (PathBuf, String),
-    /// The cases, the nearest first.
-    pub cases: Vec<Entry>,
 }
 
 /// The preview of a line: texts, each with its style.
@@ -133,11 +122,11 @@ fn is_case(file: &Path) -> bool {
         || rexs::is_model(file)
 }
 
-/// Lists a folder with this path.
-pub fn list(asked: (PathBuf, String), place: PathBuf) -> Listing {
+/// Lists a folder; the paths of its entries begin with `shown`.
+pub fn list(shown: &Path, place: PathBuf) -> Listing {
     let folder = fs::canonicalize(&place).or_else(|_| path::absolute(&place)).unwrap_or(place);
-    let entries = entries(&folder, &beneath(&asked.0, &asked.1));
-    Listing { asked, folder, entries }
+    let entries = entries(&folder, shown);
+    Listing { folder, entries }
 }
 
 impl Listing {
@@ -168,19 +157,14 @@ fn entries(folder: &Path, shown: &Path) -> Result<Vec<Entry>, String> {
     Ok(entries)
 }
 
-/// Searches for cases below a folder with this path; returns `None` if `go_on` returns false. Skips hidden folders and does not
-/// follow links.
-pub fn find(
-    asked: (PathBuf, String),
-    top: &Path,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Option<SearchResult> {
-    let shown = beneath(&asked.0, &asked.1);
+/// Searches for cases below a folder, the nearest first; their paths begin with `shown`. Returns `None`
+/// if `go_on` returns false. Skips hidden folders and does not follow links.
+pub fn find(shown: &Path, top: &Path, go_on: &dyn Fn() -> bool) -> Option<Vec<Entry>> {
     let (began, mut entries) = (Instant::now(), 0);
     let mut cases = Vec::new();
     let mut ahead = VecDeque::from([(PathBuf::new(), 0)]);
     while let Some((way, depth)) = ahead.pop_front() {
-        if !go_on(0.0) {
+        if !go_on() {
             return None;
         }
         if entries >= MOST_ENTRIES || cases.len() >= MOST_CASES || began.elapsed() > LONGEST {
@@ -205,8 +189,7 @@ pub fn find(
     let entry = |(_, name, way): (usize, String, PathBuf)| {
         Entry::new(name.clone(), &name, Target::File(shown.join(way)))
     };
-    let cases = cases.into_iter().map(entry).collect();
-    Some(SearchResult { asked, cases })
+    Some(cases.into_iter().map(entry).collect())
 }
 
 /// Computes a preview; returns `None` if `go_on` returns false.

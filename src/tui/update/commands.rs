@@ -20,9 +20,11 @@ use crate::tui::app::dialogs::page::Page;
 use crate::tui::app::dialogs::picker::{Item, Picker, Typed};
 use crate::tui::app::panes::chart::OwnChart;
 use crate::tui::app::panes::results::order;
+use crate::tui::app::panes::study;
 use crate::tui::app::panes::teeth::TeethView;
 use crate::tui::layout::{Pane, Place};
 use crate::tui::rows;
+use crate::tui::session::Next;
 use crate::tui::settings::marker_name;
 
 const PREFIXES: [(KeyModifiers, &str); 3] = [
@@ -367,7 +369,7 @@ pub static BINDINGS: &[Binding] = &[
         "Move the cursor ten columns towards E or D."),
     row(Place::CURSOR, "Home", "cursor to D", panes::cursor_to_start,
         "Move the cursor to the first contact D."),
-    row(Place::CURSOR, "End", "cursor to E", panes::cursor_to_end,
+    row(Place::CURSOR, "End", "cursor to E", |app| panes::put_cursor(app, Ok(0.0)),
         "Move the cursor to E, where the normal path of contact begins."),
     row(Place::OUTSIDE, "a", "cursor to angle", panes::ask_cursor,
         "Move the cursor to a roll angle, a time, D, E, B, L or the peak."),
@@ -416,11 +418,11 @@ pub static BINDINGS: &[Binding] = &[
         "Halve the range of the study around the present value.").shown(),
     row(Place::STUDY, "-", "wider", |app| studies::zoom(app, -1),
         "Double the range of the study, up to the limits of the field.").shown(),
-    row(Place::STUDY, "0", "usual range", studies::reset_range,
+    row(Place::STUDY, "0", "usual range", |app| studies::zoom(app, -app.study.zoom),
         "Show the usual range of the study again."),
     row(Place::STUDY, "r", "range", studies::ask_range,
         "Type the range of the study, such as 50..200 N m, or two ranges for a map.").shown(),
-    row(Place::STUDY, "v", "curve/table", studies::table,
+    row(Place::STUDY, "v", "curve/table", |app| app.study.is_table = !app.study.is_table,
         "Switch between the curve or map and the table of its points.").shown(),
     row(Place::STUDY, "p", "field", studies::first,
         "Choose the field of the study; the first line of the list follows the focused field.").shown(),
@@ -430,7 +432,7 @@ pub static BINDINGS: &[Binding] = &[
         "Choose a second field for a map, or go back to the curve.").shown(),
     pair(Place::TOLERANCE, "j/k Down/Up", "scroll", studies::scroll,
         "Scroll the tolerance one line down or up.").shown(),
-    pair(Place::TOLERANCE, "l/h Right/Left PageDown/PageUp", "next page", studies::page,
+    pair(Place::TOLERANCE, "l/h Right/Left PageDown/PageUp", "next page", |app, by| app.study.top = study::paged(app, by),
         "Go to the next or previous page of the tolerance.").shown(),
     row(Place::STUDY.or(Place::TOLERANCE), "d", "tolerance", studies::tolerance,
         "Sample the distributions of [spread], or show the curve again.").shown(),
@@ -483,7 +485,7 @@ pub static BINDINGS: &[Binding] = &[
     pair(Place::FIELD.or(Place::RESULTS), "G/g End/Home", "", super::go_to_end, "Go to the last or first line."),
     // Everywhere.
     row(Place::WORK, "F1 Alt-H", "help", help_page, "Show this page.").shown(),
-    row(Place::WORK, "Ctrl-S", "save", files::save_here,
+    row(Place::WORK, "Ctrl-S", "save", |app| files::save(app, Next::Stay),
         "Save the case; the file keeps its comments and order.").shown(),
     row(Place::WORK, "Ctrl-P", "commands", |app| type_command(app, ""),
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
@@ -514,7 +516,7 @@ pub static BINDINGS: &[Binding] = &[
         "Scroll the results down."),
     row(Place::WORK, "F3 Ctrl-Up", "results up", |app| super::turn(app, -1),
         "Scroll the results up."),
-    row(Place::WORK, "F2 Alt-S", "save as", files::ask_where,
+    row(Place::WORK, "F2 Alt-S", "save as", |app| files::ask_where(app, Next::Stay),
         "Save under another name."),
     row(Place::WORK, "", "reload", files::ask_reload,
         "Read the file of the case again; asks if there are unsaved edits."),
@@ -533,7 +535,7 @@ pub static BINDINGS: &[Binding] = &[
         "Switch to the next tab."),
     row(Place::WORK, "Ctrl-PageUp", "previous case", |app| files::step_tab(app, -1),
         "Switch to the previous tab."),
-    row(Place::WORK, "Alt-W", "close case", files::close,
+    row(Place::WORK, "Alt-W", "close case", |app| files::ask_or_go(app, Next::Close),
         "Close the case and its tab; asks if there are unsaved edits."),
     pair(Place::WORK, "Alt-1..9", "", |app, number| files::go_to_tab(app, number.unsigned_abs() - 1),
         "Switch to the tab with this number."),

@@ -42,13 +42,8 @@ pub(super) fn quit(app: &mut App) {
     app.ask(Question::new(UNSAVED, text, buttons));
 }
 
-/// Closes the current case, or asks if it has unsaved edits.
-pub(super) fn close(app: &mut App) {
-    ask_or_go(app, Next::Close);
-}
-
 // Goes on, or asks before the edits of the current case are discarded.
-fn ask_or_go(app: &mut App, next: Next) {
+pub(super) fn ask_or_go(app: &mut App, next: Next) {
     if !app.tab.is_unsaved() {
         return go(app, next);
     }
@@ -75,7 +70,7 @@ fn ask_refused(app: &mut App, path: &Path, fault: SaveFault, next: &Next) {
     let (name, after) = (path.display(), next.clone());
     let save_as = Choice::of(move |app| {
         if !matches!(app.prompts.last(), Some(Prompt::Path(dialog)) if dialog.title == SAVE_AS) {
-            ask_where_then(app, after.clone());
+            ask_where(app, after.clone());
         }
     });
     let save_as = ("Save as", save_as);
@@ -129,28 +124,19 @@ fn forgetting(journals: Vec<PathBuf>) -> Choice {
     Choice::of(move |app| app.want(Effect::Forget(journals.clone())))
 }
 
-/// Saves the case.
-pub(super) fn save_here(app: &mut App) {
-    save(app, Next::Stay);
-}
-
 /// Saves to the file of the case, or asks for a path.
-fn save(app: &mut App, next: Next) {
+pub(super) fn save(app: &mut App, next: Next) {
     if refuse_faulty(app) {
         return;
     }
     match app.tab.path.clone() {
         Some(path) => write(app, path, Over::Own, next),
-        None => ask_where_then(app, next),
+        None => ask_where(app, next),
     }
 }
 
 /// Asks for a path to save to.
-pub(super) fn ask_where(app: &mut App) {
-    ask_where_then(app, Next::Stay);
-}
-
-fn ask_where_then(app: &mut App, next: Next) {
+pub(super) fn ask_where(app: &mut App, next: Next) {
     if refuse_faulty(app) {
         return;
     }
@@ -196,7 +182,6 @@ pub(super) fn saved(
         Err(fault) => return ask_refused(app, &path, fault, &next),
     };
     app.close_titled(SAVE_AS);
-    app.tab.saved = document.case.clone();
     // Later edits are not saved and remain.
     let is_as_asked = asked.is_none_or(|asked| asked == app.tab.case);
     if is_as_asked && app.tab.case != document.case {
@@ -418,7 +403,7 @@ pub(super) fn file_changed(app: &mut App, path: &Path, found: Result<Box<Documen
     if !matches!(tab.access, Access::Held(_)) {
         tab.access = Access::of(&document);
     }
-    (tab.saved, tab.document, tab.is_outdated) = (case.clone(), *document, false);
+    (tab.document, tab.is_outdated) = (*document, false);
     edit::replace(app, case);
     go_to_tab(app, shown);
 }

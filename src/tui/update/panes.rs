@@ -258,7 +258,7 @@ pub(super) fn step_cursor(app: &mut App, columns: isize) {
     put_cursor(app, reach.ok_or(NO_CURSOR));
 }
 
-fn put_cursor(app: &mut App, angle: Result<f64, &str>) {
+pub(super) fn put_cursor(app: &mut App, angle: Result<f64, &str>) {
     match angle {
         Ok(angle) => app.cursor = Some(angle),
         Err(reason) => app.complain(reason),
@@ -304,11 +304,6 @@ fn move_cursor(app: &mut App, typed: &str, _: Next) {
             app.with_dialog(|dialog, _| dialog.input().map(Line::select_all));
         }
     }
-}
-
-/// Moves the cursor to E.
-pub(super) fn cursor_to_end(app: &mut App) {
-    put_cursor(app, Ok(0.0));
 }
 
 pub(super) fn hide_cursor(app: &mut App) {

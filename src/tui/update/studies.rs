@@ -188,10 +188,6 @@ pub(super) fn scroll(app: &mut App, by: isize) {
     app.study.top = study::scrolled(app, by);
 }
 
-pub(super) fn page(app: &mut App, by: isize) {
-    app.study.top = study::paged(app, by);
-}
-
 pub(super) fn move_cursor(app: &mut App, across: isize, up: isize) {
     let cursor = study::moved(app, across, up);
     app.tab.study.cursor = cursor.or(app.tab.study.cursor);
@@ -204,10 +200,6 @@ pub(super) fn zoom(app: &mut App, by: i32) {
     }
     app.study.ranges.clear();
     app.study.zoom = (app.study.zoom + by).clamp(-MOST_ZOOM, MOST_ZOOM);
-}
-
-pub(super) fn reset_range(app: &mut App) {
-    zoom(app, -app.study.zoom);
 }
 
 /// Asks for the range of the study.
@@ -279,11 +271,6 @@ pub(super) fn result(app: &mut App) {
         app.study.quantity = Some(quantity.key);
     });
     app.pick(picker.after(Item::named(follow, "selected result".to_owned(), about)));
-}
-
-/// Shows the points as a table, or the curve or map again.
-pub(super) fn table(app: &mut App) {
-    app.study.is_table = !app.study.is_table;
 }
 
 /// Shows the tolerance, or the curve again.
@@ -598,7 +585,7 @@ pub(super) fn keep_variant(app: &mut App, name: &str) {
     if let Err(problem) = Variant::check_name(name) {
         return app.complain(format!("{}: {}", problem.cause, problem.fix));
     }
-    let variant = Variant::between(name, &app.tab.saved, &app.tab.case);
+    let variant = Variant::between(name, app.tab.document.loaded(), &app.tab.case);
     if variant.overrides.is_empty() {
         let Ok(variant) = app.tab.case.variant(name) else {
             let key = key_of(app, "variant");
@@ -614,7 +601,7 @@ pub(super) fn keep_variant(app: &mut App, name: &str) {
     }
     let count = variant.overrides.len();
     let edits = if count == 1 { "edit" } else { "edits" };
-    let mut case = app.tab.saved.clone();
+    let mut case = app.tab.document.loaded().clone();
     case.variants.clone_from(&app.tab.case.variants);
     case.keep_variant(variant);
     edit::replace(app, case);

@@ -15,9 +15,7 @@ use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Running, Slot, Work};
 use crate::tui::layout::Place;
 use crate::tui::settings::{Look, Theme};
-use crate::tui::store::folder::{
-    Entry, Listing, SearchResult, Target, beneath, find, list, place_of,
-};
+use crate::tui::store::folder::{Entry, Listing, Target, beneath, find, list, place_of};
 use crate::tui::text;
 use crate::tui::text::Line;
 
@@ -95,14 +93,14 @@ impl Browser {
 
     /// The work that lists the folder.
     pub(crate) fn list(&self) -> Work {
-        let asked = self.asked.clone();
+        let shown = self.shown();
         let show = |app: &mut App, listing| {
             if app.browser().is_some_and(|browser| browser.take(listing)) {
                 app.accept();
             }
         };
-        Work::new(Slot::Folder, |running| Some(list(asked, running.path.to_owned())), show)
-            .at(self.folder())
+        let list = move |running: &Running<'_>| Some(list(&shown, running.path.to_owned()));
+        Work::new(Slot::Folder, list, show).at(self.folder())
     }
 
     // At most one search for each folder.
@@ -111,16 +109,21 @@ impl Browser {
         if !self.searches_below() || is_known {
             return None;
         }
-        let asked = self.asked.clone();
+        let (asked, shown) = (self.asked.clone(), self.shown());
         self.sought = Some((asked.clone(), false));
         let search =
-            move |running: &Running<'_>| find(asked, running.path, &|_| running.is_wanted());
-        let show = |app: &mut App, found| {
+            move |running: &Running<'_>| find(&shown, running.path, &|| running.is_wanted());
+        let show = |app: &mut App, cases| {
             if let Some(browser) = app.browser() {
-                browser.take_below(found);
+                browser.take_below(asked, cases);
             }
         };
         Some(Work::new(Slot::Search, search, show).at(self.folder()))
+    }
+
+    /// The path of the typed folder, as far as it is typed.
+    fn shown(&self) -> PathBuf {
+        beneath(&self.asked.0, &self.asked.1)
     }
 
     /// The path of the typed folder.
@@ -157,7 +160,7 @@ impl Browser {
     fn above(&self) -> PathBuf {
         match &self.listing {
             Some(Listing { folder, .. }) => folder.parent().unwrap_or(folder).to_owned(),
-            None => beneath(&self.asked.0, &self.asked.1).join(".."),
+            None => self.shown().join(".."),
         }
     }
 
@@ -191,11 +194,8 @@ impl Browser {
         self.refit();
     }
 
-    /// Shows a listing if it belongs to the present folder. Returns whether Enter waits for it.
+    /// Shows a listing. Returns whether Enter waits for it.
     fn take(&mut self, listing: Listing) -> bool {
-        if listing.asked != self.asked {
-            return false;
-        }
         let found: Vec<Entry> = listing.entries.iter().flatten().cloned().collect();
         self.listing = Some(listing);
         let up = Entry::up(self.above());
@@ -213,10 +213,10 @@ impl Browser {
     }
 
     /// Shows the cases in the folders below; a selection before them does not change.
-    fn take_below(&mut self, below: SearchResult) {
+    fn take_below(&mut self, asked: Asked, cases: Vec<Entry>) {
         let before = Some(self.selected).filter(|_| self.source() == Some(Folder));
-        self.sought = Some((below.asked, true));
-        self.show(Below, below.cases);
+        self.sought = Some((asked, true));
+        self.show(Below, cases);
         self.selected = before.unwrap_or(self.selected);
     }
 

@@ -116,7 +116,7 @@ impl Dialog for Question {
     fn draw(&self, app: &App, buffer: &mut Buffer) -> Option<Position> {
         let lines = self.lines(app);
         let inner = app.frame(self.title, extent(&lines), buffer);
-        Text::from_iter(lines.iter().cloned()).render(inner, buffer);
+        lines.iter().cloned().collect::<Text<'_>>().render(inner, buffer);
         let buttons = self.buttons.iter().enumerate().flat_map(|(at, (name, _))| {
             let button = if at == self.selected {
                 Span::styled(format!("[> {name} <]"), app.look.theme.key)

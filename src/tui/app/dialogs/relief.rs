@@ -92,21 +92,19 @@ impl ReliefDialog {
                 Err(NoRelief::Refused(Refusal::Stopped)) => return None,
                 Err(none) => Err(none.to_string()),
             };
-            Some((demand, found))
+            Some(found)
         };
-        Some(Work::new(Slot::Relief, search, |app, (demand, found)| {
+        Some(Work::new(Slot::Relief, search, |app, found| {
             if let Some(Prompt::Relief(dialog)) = app.prompts.last_mut() {
-                dialog.take(&demand, found);
+                dialog.take(found);
             }
         }))
     }
 
-    /// Shows the result of the search for a demand.
-    fn take(&mut self, demand: &Demand, found: Result<Box<Specification>, String>) {
-        if Some(demand) == self.searched.as_ref() {
-            (self.selected, self.top) = (found.as_ref().map_or(0, |found| found.best), 0);
-            self.answer = Some(found);
-        }
+    /// Shows the result of the search.
+    fn take(&mut self, found: Result<Box<Specification>, String>) {
+        (self.selected, self.top) = (found.as_ref().map_or(0, |found| found.best), 0);
+        self.answer = Some(found);
     }
 
     /// Whether the last search is for the typed demand.
@@ -198,7 +196,8 @@ impl Dialog for ReliefDialog {
             let row = |at: usize| rows[at + 1].clone();
             Window { count, selected: Some(self.selected), area: list }.draw(row, theme, buffer);
         }
-        Text::from_iter(self.lines(app).into_iter().skip(self.top)).render(below, buffer);
+        let lines = self.lines(app).into_iter().skip(self.top);
+        lines.collect::<Text<'_>>().render(below, buffer);
         let is_stale = self.answer.is_some() && !self.is_searched();
         if is_stale {
             for area in [head, list, below] {

@@ -635,16 +635,13 @@ pub(crate) fn draw(charts: Charts<'_>, buffer: &mut Buffer) -> Vec<Plot> {
     let areas = Layout::vertical(vec![Constraint::Fill(1); all.len()]).split(charts.area());
     let stale = if charts.0.tab.shows_last_valid() { "LAST VALID, " } else { "" };
     let draw = |(at, (shown, area)): (usize, (Shown, &Rect))| {
-        let inner = match at {
-            0 => {
-                let title = format!("{stale}{}", shown.title);
-                charts.0.draw_title(Pane::Chart, &title, buffer).intersection(*area)
-            }
-            _ => {
-                let theme = charts.0.look.theme;
-                let title = text::titled(None, &shown.title, theme.title, area.width, theme);
-                text::framed(&title, *area, buffer)
-            }
+        let inner = if at == 0 {
+            let title = format!("{stale}{}", shown.title);
+            charts.0.draw_title(Pane::Chart, &title, buffer).intersection(*area)
+        } else {
+            let theme = charts.0.look.theme;
+            let title = text::titled(None, &shown.title, theme.title, area.width, theme);
+            text::framed(&title, *area, buffer)
         };
         shown.draw(charts, inner, buffer)
     };

@@ -216,7 +216,7 @@ fn draw_line(app: &App, index: usize, line: Rect, buffer: &mut Buffer) -> Option
     let of_label = of_label.min(rest.saturating_sub(of_value));
     let widths = [Length(MARKS), Length(of_symbol), Length(of_label), Fill(1), Length(end)];
     let [marks, of_symbol, of_label, area, end] = line.layout(&Layout::horizontal(widths));
-    let unsaved = if rows::differs(case, &app.tab.saved, index) { "*" } else { "" };
+    let unsaved = if rows::differs(case, app.tab.document.loaded(), index) { "*" } else { "" };
     let marked = [Span::styled(mark, of_mark), Span::styled(unsaved, theme.note)];
     Line::from_iter(marked).render(marks, buffer);
     Span::styled(verdict, of_verdict).render(end, buffer);

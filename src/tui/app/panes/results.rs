@@ -157,9 +157,9 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
             let text = format!("{}{} ", " ".repeat(gap), text::padded(text, width - gap));
             Span::styled(text, style)
         });
-        Line::from_iter([mark].into_iter().chain(cells)).style(base)
+        [mark].into_iter().chain(cells).collect::<Line<'_>>().style(base)
     });
-    Text::from_iter(lines).render(body, buffer);
+    lines.collect::<Text<'_>>().render(body, buffer);
 }
 
 /// A sentence above the table.
@@ -259,7 +259,7 @@ fn sentences(app: &App) -> Vec<Sentence> {
         }
         let place = if has_fault { Place::Room } else { Place::Pane };
         let age = if app.tab.shows_last_valid() { "LAST VALID: " } else { "" };
-        let is_pending = answer.strikes() && answer.lacks(Stage::Clearing);
+        let is_pending = answer.strikes() && app.tab.lacks(Stage::Clearing);
         let verdict = digest::sentence(solution, app.settings.units, is_pending);
         add(format!("{age}{verdict}"), fresh(theme.focus), place);
         let figures = [differing(answer, solution), digest::whine(solution)];

@@ -412,7 +412,8 @@ fn draw_page(app: &App, shown: &StudyResults, inner: Rect, buffer: &mut Buffer) 
     }
     let top = top(app, shown);
     let page = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
-    Text::from_iter(shown.page[top..].iter().map(String::as_str)).render(page, buffer);
+    let lines = shown.page[top..].iter().map(String::as_str);
+    lines.collect::<Text<'_>>().render(page, buffer);
     text::scroll_bar_beside(top, shown.page.len(), page, buffer);
 }
 
