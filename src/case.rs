@@ -15,7 +15,7 @@ pub mod units;
 use std::sync::Arc;
 
 use crate::model::inputs::Method;
-use crate::model::{Inputs, QUANTITIES, Quantity};
+use crate::model::{Inputs, Quantity};
 pub use changes::Change;
 pub use changes::{Override, Variant};
 pub use check::{MISSING, NEWER_FORMAT, Problem};
@@ -211,7 +211,7 @@ impl Case {
     pub fn write_limit(&mut self, quantity: &'static Quantity, text: &str) {
         let unread = Limit { quantity, text: text.to_owned(), value: f64::INFINITY, of: None };
         let limit = Limit::new(quantity.key, text).unwrap_or(unread);
-        keep(&mut self.limits, limit, |held| held.quantity == quantity);
+        keep(&mut self.limits, Some(limit), |held| held.quantity == quantity);
     }
 
     /// Writes the distribution of a field, as [`Case::write_limit`] writes a limit.
@@ -219,7 +219,7 @@ impl Case {
         let unread =
             Spread { field, text: text.to_owned(), shape: spread::Shape::Normal, width: 0.0 };
         let spread = Spread::new(field, text).unwrap_or(unread);
-        keep(&mut self.spread, spread, |held| held.field == field);
+        keep(&mut self.spread, Some(spread), |held| held.field == field);
     }
 
     /// Removes the empty limits and distributions except that of the named quantity or field.
@@ -272,11 +272,8 @@ impl Case {
 
     /// Writes a text of the table `[about]`. An empty text removes the key.
     fn write_about(&mut self, name: &str, text: &str) {
-        if text.is_empty() {
-            self.about.retain(|held| held.0 != name);
-        } else {
-            keep(&mut self.about, (name.to_owned(), text.to_owned()), |held| held.0 == name);
-        }
+        let new = (!text.is_empty()).then(|| (name.to_owned(), text.to_owned()));
+        keep(&mut self.about, new, |held| held.0 == name);
     }
 
     /// Whether two keys exclude each other.
@@ -292,20 +289,19 @@ impl Case {
     /// # Errors
     /// If the quantity does not exist, or the text is not a value of the quantity.
     pub fn set_limit(&mut self, quantity: &str, text: &str) -> Result<(), Problem> {
-        if text.is_empty() && QUANTITIES.iter().any(|known| known.key == quantity) {
-            self.limits.retain(|limit| limit.quantity.key != quantity);
-            return Ok(());
-        }
-        keep(&mut self.limits, Limit::new(quantity, text)?, |held| held.quantity.key == quantity);
+        let is_removed = text.is_empty() && Quantity::find(quantity).is_some();
+        let new = (!is_removed).then(|| Limit::new(quantity, text)).transpose()?;
+        keep(&mut self.limits, new, |held| held.quantity.key == quantity);
         Ok(())
     }
 }
 
-/// Replaces the entry that is the same, or adds the new entry.
-fn keep<T>(entries: &mut Vec<T>, new: T, is_same: impl Fn(&T) -> bool) {
-    match entries.iter_mut().find(|held| is_same(held)) {
-        Some(held) => *held = new,
-        None => entries.push(new),
+/// Replaces the entry that is the same, or adds the new entry; without one, removes the entry.
+fn keep<T>(entries: &mut Vec<T>, new: Option<T>, is_same: impl Fn(&T) -> bool) {
+    match (entries.iter().position(is_same), new) {
+        (Some(at), Some(new)) => entries[at] = new,
+        (Some(at), None) => drop(entries.remove(at)),
+        (None, new) => entries.extend(new),
     }
 }
 

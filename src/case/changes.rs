@@ -84,11 +84,8 @@ impl Case {
     }
 
     fn set_spread(&mut self, field: &str, text: &str) -> Result<(), Problem> {
-        if text.is_empty() {
-            self.spread.retain(|held| held.field != field);
-            return Ok(());
-        }
-        keep(&mut self.spread, Spread::new(field, text)?, |held| held.field == field);
+        let new = (!text.is_empty()).then(|| Spread::new(field, text)).transpose()?;
+        keep(&mut self.spread, new, |held| held.field == field);
         Ok(())
     }
 }
