@@ -238,7 +238,7 @@ impl Case {
     /// Adds a variant to the case, or replaces the variant with the same name.
     pub fn keep_variant(&mut self, variant: Variant) {
         let name = variant.name.clone();
-        keep(&mut self.variants, variant, |known| known.name == name);
+        keep(&mut self.variants, Some(variant), |known| known.name == name);
     }
 
     /// Writes or removes an override by its key after `variants.`, such as
@@ -249,11 +249,9 @@ impl Case {
         Variant::check_name(name)?;
         let known = self.variants.iter().find(|variant| variant.name == name);
         let mut overrides = known.map_or_else(Vec::new, |variant| variant.overrides.clone());
-        overrides.retain(|change| change.key != key);
-        if let Some(text) = text {
-            Case::empty().apply(key, Some(text))?;
-            overrides.push(Override { key: key.to_owned(), text: text.to_owned() });
-        }
+        Case::empty().apply(key, text)?;
+        let new = text.map(|text| Override { key: key.to_owned(), text: text.to_owned() });
+        keep(&mut overrides, new, |change| change.key == key);
         self.keep_variant(Variant::new(name, overrides));
         self.variants.retain(|variant| !variant.overrides.is_empty());
         Ok(())
