@@ -254,24 +254,23 @@ pub(super) fn samples(study: &Tolerance, summary: &Summary) -> String {
 pub(super) fn distributions(case: &Case) -> Vec<(&'static str, String)> {
     let (inputs, _) = case.read();
     let of = |spread: &Spread| {
-        let field = index_of(spread.field);
-        let given = field.and_then(|field| case.effective(field)).unwrap_or_default();
+        let field = index_of(spread.field).unwrap_or_default();
+        let shown = |value: f64| {
+            let (number, unit) = units::shown(value, FIELDS[field].usual_unit(), 5, System::Metric);
+            format!("{number} {unit}")
+        };
         // The case leaves the field out, and its value follows from others.
-        let derived = field.and_then(|field| {
-            let shown = |value: f64| {
-                let (number, unit) =
-                    units::shown(value, FIELDS[field].usual_unit(), 5, System::Metric);
-                format!("{number} {unit}")
-            };
-            let (own, drawn) = (case.derived(field, &inputs)?, centre(field, case, &inputs)?);
-            let by_grade = || format!(" (without samples {}, by the grade)", shown(own));
-            let is_own = own.total_cmp(&drawn).is_eq();
-            Some(shown(drawn) + &if is_own { String::new() } else { by_grade() })
-        });
-        let value = derived.unwrap_or_else(|| sanitize(given));
-        let idle = match index_of(spread.field).map(|field| relevance(field, &inputs)) {
-            Some(Acting::No(why) | Acting::Beside(why)) => format!("; changes nothing: {why}"),
-            _ => String::new(),
+        let derived = case.derived(field, &inputs).zip(centre(field, case, &inputs));
+        let value = match derived {
+            None => sanitize(case.effective(field).unwrap_or_default()),
+            Some((own, drawn)) if own.total_cmp(&drawn).is_eq() => shown(drawn),
+            Some((own, drawn)) => {
+                format!("{} (without samples {}, by the grade)", shown(drawn), shown(own))
+            }
+        };
+        let idle = match relevance(field, &inputs) {
+            Acting::No(why) | Acting::Beside(why) => format!("; changes nothing: {why}"),
+            Acting::Yes => String::new(),
         };
         (spread.field, format!("{value}, {}{idle}", sanitize(&spread.text)))
     };
