@@ -200,6 +200,18 @@ pub fn shown_with(quantity: &Quantity, value: f64, unit: &'static str) -> Shown 
     Shown { number: units::counted(value, unit, quantity.digits), unit: units::named(unit) }
 }
 
+/// The values of a quantity as numbers in one unit, and this unit; `None` without any value.
+fn numbers(
+    quantity: &Quantity,
+    values: &[Option<f64>],
+) -> Option<(Vec<Option<String>>, &'static str)> {
+    let unit = common_unit(quantity, values.iter().copied().flatten(), System::Metric);
+    let shown = |value| shown_with(quantity, value, unit);
+    let last = shown(*values.iter().flatten().last()?);
+    let number = |value: &Option<f64>| value.map(|value| shown(value).number);
+    Some((values.iter().map(number).collect(), last.unit))
+}
+
 /// The value of a quantity in SI, if any: finite, and zero without a sign.
 pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
     quantity.finite_value(solution)

@@ -2,7 +2,7 @@
 //! verdict, the inputs, the main results and charts; the appendix has the rest.
 
 use super::data::{self, verdict};
-use super::{Report, case_notes, common_unit, groups, is_default, shown_with, value};
+use super::{Report, case_notes, common_unit, groups, is_default, numbers, shown_with, value};
 use crate::case::fields::{Absent, index_of};
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
@@ -392,17 +392,11 @@ fn results(cases: &[PageCase]) -> (Table, Vec<Table>) {
     };
     let row = |quantity: &'static Quantity| {
         let values = cases.iter().map(|case| value(quantity, &case.report.solution));
-        let given = values.clone().flatten();
-        let unit = common_unit(quantity, given.clone(), System::Metric);
-        let shown_unit = shown_with(quantity, given.last()?, unit).unit;
-        let shown = |value: Option<f64>| {
-            value.map_or(Cell::None("–".into()), |value| {
-                shown_with(quantity, value, unit).number.into()
-            })
-        };
+        let (texts, unit) = numbers(quantity, &values.collect::<Vec<_>>())?;
+        let texts = texts.into_iter().map(|text| text.map_or(Cell::None("–".into()), Cell::Text));
         let names = [quantity.label_in(method).trim(), quantity.symbol_in(method)].map(Cell::from);
-        let source = [shown_unit, quantity.equation].map(Cell::from);
-        Some(names.into_iter().chain(values.map(shown)).chain(source).collect())
+        let source = [unit, quantity.equation].map(Cell::from);
+        Some(names.into_iter().chain(texts).chain(source).collect())
     };
     let all = groups(method)
         .into_iter()
