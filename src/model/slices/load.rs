@@ -14,8 +14,8 @@ use std::f64::consts::TAU;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// Tolerances of greatest values: finer ones are lost among the errors of the slices.
-pub(super) const PRECISION: (f64, f64) = (1e-5, 1e-8);
+/// Tolerance of greatest values: finer ones are lost among the errors of the slices.
+pub(super) const PRECISION: f64 = 1e-8;
 
 /// Number of places in a base pitch at which the load is solved.
 const STEPS: usize = 64;
