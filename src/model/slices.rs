@@ -51,22 +51,25 @@ impl Slice {
     /// The slice from one place to another.
     fn between(inputs: &FaceInputs, z: f64, [from, to]: [f64; 2]) -> Slice {
         let (slice, width) = (Slice::at(inputs, z), to - from);
-        // Simpson's rule: a flank line is a parabola at most, and bends at z alone.
-        let mean = |of: &dyn Fn(f64) -> f64| {
-            let half = |end: f64| {
-                (z - end).abs() * (of(z) + 4.0 * of(f64::midpoint(z, end)) + of(end)) / 6.0
-            };
-            (half(from) + half(to)) / width
-        };
         Slice {
             width,
             borders: [from, to].map(|end| inputs.lead * end),
-            mean_gap: mean(&|z| inputs.gap(z)),
+            mean_gap: mean(z, [from, to], |z| inputs.gap(z)),
             border_gaps: [from, to].map(|end| inputs.gap(end)),
-            ends: [0, 1].map(|gear| mean(&|z| inputs.end_factor(gear, z))),
+            ends: [0, 1].map(|gear| mean(z, [from, to], |z| inputs.end_factor(gear, z))),
             ..slice
         }
     }
+}
+
+/// Mean of a function between two places by Simpson's rule: a flank line is a parabola at most, and
+/// bends at the middle z of a slice alone.
+fn mean(z: f64, [from, to]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
+    let bend = z.clamp(from.min(to), from.max(to));
+    let part = |end: f64| {
+        (bend - end).abs() * (of(bend) + 4.0 * of(f64::midpoint(bend, end)) + of(end)) / 6.0
+    };
+    (part(from) + part(to)) / (to - from).abs()
 }
 
 /// The face width of a mesh in slices.

@@ -396,18 +396,20 @@ impl Face {
             cuts[1..].reverse();
         }
         cuts.push((to, other));
-        let [first, last] = slice.border_gaps;
+        let [first, last] = slice.borders.map(|border| border / self.inputs.lead);
+        let gap = |z: f64| self.inputs.gap(z);
         let side = |ends: &[(f64, [f64; 6])]| {
             let ((start, one), (end, other)) = (ends[0], ends[1]);
             let of_side = means(&one, &other, end - start);
             let parts = [start, end].map(|place| (place - from) / way);
-            let gaps = parts.map(|part| first + part * (last - first));
+            let ends = parts.map(|part| first + part * (last - first));
+            let (gaps, mean_gap) = (ends.map(gap), super::mean(slice.z, ends, gap));
             Side {
                 part: parts[1] - parts[0],
                 middle: parts[0] + parts[1] - 1.0,
-                mean: of_side[0] - mean + f64::midpoint(gaps[0], gaps[1]) - slice.mean_gap,
+                mean: of_side[0] - mean + mean_gap - slice.mean_gap,
                 rise: other[0] - one[0] + gaps[1] - gaps[0],
-                bend: bend([one[0], other[0]], of_side[0]),
+                bend: bend([one[0] + gaps[0], other[0] + gaps[1]], of_side[0] + mean_gap),
                 ratio: local / self.compliances(slice, &of_side)[0],
             }
         };
