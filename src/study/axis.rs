@@ -6,7 +6,7 @@ use crate::case::{Case, Problem, field_value, unknown_key};
 use crate::model::Inputs;
 use crate::model::inputs::Method;
 use crate::numeric::decimal::{rounded, shortest};
-use crate::study::batch::{Points, with_unit};
+use crate::study::batch::{Points, Writer, with_unit};
 
 /// Default number of points of a range.
 pub const USUAL_POINTS: usize = 101;
@@ -432,11 +432,13 @@ impl Points for Grid {
         self.places(index).flat_map(of).collect()
     }
 
-    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
-        for (axis, at) in self.places(index) {
-            axis.fields().for_each(|field| axis.points[at].put(field, inputs));
-        }
-        Ok(())
+    fn writer(&self) -> Writer<'_> {
+        Box::new(|index, inputs| {
+            for (axis, at) in self.places(index) {
+                axis.fields().for_each(|field| axis.points[at].put(field, inputs));
+            }
+            Ok(())
+        })
     }
 }
 

@@ -24,6 +24,9 @@ pub fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
 }
 
+/// See [`Points::writer`].
+pub type Writer<'a> = Box<dyn FnMut(usize, &mut Inputs) -> Result<(), Problem> + 'a>;
+
 /// The points of a study.
 pub trait Points: Sync {
     /// The number of points.
@@ -47,11 +50,9 @@ pub trait Points: Sync {
         Vec::new()
     }
 
-    /// Writes the values of a point into inputs of the case or of another point.
-    ///
-    /// # Errors
-    /// Returns an error if a field does not accept its value.
-    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem>;
+    /// A function that writes the values of a point into inputs of the case or of another point. It
+    /// returns an error if a field does not accept its value.
+    fn writer(&self) -> Writer<'_>;
 }
 
 /// A study: one case, its points, and the quantities to compute at each.
@@ -217,6 +218,7 @@ pub fn jobs(wanted: Option<usize>) -> usize {
 /// Solves points one after the other; a stage with unchanged inputs reuses its result.
 struct PointSolver<'a> {
     batch: &'a Batch<'a>,
+    write: Writer<'a>,
     inputs: Inputs,
     evaluator: Evaluator,
     wanted: Stages,
@@ -227,6 +229,7 @@ impl<'a> PointSolver<'a> {
         let stages = batch.quantities.iter().map(|quantity| Stages::of(quantity.stage));
         PointSolver {
             batch,
+            write: batch.points.writer(),
             // No quantity reads the stations.
             inputs: Inputs { stations: Some(1), ..batch.inputs.clone() },
             evaluator: Evaluator::default(),
@@ -251,9 +254,8 @@ impl<'a> PointSolver<'a> {
     /// The row of a solved point. A quantity that is absent refuses the point as it refuses a
     /// plain solve.
     fn row(&mut self, index: usize, goes_on: &dyn Fn() -> bool) -> Result<Row, Problem> {
-        let Batch { points, quantities, .. } = *self.batch;
-        let inputs = &mut self.inputs;
-        points.put(index, inputs)?;
+        let (quantities, inputs) = (self.batch.quantities, &mut self.inputs);
+        (self.write)(index, inputs)?;
         inputs.stations = Some(1);
         if let Some(problem) = violated_rule(inputs) {
             return Err(problem);

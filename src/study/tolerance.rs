@@ -8,12 +8,13 @@ use crate::model::inputs::{Combination, Gear};
 use crate::model::{Inputs, Outcome, Quantity};
 use crate::numeric::decimal::{shortest, significant};
 use crate::study::batch::{
-    Batch, Control, PointOutcome, Points, Refusals, Row, Stopped, solve_all, with_unit,
+    Batch, Control, PointOutcome, Points, Refusals, Row, Stopped, Writer, solve_all, with_unit,
 };
 use crate::study::seek::{distinct, headline};
 use crate::study::statistics::{Estimate, Figures, Indices, Ranked, figures, indices, probability};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use smallvec::SmallVec;
 use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Default number of samples.
@@ -268,6 +269,9 @@ pub struct Design {
     pub ranked: usize,
 }
 
+/// The values of a point.
+pub type Values = SmallVec<[f64; 8]>;
+
 /// The role of a point of a design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Member {
@@ -304,29 +308,43 @@ impl Design {
     }
 
     /// The values of a point in SI, in the order of the distributions.
-    pub fn values(&self, index: usize) -> Vec<f64> {
+    pub fn values(&self, index: usize) -> Values {
+        self.draw(index, &mut self.streams())
+    }
+
+    fn draw(&self, index: usize, [first, second]: &mut [ChaCha8Rng; 2]) -> Values {
         match self.member(index) {
-            Member::Sample(number) => self.sample(0, number),
-            Member::Second(number) => self.sample(1, number),
+            Member::Sample(number) => self.sample(first, number),
+            Member::Second(number) => self.sample(second, number),
             Member::Swapped(number, field) => {
-                let mut values = self.sample(0, number);
-                values[field] = self.sample(1, number)[field];
+                let mut values = self.sample(first, number);
+                values[field] = self.sample(second, number)[field];
                 values
             }
         }
     }
 
-    /// The values of a sample from its own position in a stream of random numbers, so that they do
-    /// not depend on the order of reading. Only the ranking reads the second stream.
-    fn sample(&self, stream: u64, number: usize) -> Vec<f64> {
+    /// The streams of random numbers of the samples and of the second samples.
+    fn streams(&self) -> [ChaCha8Rng; 2] {
+        let mut key = [0; 32];
+        key[..8].copy_from_slice(&self.seed.to_le_bytes());
+        [0, 1].map(|stream| {
+            let mut random = ChaCha8Rng::from_seed(key);
+            random.set_stream(stream);
+            random
+        })
+    }
+
+    /// The values of a sample from its own position in a stream, so that they do not depend on the
+    /// order of reading.
+    fn sample(&self, random: &mut ChaCha8Rng, number: usize) -> Values {
         /// Words of 32 bits that a value reads.
         const WORDS: usize = 2;
         const STEPS: f64 = (1_u64 << 53) as f64;
-        let mut key = [0; 32];
-        key[..8].copy_from_slice(&self.seed.to_le_bytes());
-        let mut random = ChaCha8Rng::from_seed(key);
-        random.set_stream(stream);
-        random.set_word_pos((WORDS * number * self.distributions.len()) as u128);
+        let position = (WORDS * number * self.distributions.len()) as u128;
+        if random.get_word_pos() != position {
+            random.set_word_pos(position);
+        }
         // Above 0 and below 1, from 53 random bits.
         let mut part = || ((random.next_u64() >> 11) as f64 + 0.5) / STEPS;
         self.distributions.iter().map(|one| one.quantile(part())).collect()
@@ -379,21 +397,24 @@ impl Points for Design {
         [number.to_string(), set].into_iter().chain(values).collect()
     }
 
-    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
-        if self.draws_known_deviations() {
-            inputs.combination = Combination::Sum;
-        }
-        for (distribution, value) in self.distributions.iter().zip(self.values(index)) {
-            let (from, to) = distribution.range;
-            if value < from || value > to {
-                let range = FIELDS[distribution.field].range_text();
-                let cause = format!("the sample is outside the range {range}");
-                let fix = "use a narrower distribution";
-                return Err(Problem::new(distribution.key(), cause, fix));
+    fn writer(&self) -> Writer<'_> {
+        let (mut streams, is_known) = (self.streams(), self.draws_known_deviations());
+        Box::new(move |index, inputs| {
+            if is_known {
+                inputs.combination = Combination::Sum;
             }
-            distribution.put(value, inputs);
-        }
-        Ok(())
+            for (drawn, value) in self.distributions.iter().zip(self.draw(index, &mut streams)) {
+                let (from, to) = drawn.range;
+                if value < from || value > to {
+                    let range = FIELDS[drawn.field].range_text();
+                    let cause = format!("the sample is outside the range {range}");
+                    let fix = "use a narrower distribution";
+                    return Err(Problem::new(drawn.key(), cause, fix));
+                }
+                drawn.put(value, inputs);
+            }
+            Ok(())
+        })
     }
 }
 

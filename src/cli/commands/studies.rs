@@ -104,7 +104,7 @@ fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
         return Vec::new();
     }
     // The values of a grid are checked when it is made.
-    drop(grid.put(0, &mut inputs));
+    drop(grid.writer()(0, &mut inputs));
     let fields = grid.axes.iter().flat_map(Axis::fields);
     fields.filter_map(|field| opened.without_effect(field, &inputs)).collect()
 }

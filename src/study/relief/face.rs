@@ -7,10 +7,9 @@ use super::search::{KINDS, LEAST};
 use super::{
     AMOUNT_STEP, Criterion, MOST_AMOUNT, NoRelief, SEARCH, TipReliefs, WholeSolves, decimal, loaded,
 };
-use crate::case::Problem;
 use crate::model::inputs::ReliefShape;
 use crate::model::{Inputs, Outcome, Quantity, Refusal};
-use crate::study::batch::{Batch, Control, PointOutcome, Points, Row, solve_all};
+use crate::study::batch::{Batch, Control, PointOutcome, Points, Row, Writer, solve_all};
 
 /// Amount on both gears and crowning in um, length in steps: the axes of the search.
 type Place = [i32; 3];
@@ -41,10 +40,12 @@ impl Points for Trials<'_> {
         self.all.len()
     }
 
-    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
-        let (reliefs, load, misalignment) = self.all[index];
-        *inputs = Inputs { misalignment, ..reliefs.of(&loaded(self.inputs, load)) };
-        Ok(())
+    fn writer(&self) -> Writer<'_> {
+        Box::new(|index, inputs| {
+            let (reliefs, load, misalignment) = self.all[index];
+            *inputs = Inputs { misalignment, ..reliefs.of(&loaded(self.inputs, load)) };
+            Ok(())
+        })
     }
 }
 
