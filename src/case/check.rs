@@ -480,7 +480,7 @@ impl Height<'_> {
         let cause = format!(
             "{given} mm gives the {label} coefficient {value}, {side} the limit of {limit}"
         );
-        let shifted = f64::from(gear.teeth) / inputs.helix_angle.cos() + 2.0 * gear.profile_shift;
+        let shifted = f64::from(gear.teeth) / inputs.helix_cosine() + 2.0 * gear.profile_shift;
         let at = |coefficient: f64| in_mm(inputs.module * (shifted + 2.0 * sign * coefficient));
         let (least, most) = (at(from).min(at(to)), at(from).max(at(to)));
         let fix = format!("write a diameter from {least} to {most} mm");
@@ -490,7 +490,7 @@ impl Height<'_> {
     fn bore_through_root(&self, inputs: &Inputs) -> Option<Problem> {
         let gear = self.gear;
         let height = gear.profile_shift - inputs.dedendum_of(gear);
-        let half_teeth = f64::from(gear.teeth) / (2.0 * inputs.helix_angle.cos());
+        let half_teeth = f64::from(gear.teeth) / (2.0 * inputs.helix_cosine());
         let root = inputs.module * (half_teeth + height);
         (!self.is_tip && gear.bore_radius >= root).then(|| {
             let (bore, root) = (in_mm(gear.bore_radius), in_mm(root));

@@ -395,7 +395,7 @@ fn root_diameter(inputs: &Inputs, gear: &Gear) -> Option<f64> {
 
 /// The diameter of a circle at a height above the reference circle, times the normal module.
 fn diameter(inputs: &Inputs, gear: &Gear, height: f64) -> f64 {
-    let teeth = f64::from(gear.teeth) / inputs.helix_angle.cos();
+    let teeth = f64::from(gear.teeth) / inputs.helix_cosine();
     inputs.module * (teeth + 2.0 * height)
 }
 

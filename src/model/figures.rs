@@ -120,7 +120,7 @@ impl IsoStiffness {
         );
         let dedendums = gears.map(|gear| inputs.dedendum_of(gear));
         let rack = rack_factor(dedendums, inputs.pressure_angle);
-        let single = single_stiffness(theoretical, rack, inputs.helix_angle.cos())
+        let single = single_stiffness(theoretical, rack, inputs.helix_cosine())
             * ratio
             * low_load(line_load);
         IsoStiffness { theoretical, rack, single, mesh: mesh_stiffness(single, contact_ratio) }

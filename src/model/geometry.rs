@@ -346,7 +346,7 @@ impl Inputs {
 
     /// Shape of a gear of the pair in the transverse section, where m_t x_t = m_n x.
     pub fn gear_shape(&self, gear: &Gear) -> GearShape {
-        let cosine = self.helix_angle.cos();
+        let cosine = self.helix_cosine();
         GearShape {
             teeth: gear.teeth,
             profile_shift: gear.profile_shift * cosine,

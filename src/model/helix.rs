@@ -28,7 +28,7 @@ impl Inputs {
     /// Virtual number of teeth of a gear, z_n = z/(cos² β_b cos β).
     pub fn virtual_teeth(&self, gear: &Gear) -> f64 {
         let across = self.base_helix_angle().cos();
-        f64::from(gear.teeth) / (across * across * self.helix_angle.cos())
+        f64::from(gear.teeth) / (across * across * self.helix_cosine())
     }
 
     /// Helical geometry; `None` for a spur pair.

@@ -453,15 +453,20 @@ impl Inputs {
         last - first
     }
 
+    /// cos β.
+    pub fn helix_cosine(&self) -> f64 {
+        if self.helix_angle == 0.0 { 1.0 } else { self.helix_angle.cos() }
+    }
+
     /// Transverse module m_t = m_n/cos β, in m.
     pub fn transverse_module(&self) -> f64 {
-        self.module / self.helix_angle.cos()
+        self.module / self.helix_cosine()
     }
 
     /// Transverse pressure angle, tan α_t = tan α_n/cos β, in rad.
     pub fn transverse_pressure_angle(&self) -> f64 {
         if self.helix_angle > 0.0 {
-            (self.pressure_angle.tan() / self.helix_angle.cos()).atan()
+            (self.pressure_angle.tan() / self.helix_cosine()).atan()
         } else {
             self.pressure_angle
         }

@@ -270,7 +270,7 @@ impl Rack {
             teeth: gear.teeth,
             profile_shift: shape.profile_shift,
             dedendum: shape.dedendum,
-            rounding: RACK_ROUNDING * inputs.helix_angle.cos() * steeper,
+            rounding: RACK_ROUNDING * inputs.helix_cosine() * steeper,
         }
     }
 

@@ -116,7 +116,9 @@ pub(crate) fn solve_by_method(
         ran: Stages::NONE,
     };
     let lazy = Lazy::default();
-    let mut solution = run.begin(&lazy)?;
+    let (geometry, mesh_force, kept) = run.begin(&lazy)?;
+    let mut solution = Solution::new(inputs.method, geometry, mesh_force, kept);
+    solution.helix = inputs.helix(&geometry, mesh_force);
     let figures = || {
         let Solution { geometry, mesh_force, reduced_mass, .. } = &solution;
         Ok(Figures::of(inputs, geometry, *mesh_force, *reduced_mass))
@@ -188,7 +190,7 @@ impl<'a> Run<'a> {
     }
 
     /// Geometry, load, masses and deviation.
-    fn begin(&mut self, lazy: &Lazy) -> Result<Solution, Refusal> {
+    fn begin(&mut self, lazy: &Lazy) -> Result<(Geometry, f64, Kept), Refusal> {
         let inputs = self.inputs;
         let geometry =
             self.result(Stage::Geometry, |s| Some(s.geometry), || lazy.geometry(inputs))?;
@@ -215,10 +217,7 @@ impl<'a> Run<'a> {
         };
         let deviation = || deviation(inputs, by_load);
         let deviation = self.result(Stage::Deviation, |s| Some(s.kept.deviation), deviation)?;
-        let kept = Kept { masses, deviation, hertz: Hertz::of(inputs) };
-        let mut solution = Solution::new(inputs.method, geometry, mesh_force, kept);
-        solution.helix = inputs.helix(&geometry, mesh_force);
-        Ok(solution)
+        Ok((geometry, mesh_force, Kept { masses, deviation, hertz: Hertz::of(inputs) }))
     }
 
     /// D and all later stages of the impact.
