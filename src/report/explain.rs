@@ -11,7 +11,7 @@ use crate::case::dependencies::{Dependence, fields_of, value_of};
 use crate::case::fields::index_of;
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::case::{Case, FIELDS};
+use crate::case::{Case, FIELDS, Field};
 use crate::model::compliance::model_of;
 use crate::model::explanation::{Context, Finding};
 use crate::model::impact::StiffnessModels;
@@ -298,44 +298,28 @@ fn effects_of(
     let own = value(quantity, known.context.solution);
     let own = if is_coarse { value_of(quantity, &fixed) } else { own };
     let [within, tolerance] = ["model.within", "model.tolerance"].map(index_of);
-    let by_auto = |dependence: Dependence| {
-        if known.context.given.method == Method::Auto && Some(dependence.field) == tolerance {
-            let step = None;
-            within.map(|field| Dependence { field, step })
-        } else {
-            Some(dependence)
-        }
-    };
+    let is_by_auto = known.context.given.method == Method::Auto;
     let noise = noise(quantity, &fixed);
-    fields_of(quantity, known.case, (&fixed, own), go_on)
-        .into_iter()
-        .filter_map(by_auto)
-        .map(|dependence| effect(quantity, &dependence, known, own, noise))
-        .collect()
-}
-
-fn effect(
-    quantity: &Quantity,
-    dependence: &Dependence,
-    known: &Known,
-    own: Option<f64>,
-    noise: f64,
-) -> Effect {
-    let (case, field) = (known.case, &FIELDS[dependence.field]);
-    let text = case.effective(dependence.field).map(sanitize).unwrap_or_default();
-    let step = dependence.step.as_ref();
-    let change = own.zip(step).map(|(own, step)| change(quantity, own, step.value, noise));
-    Effect {
-        key: field.key,
-        symbol: field.symbol,
-        text,
-        step: step.map(|step| step.text.to_owned()).unwrap_or_default(),
-        change: change.unwrap_or_default(),
-    }
+    let effect = |Dependence { field, step }: Dependence| {
+        let is_of_auto = is_by_auto && Some(field) == tolerance;
+        let (field, step) = if is_of_auto { (within?, None) } else { (field, step) };
+        let change = own.zip(step.as_ref());
+        let change = change.map(|(own, step)| change_of(quantity, own, step.value, noise));
+        let Field { key, symbol, .. } = FIELDS[field];
+        Some(Effect {
+            key,
+            symbol,
+            text: known.case.effective(field).map(sanitize).unwrap_or_default(),
+            step: step.map(|step| step.text.to_owned()).unwrap_or_default(),
+            change: change.unwrap_or_default(),
+        })
+    };
+    let fields = fields_of(quantity, known.case, (&fixed, own), go_on);
+    fields.into_iter().filter_map(effect).collect()
 }
 
 /// A change of the value, relative or in the unit of the quantity.
-fn change(quantity: &Quantity, own: f64, found: Option<f64>, noise: f64) -> String {
+fn change_of(quantity: &Quantity, own: f64, found: Option<f64>, noise: f64) -> String {
     let Some(found) = found else {
         return "no value".to_owned();
     };
