@@ -22,10 +22,9 @@ impl Specification {
     /// The specification with one of its choices: rows of tables of at most 80 columns, and
     /// unwrapped sentences.
     pub fn of_choice(&self, at: usize) -> Vec<String> {
-        let found = self;
-        let is_moving = found.method == Method::Dynamic;
-        let (figure, greatest) = (self.figure(), percent(found.demand.greatest_load()));
-        let within = match found.demand.minimise.worth() {
+        let is_moving = self.method == Method::Dynamic;
+        let (figure, greatest) = (self.figure(), percent(self.demand.greatest_load()));
+        let within = match self.demand.minimise.worth() {
             0.0 => "without force before E".to_owned(),
             worth => {
                 let (percent, least) = (100.0 * worth, self.criterion());
@@ -55,7 +54,7 @@ impl Specification {
                     "What each relief costs; TE at {} % of the load, contact ratio of the \
                      unrelieved flanks; within the tolerances: force before E, peak force, gap, \
                      load at which it closes",
-                    percent(found.loads[0])
+                    percent(self.loads[0])
                 ),
                 self.of_choices(&costs),
             ),
@@ -166,9 +165,8 @@ impl Specification {
 
     /// Margin, gain, cost and alternative of a choice.
     fn sentences(&self, at: usize) -> Vec<String> {
-        let found = self;
-        let (case, own) = (&found.choices[0], &found.choices[at]);
-        let greatest = found.demand.greatest_load();
+        let (case, own) = (&self.choices[0], &self.choices[at]);
+        let greatest = self.demand.greatest_load();
         let load = match own.greatest_load {
             Some(load) => format!("the load can rise to {:.1} %", 100.0 * floor(load)),
             None => {
@@ -188,7 +186,7 @@ impl Specification {
                 "C{contact}: the teeth overlap by {overlap} um at rest, the force before E is \
                  {entry} N."
             ),
-            true if found.is_over_face => format!("C{contact} after B."),
+            true if self.is_over_face => format!("C{contact} after B."),
             true => "Corner contact in motion within the tolerances.".to_owned(),
         }];
         if at > 0 {
@@ -201,7 +199,7 @@ impl Specification {
             let at_first = if at_first == over_loads {
                 String::new()
             } else {
-                format!(", at {} % of the load {at_first}", percent(found.loads[0]))
+                format!(", at {} % of the load {at_first}", percent(self.loads[0]))
             };
             lines.push(format!(
                 "The {} transmission error over the loads without deviations changes \
@@ -217,15 +215,15 @@ impl Specification {
                 ));
             }
         }
-        let ratio = own.reliefs.unloaded_contact_ratio(&found.geometry);
-        if ratio < 1.0 && !found.is_over_face {
+        let ratio = own.reliefs.unloaded_contact_ratio(&self.geometry);
+        if ratio < 1.0 && !self.is_over_face {
             lines.push(format!(
                 "The unrelieved flanks alone have a contact ratio of {ratio:.3}, below 1: under \
                  light load the pairs change on the reliefs."
             ));
         }
         lines.extend(self.alternative(own));
-        if found.is_cut {
+        if self.is_cut {
             lines.push("The search ended with its budget; a better relief may exist.".to_owned());
         }
         lines
@@ -320,12 +318,11 @@ impl Specification {
         let columns = numbers.map(|&(key, title, unit, shown, _)| {
             Column::number(key, title, unit, shown).wide(1, 0)
         });
-        let found = self;
-        let rows = found.choices.iter().enumerate().map(|(at, choice)| {
-            let best = if at == found.best { "true" } else { "false" };
+        let rows = self.choices.iter().enumerate().map(|(at, choice)| {
+            let best = if at == self.best { "true" } else { "false" };
             let texts = [choice.name, best, name(choice.reliefs.shape)].map(Cell::from);
             let numbers = self.numbers().iter().map(|(.., (shown, digits), of)| {
-                let Some(value) = of(found, choice) else { return Cell::None("-".into()) };
+                let Some(value) = of(self, choice) else { return Cell::None("-".into()) };
                 let text = match *shown {
                     "%" => format!("{:+.0} %", 100.0 * value),
                     "% load" => format!("{:.1} %", 100.0 * value),
@@ -351,7 +348,7 @@ impl Specification {
     /// One row per length: the figure of the transmission error by amount. The amounts are in one
     /// row, or in one per gear.
     fn map(&self) -> Table {
-        let (found, chosen) = (self, self.chosen().reliefs);
+        let chosen = self.chosen().reliefs;
         let near = |one: [f64; 2], other: [f64; 2]| (one[0] - other[0]).abs() < 1e-9;
         let cell = |point: &MapPoint| {
             let error =
@@ -360,7 +357,7 @@ impl Specification {
                 && near(point.reliefs.lengths, chosen.lengths);
             if is_chosen { format!("*{error}") } else { error }
         };
-        let points = found.map.first().map_or(&[][..], Vec::as_slice);
+        let points = self.map.first().map_or(&[][..], Vec::as_slice);
         let amounts = |at: usize| points.iter().map(move |point| um(point.reliefs.amounts[at]));
         let head = |name: &str, at: usize| {
             [format!("  amount{name}, um")].into_iter().chain(amounts(at)).collect::<Vec<_>>()
@@ -370,7 +367,7 @@ impl Specification {
         } else {
             (head(" driver", 0), Some(head(" driven", 1)))
         };
-        let rows = found.map.iter().map(|row| {
+        let rows = self.map.iter().map(|row| {
             let [driver, driven] = row[0].reliefs.lengths.map(mm);
             let both = if driver == driven { driver } else { format!("{driver}/{driven}") };
             [format!("  length {both} mm")].into_iter().chain(row.iter().map(cell)).collect()
@@ -429,7 +426,6 @@ impl Results for Specification {
     }
 
     fn json(&self) -> Json {
-        let found = self;
         // The reliefs have members of their own.
         let results: Vec<usize> = (7..3 + self.numbers().len()).collect();
         let results = self.choices().of(&results).objects();
@@ -446,26 +442,26 @@ impl Results for Specification {
             let relief = self.relief(&point.reliefs);
             json!({"relief": relief, "transmission_error": point.error, "margin": point.margin})
         };
-        let shares: Vec<f64> = found.demand.loads().into_iter().map(|(_, share)| share).collect();
-        let chosen = found.chosen();
+        let shares: Vec<f64> = self.demand.loads().into_iter().map(|(_, share)| share).collect();
+        let chosen = self.chosen();
         json!({
-            "method": found.method.name(),
-            "torque": found.torque,
-            "loads": found.loads,
-            "shares": (!found.demand.spectrum.is_empty()).then_some(shares),
-            "tolerance": found.demand.tolerance,
-            "tolerance_length": found.demand.tolerance_length,
-            "misalignment": found.is_over_face.then_some(found.demand.misalignment),
-            "minimise": found.demand.minimise.name(),
+            "method": self.method.name(),
+            "torque": self.torque,
+            "loads": self.loads,
+            "shares": (!self.demand.spectrum.is_empty()).then_some(shares),
+            "tolerance": self.demand.tolerance,
+            "tolerance_length": self.demand.tolerance_length,
+            "misalignment": self.is_over_face.then_some(self.demand.misalignment),
+            "minimise": self.demand.minimise.name(),
             "relief": self.relief(&chosen.reliefs),
             "margin": chosen.worst.gap,
             "greatest_load": chosen.greatest_load,
-            "unloaded_contact_ratio": chosen.reliefs.unloaded_contact_ratio(&found.geometry),
+            "unloaded_contact_ratio": chosen.reliefs.unloaded_contact_ratio(&self.geometry),
             "best": chosen.name,
-            "choices": found.choices.iter().zip(results).map(choice).collect::<Json>(),
-            "map": found.map.iter().flatten().map(point).collect::<Json>(),
-            "tries": found.tries,
-            "is_complete": !found.is_cut,
+            "choices": self.choices.iter().zip(results).map(choice).collect::<Json>(),
+            "map": self.map.iter().flatten().map(point).collect::<Json>(),
+            "tries": self.tries,
+            "is_complete": !self.is_cut,
         })
     }
 

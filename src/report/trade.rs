@@ -33,8 +33,7 @@ impl Results for Trade {
 
     /// SI units, seconds, relative errors, without absent values.
     fn json(&self) -> Json {
-        let trade = self;
-        let reference = trade.reference().ok().map(|Finest { setting, values, .. }| {
+        let reference = self.reference().ok().map(|Finest { setting, values, .. }| {
             let quantity = |subject: Subject| {
                 let key = subject.quantity(setting.method)?.key;
                 Some((key, json!(values[subject as usize])))
@@ -45,19 +44,19 @@ impl Results for Trade {
                 "contact_compliance": contact(setting),
                 "stations": stations(setting),
                 "tolerance": setting.tolerance,
-                "slices": slices(trade, setting),
+                "slices": slices(self, setting),
                 "quantities": sorted(Subject::ALL.into_iter().filter_map(quantity)),
             })
         });
-        let setting = |measured| setting(trade, measured);
+        let setting = |measured| setting(self, measured);
         json!({
-            "within": trade.within,
+            "within": self.within,
             "reference": reference,
             // Driver and driven gear; no other time includes them.
-            "field_seconds": trade.build.ok(),
-            "no_reference": trade.reference().err().map(|refusal| refusal.to_string()),
-            "settings": trade.settings.iter().map(setting).collect::<Json>(),
-            "recommended": trade.recommended().map(setting),
+            "field_seconds": self.build.ok(),
+            "no_reference": self.reference().err().map(|refusal| refusal.to_string()),
+            "settings": self.settings.iter().map(setting).collect::<Json>(),
+            "recommended": self.recommended().map(setting),
         })
     }
 }
