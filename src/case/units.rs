@@ -224,15 +224,6 @@ fn unit_wrong(unit: &str, dimension: Dimension) -> Problem {
             format!("{} is a unit of {}, not of {}", quoted(unit), bare(other), bare(dimension));
         return Problem::new("", cause, format!("use one of {fitting}"));
     }
-    let (known, after) =
-        unit.split_at(unit.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.').len());
-    if !after.is_empty() && find(known.trim_end(), units_of(dimension)).is_some() {
-        return Problem::new(
-            "",
-            format!("{after} after the unit"),
-            format!("write all digits before {}", known.trim_end()),
-        );
-    }
     let spellings = units_of(dimension)
         .iter()
         .flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases))
