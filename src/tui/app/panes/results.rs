@@ -485,17 +485,18 @@ pub(crate) fn variants_page(app: &App) -> usize {
 /// baseline if it differs.
 pub(crate) fn compared(app: &App, quantity: &'static Quantity) -> Option<String> {
     let answer = app.tab.answer.as_ref()?;
-    if let Some((variants, _)) = app.shown_variants() {
-        let own = value(answer, answer.active, quantity);
-        let unit = report::common_unit(quantity, own.into_iter(), app.settings.units);
-        let case = own.map(|own| report::shown_with(quantity, own, unit).to_string());
-        let of_variant = |(name, found): &(String, Result<Solution, String>)| {
-            let [value, by] = variant_cell(found, quantity, (own, answer.active, unit));
-            if by.is_empty() { format!("{name} {value}") } else { format!("{name} {value} ({by})") }
-        };
-        let variants: Vec<String> = variants.columns.iter().map(of_variant).collect();
-        let case = case.unwrap_or_else(|| NONE.to_owned());
-        return Some(format!("Case {case}; {}.", variants.join("; ")));
+    if app.shown_variants().is_some() {
+        let columns = columns(app, answer, &[quantity], &[quantity]);
+        let cell = |column: &Column| column.cells.last().cloned().unwrap_or_default();
+        let unit = columns.iter().find(|column| column.is_unit).map(cell).unwrap_or_default();
+        let numbers = columns.iter().filter(|column| column.is_number);
+        let words = numbers.map(|column| match (column.heading.as_str(), cell(column)) {
+            ("case", own) => format!("Case {own} {unit}").trim_end().to_owned(),
+            ("", by) if by.is_empty() => by,
+            ("", by) => format!(" ({by})"),
+            (name, value) => format!("; {name} {value}"),
+        });
+        return Some(words.collect::<String>() + ".");
     }
     let (method, base) = base(app, answer, quantity);
     let active = app.baseline.as_ref()?.answer.active;
@@ -518,7 +519,8 @@ pub(crate) fn compared(app: &App, quantity: &'static Quantity) -> Option<String>
 /// The columns of the visible rows that fit, each after a blank. Texts have the room of all rows, so
 /// that columns do not move; variants need all the room.
 fn fitting(app: &App, answer: &Answer, listed: &[&'static Quantity], rows: usize) -> Vec<Column> {
-    let mut columns = columns(app, answer, listed, rows);
+    let known: Vec<_> = listed.iter().copied().skip(app.tab.results.top).take(rows).collect();
+    let mut columns = columns(app, answer, listed, &known);
     if app.shown_variants().is_some() {
         columns.iter_mut().filter(|column| !column.is_unit).for_each(|column| column.room = 0);
     }
@@ -545,49 +547,53 @@ fn fitting(app: &App, answer: &Answer, listed: &[&'static Quantity], rows: usize
     }
 }
 
-fn columns(app: &App, answer: &Answer, all: &[&'static Quantity], rows: usize) -> Vec<Column> {
-    let (theme, active) = (app.look.theme, answer.active);
-    let known: Vec<_> = all.iter().copied().skip(app.tab.results.top).take(rows).collect();
+fn columns(
+    app: &App,
+    answer: &Answer,
+    all: &[&'static Quantity],
+    known: &[&'static Quantity],
+) -> Vec<Column> {
+    let (theme, active, variants) = (app.look.theme, answer.active, app.shown_variants());
     // Results of `static` are among the rows of `dynamic`.
-    let shows_others = app.shows_every_method && app.shown_variants().is_none();
+    let shows_others = app.shows_every_method && variants.is_none();
     let is_shown = |method: Method| {
         let is_among_rows = active == Method::Dynamic && method == Method::Static;
         method == active || (shows_others && !is_among_rows)
     };
     let methods = answer.methods.iter().map(|(method, _)| *method);
     let methods: Vec<Method> = methods.filter(|method| is_shown(*method)).collect();
-    let variants = app.shown_variants().map_or(&[][..], |(variants, _)| &variants.columns);
-    let unit = |quantity: &&'static Quantity| {
+    let solved = || variants.iter().flat_map(|(variants, _)| &variants.columns);
+    let unit = |quantity: &'static Quantity| {
         let of_methods = methods.iter().filter_map(|&method| value(answer, method, quantity));
-        let of_variants = variants
-            .iter()
-            .filter_map(|(_, found)| value_as_in(quantity, found.as_ref().ok()?, active));
+        let of_variants =
+            solved().filter_map(|(_, found)| value_as_in(quantity, found.as_ref().ok()?, active));
         report::common_unit(quantity, of_methods.chain(of_variants), app.settings.units)
     };
-    let units: Vec<&str> = known.iter().map(unit).collect();
-    let own = |at: usize| value(answer, active, known[at]);
-    let number = |at: usize, value: Option<f64>| {
-        let shown = |value| report::shown_with(known[at], value, units[at]).number;
+    let own = |quantity| value(answer, active, quantity);
+    let number = |quantity: &'static Quantity, value: Option<f64>| {
+        let shown = |value| report::shown_with(quantity, value, unit(quantity)).number;
         value.map_or_else(|| NONE.to_owned(), shown)
     };
-    let cells = |cell: &dyn Fn(usize) -> String| (0..known.len()).map(cell).collect::<Vec<_>>();
+    let cells = |cell: &dyn Fn(&'static Quantity) -> String| {
+        known.iter().map(|quantity| cell(quantity)).collect::<Vec<_>>()
+    };
     let words = |rank, least, style, text: &dyn Fn(&'static Quantity) -> Cow<'static, str>| {
         let room = all.iter().map(|quantity| text::width(&text(quantity))).max().unwrap_or(0);
-        Column::words(rank, least, room, cells(&|at| text(known[at]).into_owned()), style)
+        Column::words(rank, least, room, cells(&|of| text(of).into_owned()), style)
     };
     let symbols = |of: &'static Quantity| symbol(of.symbol_in(active), app.look.ascii);
     let symbols = words(0, 0, Style::new(), &symbols);
     // In a narrow pane the difference from the baseline leaves room for the symbols or for the names.
     let is_narrow = app.area(Pane::Results).width < WIDE;
-    let gives_way = is_narrow && app.baseline.is_some() && app.shown_variants().is_none();
+    let gives_way = is_narrow && app.baseline.is_some() && variants.is_none();
     let rank = if gives_way { NAMES + 1 } else { 0 };
     let mut columns = vec![
         Column { room: symbols.room.min(SYMBOL), rank, least: usize::MAX, ..symbols },
         words(NAMES, 9, Style::new(), &|of| label(of, active)),
     ];
     for (at, &method) in methods.iter().enumerate() {
-        let numbers = cells(&|at| number(at, value(answer, method, known[at])));
-        let (rank, heading, styles) = match app.shown_variants() {
+        let numbers = cells(&|of| number(of, value(answer, method, of)));
+        let (rank, heading, styles) = match variants {
             Some(_) => (OF_CASE, "case".to_owned(), [theme.active, theme.focus]),
             None if method == active => {
                 (0, format!("▸{}", method.name()), [theme.active, theme.focus])
@@ -597,52 +603,48 @@ fn columns(app: &App, answer: &Answer, all: &[&'static Quantity], rows: usize) -
         };
         columns.push(Column::numbers(rank, heading, numbers, styles));
     }
-    let of_unit = |at: usize| {
-        let has_value = methods.iter().any(|&method| value(answer, method, known[at]).is_some());
-        let has_unit = has_value && !known[at].is_flag();
-        let unit = if has_unit { named(units[at]) } else { "" };
-        let mark = if app.shown_variants().is_some() {
-            ""
-        } else {
-            mark(app, answer, known[at], units[at])
-        };
-        [unit, mark].join(" ").trim().to_owned()
-    };
-    let of_units = cells(&of_unit);
+    let of_units = cells(&|of| {
+        let has_value = methods.iter().any(|&method| value(answer, method, of).is_some());
+        let name = if has_value && !of.is_flag() { named(unit(of)) } else { "" };
+        let mark = if variants.is_some() { "" } else { mark(app, answer, of, unit(of)) };
+        [name, mark].join(" ").trim().to_owned()
+    });
     let width = |of: &&'static Quantity| text::width(named(unit(of)));
-    let room = match app.shown_variants() {
+    let room = match variants {
         Some(_) => known.iter().map(width).max().unwrap_or(0),
         None if is_narrow => UNIT + MARK,
         None => all.iter().map(width).max().unwrap_or(0) + MARK,
     };
     let column = Column::words(0, 0, room, of_units, Style::new());
     columns.push(Column { is_unit: true, ..column });
-    if let Some((variants, first)) = app.shown_variants() {
-        let plain = [theme.other, Style::new()];
-        for (at, (name, found)) in variants.columns.iter().skip(first).enumerate() {
-            let pair = |at: usize| variant_cell(found, known[at], (own(at), active, units[at]));
-            let (values, differences) =
-                (0..known.len()).map(pair).map(|[now, by]| (now, by)).unzip();
-            // The difference of the first variant gives way to its value and to the case.
-            let ranks = if at == 0 { [0, 3] } else { [2 + 2 * at, 3 + 2 * at] };
-            let name = text::cut(name, LONGEST_NAME);
-            columns.push(Column::numbers(ranks[0], name, values, plain));
-            columns.push(Column::numbers(ranks[1], String::new(), differences, plain));
-        }
-    } else if app.baseline.is_some() {
-        let is_solved = |at: usize| {
-            app.baseline.as_ref().is_some_and(|base| base.answer.has(active, known[at].stage))
-        };
-        let difference = |at: usize| match (own(at), base(app, answer, known[at]).1) {
-            (Some(now), Some(base)) => difference(known[at], now, base, units[at]),
-            (None, Some(base)) => format!("was {}", number(at, Some(base))),
-            (Some(_), None) if is_solved(at) => "was none".to_owned(),
+    let first = variants.map_or(0, |(_, first)| first);
+    for (at, (name, found)) in solved().skip(first).enumerate() {
+        let now = |of| value_as_in(of, found.as_ref().ok()?, active).filter(|now| now.is_finite());
+        let values = cells(&|of| match found {
+            Ok(_) => number(of, now(of)),
+            Err(_) => "refused".to_owned(),
+        });
+        let differences = cells(&|of| match (now(of), own(of)) {
+            (Some(now), Some(own)) => difference(of, now, own, unit(of)),
+            _ => String::new(),
+        });
+        // The difference of the first variant gives way to its value and to the case.
+        let ranks = if at == 0 { [0, 3] } else { [2 + 2 * at, 3 + 2 * at] };
+        let (name, plain) = (text::cut(name, LONGEST_NAME), [theme.other, Style::new()]);
+        columns.push(Column::numbers(ranks[0], name, values, plain));
+        columns.push(Column::numbers(ranks[1], String::new(), differences, plain));
+    }
+    if let Some(baseline) = app.baseline.as_ref().filter(|_| variants.is_none()) {
+        let differences = cells(&|of| match (own(of), base(app, answer, of).1) {
+            (Some(now), Some(base)) => difference(of, now, base, unit(of)),
+            (None, Some(base)) => format!("was {}", number(of, Some(base))),
+            (Some(_), None) if baseline.answer.has(active, of.stage) => "was none".to_owned(),
             (Some(_), None) => NOT_SOLVED.to_owned(),
             (None, None) => String::new(),
-        };
-        let heading = "baseline".to_owned();
-        columns.push(Column::numbers(1, heading, cells(&difference), [theme.baseline; 2]));
-    } else {
+        });
+        let (heading, styles) = ("baseline".to_owned(), [theme.baseline; 2]);
+        columns.push(Column::numbers(1, heading, differences, styles));
+    } else if variants.is_none() {
         columns.push(words(99, 12, theme.faint, &|of| of.equation.into()));
     }
     add_inputs(app, &mut columns);
@@ -681,19 +683,6 @@ fn inputs(app: &App) -> Vec<(usize, Vec<String>)> {
     let fields = (0..FIELDS.len()).filter(|field| !FIELDS[*field].table().is_empty());
     let differing = fields.map(|field| (field, texts(field)));
     differing.filter(|(_, texts)| texts.iter().any(|text| *text != texts[0])).take(MOST).collect()
-}
-
-/// The value of a quantity in a variant and its difference from the value of the case.
-fn variant_cell(
-    found: &Result<Solution, String>,
-    quantity: &Quantity,
-    (own, active, unit): (Option<f64>, Method, &'static str),
-) -> [String; 2] {
-    let Ok(found) = found else { return ["refused".to_owned(), String::new()] };
-    let now = value_as_in(quantity, found, active).filter(|now| now.is_finite());
-    let Some(now) = now else { return [NONE.to_owned(), String::new()] };
-    let by = own.map_or_else(String::new, |own| difference(quantity, now, own, unit));
-    [report::shown_with(quantity, now, unit).number, by]
 }
 
 // The mark of a quantity: above its limit, or changed.
