@@ -105,7 +105,7 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
         let why = without_contact_in_full(solution, system);
         let most = most.map(|most| format!("; up to {most}")).unwrap_or_default();
         let none = format!("{why}{most}.");
-        return match at_exit(solution, 0.0, system) {
+        return match at_exit(solution, system) {
             Some(exit) => format!("{exit}. None at the entry: {none}"),
             None => format!("No corner contact: {none}"),
         };
@@ -124,20 +124,16 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
         (Some((tip, ratio)), None) => format!(": impact force {tip}{ratio}"),
         _ => String::new(),
     };
-    let entry = of("static_force_at_start", solution).unwrap_or(0.0);
-    let exit = at_exit(solution, entry, system).unwrap_or_default();
+    let exit = at_exit(solution, system).unwrap_or_default();
     let relief = relief(solution, system, is_pending).map(|relief| format!("; {relief}"));
     format!("Corner contact{angle}{forces}{}{exit}.", relief.unwrap_or_default())
 }
 
-/// The corner contact at the exit with its remedy, if its force is clearly larger than the force at the
-/// entry; a sentence of its own if there is none at the entry.
-fn at_exit(solution: &Solution, entry: f64, system: System) -> Option<String> {
-    const LARGER: f64 = 1.05;
+/// The corner contact at the exit with its remedy; a sentence of its own if there is none at the entry.
+fn at_exit(solution: &Solution, system: System) -> Option<String> {
     let shown = |key| printed(key, solution, system);
-    let is_larger = of("static_force_at_end", solution).is_some_and(|it| it > LARGER * entry);
     let found = shown("static_last_contact_angle").zip(shown("static_force_at_end"));
-    let (angle, force) = found.filter(|_| is_larger)?;
+    let (angle, force) = found.filter(|_| of("static_force_at_end", solution) > Some(0.0))?;
     let relief = solution.clearing.and_then(|clearing| clearing.at_exit);
     let required = relief.map(|(given, more)| required(more, given, "driver", system));
     if solution.outcome == Outcome::CornerContact {
