@@ -362,7 +362,7 @@ impl Refusal {
                         E, is {} and must be above 0",
                     mm(start)
                 ),
-                "shorten the driven addendum, or give the driver more teeth or more profile shift",
+                "shorten the driven addendum, give the driver more teeth or profile shift, or increase a given centre distance",
             ),
             Refusal::NoPath { start, end, is_distance_given, cut } => {
                 let (at, fix) = match cut {
@@ -620,7 +620,7 @@ impl Refusal {
                     mm(radius),
                     mm(form)
                 ),
-                "shorten this addendum, or change the profile shifts",
+                "shorten this addendum, or change the profile shifts or a given centre distance",
             ),
             Refusal::NoField { teeth, reason } => (
                 "no-field",
