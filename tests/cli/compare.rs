@@ -7,7 +7,7 @@ use serde_json::Value;
 use tempfile::TempDir;
 use tipstrike::cli::Arguments;
 
-use crate::program::{has, run, table_1_with as with};
+use crate::program::{has, in_a_line, run, table_1_with as with};
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 
@@ -69,7 +69,8 @@ fn the_columns_of_auto_have_one_method() {
         assert_eq!(column["method"], "dynamic");
         assert!(column["quantities"]["dynamic_peak_force"]["value"].is_f64(), "{column}");
     }
-    has(&run(&[&["compare", &case], &only[..]].concat()).1, &["; alone auto takes static, as in"]);
+    let text = in_a_line(&run(&[&["compare", &case], &only[..]].concat()).1);
+    has(&text, &["(dynamic for equal columns; alone auto takes static, as in solve)"]);
     let alone = ["solve", &case, "--variant", "slow", "--method", "auto", "--format", "json"];
     assert_eq!(json(&alone)["method"], "static");
 }

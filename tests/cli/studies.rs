@@ -312,7 +312,9 @@ fn every_fault_of_the_distributions_is_reported_at_once() {
 fn the_contact_at_the_exit_has_a_name_in_every_study() {
     let vary = "--vary 'driver.tip_relief=0..90 um'";
     for pair in ["", "--set 'pair.helix_angle=12 deg' --set model.slices=17"] {
-        let options = format!("--method static --set 'driven.tip_relief=80 um' {pair}");
+        let options = format!(
+            "--method static --set 'driven.tip_relief=80 um' {pair} --set limits.impact_force="
+        );
         let until = "--until exit_outcome=no-corner-contact --points 19 --format json";
         let found = json(&format!("seek TABLE_1 {options} {vary} {until}"));
         let least = found["crossings"][0]["to"]["at"].as_f64().unwrap();
