@@ -362,7 +362,8 @@ impl Refusal {
                         E, is {} and must be above 0",
                     mm(start)
                 ),
-                "shorten the driven addendum, give the driver more teeth or profile shift, or increase a given centre distance",
+                "shorten the driven addendum, give the driver more teeth or profile shift, or \
+                    increase a given centre distance",
             ),
             Refusal::NoPath { start, end, is_distance_given, cut } => {
                 let (at, fix) = match cut {
