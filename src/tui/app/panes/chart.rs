@@ -447,7 +447,12 @@ impl<'a> Charts<'a> {
         let (graph, window) = (&GRAPHS[graph], self.window());
         let values = curves(self, graph).into_iter().map(|curve| curve.upright_within(window));
         let values = values.fold(Span::NONE, Span::and);
-        if graph.by_model.is_some() { values.close_axis() } else { values.axis() }
+        match graph.key {
+            _ if graph.by_model.is_some() => values.close_axis(),
+            // A helical tooth carries load at its D in one plane; a part of the axis would hide how much.
+            "force" => values.with(0.0).axis(),
+            _ => values.axis(),
+        }
     }
 
     /// The chart of a graph: its curves with their looks.
