@@ -62,9 +62,8 @@ const SIGNS: [&str; 6] = [
         baseline has no value; \"not solved\": its method does not compute one. \"was\" and a value: the program prints no percentage.",
     "Chart curves: dots or * the method of the case; · paper; ∘ exact; × static; + the baseline; \
         ╌ a reference value, such as Δ in the gap chart. Compared stiffness models alternate in the \
-        columns that several of them cross. Points on the x axis: D first contact; E \
-        and B start and end of the path of contact, A and E in ISO 21771; L last contact; d first \
-        contact of another method.",
+        columns that several of them cross. On the x axis: L last contact; d first contact of another \
+        method.",
     "Lines of the teeth: solid: flanks (bold: incoming pair) and, from E to B, the path of \
         contact; dashed: line of action; dotted: base circles and the path of the driven tip \
         before E. Crosses: named points. Bold dots: contacts. In ASCII: * driven and # driving \
