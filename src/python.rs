@@ -40,7 +40,7 @@ use crate::report::tolerance::ToleranceReport;
 use crate::report::verdict::Absence;
 use crate::report::{Report, Selection, page};
 use crate::study::axis::Grid;
-use crate::study::batch::{Batch, Refusals, Row, solve_all};
+use crate::study::batch::{Batch, Points, Refusals, Row, solve_all};
 use crate::study::relief::{Criterion, Demand, demand};
 use crate::study::seek::{distinct, headline};
 use crate::study::shard::Format;
