@@ -14,10 +14,8 @@ use std::f64::consts::TAU;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// Tolerance of greatest values: finer ones are lost among the errors of the slices.
-pub(super) const PRECISION: f64 = 1e-8;
-/// That of forces and line loads of a part of the path, whose ends are between two slices.
-const OF_PARTS: f64 = 1e-5;
+/// Tolerances of greatest values: finer ones are lost among the errors of the slices.
+pub(super) const PRECISION: (f64, f64) = (1e-5, 1e-8);
 
 /// Number of places in a base pitch at which the load is solved.
 const STEPS: usize = 64;
@@ -259,7 +257,7 @@ impl Face {
                 *sum += line_load / steps as f64;
             }
         }
-        let extreme = |of: &dyn Fn(&Loads) -> f64| passage.greatest(&period, PRECISION, of).1;
+        let extreme = |of: &dyn Fn(&Loads) -> f64| passage.greatest(&period, of).1;
         let middle = |loads: &Loads| {
             let line_loads = loads.of_all();
             self.over_face(&line_loads, |z| z) / self.over_face(&line_loads, |_| 1.0)
@@ -325,7 +323,7 @@ impl Face {
         let passage = Passage::new(self, course, incoming);
         let samples = passage.samples(&places.collect::<Vec<_>>())?;
         let lead = |loads: &Loads| self.lead_in(loads, part).max(-mesh.length);
-        Ok(passage.greatest(&samples, PRECISION, &lead).1)
+        Ok(passage.greatest(&samples, &lead).1)
     }
 
     /// The greatest lead of the incoming tooth at rest before E, or after B, in m.
@@ -512,16 +510,11 @@ impl<'a> Passage<'a> {
         Ok(self.samples.borrow().clone())
     }
 
-    /// The greatest value to a tolerance, with its place, by samples and a search between them.
-    fn greatest(
-        &self,
-        samples: &[Rc<Loads>],
-        tolerance: f64,
-        of: &dyn Fn(&Loads) -> f64,
-    ) -> (f64, f64) {
+    /// The greatest value, with its place, by samples and a search between them.
+    fn greatest(&self, samples: &[Rc<Loads>], of: &dyn Fn(&Loads) -> f64) -> (f64, f64) {
         let known: Vec<_> = samples.iter().map(|loads| (loads.s, of(loads))).collect();
         let at = |s: f64| self.loads(s).map_or(f64::NEG_INFINITY, |loads| of(&loads));
-        greatest_within(&known, tolerance, at)
+        greatest_within(&known, PRECISION, at)
     }
 
     /// Places between two places, at which the load is smooth enough to be sampled; `part` of them.
@@ -595,11 +588,10 @@ impl<'a> Passage<'a> {
             FacePlace { z, path: loads.s + ahead }
         };
         let [first_place, last_place] = [0, samples.len() - 1].map(|end| place(&samples[end]));
-        let extreme = |of: &dyn Fn(&Loads) -> f64| self.greatest(&samples, PRECISION, of).1;
-        let of_part = |of: &dyn Fn(&Loads) -> f64| self.greatest(&samples, OF_PARTS, of).1;
+        let extreme = |of: &dyn Fn(&Loads) -> f64| self.greatest(&samples, of).1;
         let line_peak = |part: Part| {
             let best = Cell::new(None);
-            of_part(&|loads| {
+            extreme(&|loads| {
                 let peak = face.line_peak(loads, part);
                 let is_best =
                     best.get().is_none_or(|best: LinePeak| peak.line_load > best.line_load);
@@ -629,7 +621,7 @@ impl<'a> Passage<'a> {
         let [before_start, after_end] = [Part::BeforeStart, Part::AfterEnd].map(line_peak);
         // Reliefs can let the tooth touch after E at its end and before E farther inside; alike at B.
         let strikes = |part: Part, peak: Option<LinePeak>, radius: f64| {
-            peak.map(|_| of_part(&|loads| face.deepest(loads, part)) / radius)
+            peak.map(|_| extreme(&|loads| face.deepest(loads, part)) / radius)
         };
         let (first_strike, last_strike) = (
             strikes(Part::BeforeStart, before_start, mesh.base_radii.1),
@@ -643,8 +635,8 @@ impl<'a> Passage<'a> {
                 Some(ahead(&first_place)).filter(is_apart).or(first_strike),
                 Some(behind(&last_place)).filter(is_apart).or(last_strike),
             ),
-            force_at_start: of_part(&|loads| face.force(loads, 0, Part::BeforeStart)),
-            force_at_end: of_part(&|loads| face.force(loads, 0, Part::AfterEnd)),
+            force_at_start: extreme(&|loads| face.force(loads, 0, Part::BeforeStart)),
+            force_at_end: extreme(&|loads| face.force(loads, 0, Part::AfterEnd)),
             peak_force,
             transmission_error: extreme(&|loads| loads.displacement)
                 + extreme(&|loads| -loads.displacement),
@@ -673,7 +665,7 @@ impl<'a> Passage<'a> {
         let rises = |at: &usize| force.get(at + 1).is_none_or(|next| *next > force[*at]);
         let least = (peak..force.len()).find(rises)?;
         let near = &samples[least - 1..=(least + 1).min(force.len() - 1)];
-        let (s, _) = self.greatest(near, PRECISION, &|loads| -of(loads));
+        let (s, _) = self.greatest(near, &|loads| -of(loads));
         Some((s - samples[0].s) / self.course?.speed)
     }
 }
