@@ -2,6 +2,7 @@
 //! slice is the mesh of the transverse section in another phase and with another gap.
 
 pub mod balance;
+mod carried;
 mod course;
 pub mod load;
 pub(super) mod motion;
