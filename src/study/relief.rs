@@ -320,7 +320,7 @@ pub fn specify(
     };
     pair.part.set(SEARCH);
     let present = TipReliefs::of_case(&at_rest, &solution.geometry);
-    let mut choices = vec![pair.choice("relief of the case", present)?];
+    let mut choices = vec![pair.choice("relief of the case", present, pair.worst(&present)?)?];
     let (kinds, mut beyond) = (found.len() as f64, None);
     for (done, (name, reliefs)) in (1..).zip(found) {
         pair.part.set(SEARCH + (1.0 - SEARCH) * f64::from(done) / (kinds + 1.0));
@@ -519,12 +519,12 @@ impl WholeSolves<'_> {
             };
             let worst = self.worst(&greater)?;
             if !worst.strikes {
-                return self.choice(name, greater);
+                return self.choice(name, greater, worst);
             }
             (greatest, last) = (greater, worst.gap);
         }
         if self.demand.minimise == Criterion::Entry {
-            return self.choice(name, reliefs);
+            return self.choice(name, reliefs, self.worst(&reliefs)?);
         }
         let most = greatest.amounts[0].max(greatest.amounts[1]);
         Err(if last < 0.0 {
@@ -545,7 +545,12 @@ impl WholeSolves<'_> {
         self.loads.iter().map(error).collect()
     }
 
-    fn choice(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
+    fn choice(
+        &self,
+        name: &'static str,
+        reliefs: TipReliefs,
+        worst: Figures,
+    ) -> Result<Choice, NoRelief> {
         let (demand, own) = (self.demand, self.inputs.misalignment);
         let errors = self.errors(&reliefs, own)?;
         let factor = if self.is_in_motion {
@@ -565,7 +570,7 @@ impl WholeSolves<'_> {
         let error = demand.figure(errors.iter().copied());
         let nominal =
             Figures { error, factor, own_errors, ..self.figures(&reliefs, self.is_in_motion)? };
-        let mut worst = nominal.worst(self.worst(&reliefs)?);
+        let mut worst = nominal.worst(worst);
         for (off, misalignment) in self.limits() {
             let errors = self.errors(&reliefs.off(off), misalignment)?;
             worst.error = worst.error.max(demand.figure(errors.into_iter()));
