@@ -205,12 +205,12 @@ fn first_contact_and_peak_force_are_continuous_over_helix_angle_and_misalignment
         let solution = solve(&inputs, Stages::of(Stage::Static)).expect("a load");
         let load = solution.static_load.expect("a load");
         let angle = load.first_contact_angle.unwrap_or(0.0);
-        [angle, load.stations[0].normal_velocity, load.force_at_start, load.peak_force]
+        [angle, load.stations[0].normal_velocity, load.peak_force]
     };
     let over_helix: Vec<_> = (0..=60).map(|half| at(0.5 * f64::from(half), 7e-6)).collect();
     let over_tilt: Vec<_> = (-50..=50).map(|um| at(18.0, 1e-6 * f64::from(um))).collect();
     for (rows, name) in [(over_helix, "helix angle"), (over_tilt, "misalignment")] {
-        for value in 0..4 {
+        for value in 0..3 {
             let size = rows.iter().map(|row| row[value].abs()).fold(0.0, f64::max);
             for four in rows.windows(4) {
                 let [before, change, after] =
