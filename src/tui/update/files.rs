@@ -153,10 +153,16 @@ pub(super) fn loaded(app: &mut App, path: PathBuf, result: Result<Box<Document>,
         Ok(document) => {
             app.prompts.clear();
             let case_path = rexs::case_path(&path);
+            let is_model = rexs::is_model(&path);
             app.want(Effect::Remember(path));
             show_tab(app, *document, case_path);
             if app.tab.access == Access::Newer {
                 app.complain(NEWER);
+            } else if is_model {
+                app.say(
+                    "one stage of the model, as a new case; `tipstrike import` lists the other stages and \
+                     the fields that stay empty",
+                );
             } else {
                 app.say(format!("opened {}", app.tab.name()));
             }
