@@ -71,8 +71,8 @@ pub fn opened(document: Document, path: Option<PathBuf>, look: Look, size: Size)
 }
 
 fn happen(app: &mut App, action: Action) {
-    // Nothing is edited unseen.
-    let is_hidden = is_too_small(app.layout.size);
+    // Nothing is edited unseen; a question can be answered.
+    let is_hidden = is_too_small(app.layout.size) && app.prompts.is_empty();
     let may_act = |command: &Binding| {
         command.places == Place::ALL || ["save", "quit", "suspend"].contains(&command.name)
     };

@@ -68,7 +68,7 @@ fn any_typing_leaves_the_form_valid_and_the_screen_safe() {
     let draft = Document::new(Case::fresh()).render();
     let text = prop_oneof![texts::written(), texts::mutated(), Just(draft), Just(String::new())];
     let seen = RefCell::new(BTreeSet::new());
-    let prompts = ["browse", "path", "ask", "page", "pick", "aim"];
+    let prompts = ["browse", "path", "ask", "page", "pick"];
     let ends = ["loaded", "not loaded", "saved", "not saved", "quit", "invalid", "refused"];
     let all: BTreeSet<_> = prompts.into_iter().chain(ends).collect();
     let events = (text, any::<bool>(), happenings());
