@@ -10,7 +10,7 @@ use crate::model::{self, Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, S
 use crate::study::stiffness::{PATH_POINTS, PathComparison, compare_path};
 
 /// After this time the workbench shows the closed form until the slower method is finished.
-pub(super) const PATIENCE: Duration = Duration::from_millis(30);
+const PATIENCE: Duration = Duration::from_millis(30);
 
 /// Panics or blocks forever if a test requests a fault at this place.
 #[cfg(debug_assertions)]

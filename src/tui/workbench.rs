@@ -20,7 +20,7 @@ use super::input::{self, Event, Events};
 use super::session::journal::JournalWriter;
 use super::session::{Autosave, Claim};
 use super::settings::{Look, Settings};
-use super::solver::{PATIENCE, on_demand};
+use super::solver::on_demand;
 use super::store::{self, State, WatchedFile};
 use super::terminal::Screen;
 use super::update::update;
@@ -32,8 +32,7 @@ use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
 /// Time between two frames of the animation.
 const TICK: Duration = Duration::from_millis(83);
 
-/// The results of a fast solve arrive within this time and are drawn with the edit, in one frame; those
-/// of the first frame within the time of a closed form.
+/// The results of a fast solve arrive within this time and are drawn with the edit, in one frame.
 const QUICK: Duration = Duration::from_millis(3);
 
 /// How the workbench ended.
@@ -135,13 +134,12 @@ struct Workbench {
 
 impl Workbench {
     fn stay(mut self) -> io::Result<End> {
-        let (mut batch, mut patience) = (vec![Event::Tick], PATIENCE);
+        let mut batch = vec![Event::Tick];
         let end = loop {
-            if let Some(end) = self.take(batch, patience)? {
+            if let Some(end) = self.take(batch)? {
                 break end;
             }
             batch = self.events.batch(self.alarm, self.autosave.deadline());
-            patience = QUICK;
         };
         if matches!(end, End::Left) {
             self.autosave.end();
@@ -151,8 +149,8 @@ impl Workbench {
 
     // Applies all waiting events and draws one frame if the state changed. Returns how the
     // workbench ended, if it has ended.
-    fn take(&mut self, mut batch: Vec<Event>, patience: Duration) -> io::Result<Option<End>> {
-        let (mut has_changed, quick) = (false, Instant::now() + patience);
+    fn take(&mut self, mut batch: Vec<Event>) -> io::Result<Option<End>> {
+        let (mut has_changed, quick) = (false, Instant::now() + QUICK);
         while !batch.is_empty() {
             match self.apply(batch)? {
                 Ok(changed) => has_changed |= changed,
