@@ -129,16 +129,19 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
     format!("Corner contact{angle}{forces}{}{exit}.", relief.unwrap_or_default())
 }
 
-/// The corner contact at the exit with its remedy; a sentence of its own if there is none at the entry.
+/// The corner contact at the exit, a sentence of its own if there is none at the entry; the remedy if the
+/// force is clearly larger than at the entry.
 fn at_exit(solution: &Solution, system: System) -> Option<String> {
+    const LARGER: f64 = 1.05;
     let shown = |key| printed(key, solution, system);
-    let found = shown("static_last_contact_angle").zip(shown("static_force_at_end"));
-    let (angle, force) = found.filter(|_| of("static_force_at_end", solution) > Some(0.0))?;
+    let most = of("static_force_at_end", solution).filter(|most| *most > 0.0)?;
+    let (angle, force) = shown("static_last_contact_angle").zip(shown("static_force_at_end"))?;
     let relief = solution.clearing.and_then(|clearing| clearing.at_exit);
     let required = relief.map(|(given, more)| required(more, given, "driver", system));
     if solution.outcome == Outcome::CornerContact {
-        let required = required.map_or_else(String::new, |required| format!(", {required}"));
-        return Some(format!("; at the exit {force}{required}"));
+        let is_larger = most > LARGER * of("static_force_at_start", solution).unwrap_or(0.0);
+        let required = required.filter(|_| is_larger).map(|required| format!(", {required}"));
+        return Some(format!("; at the exit {force}{}", required.unwrap_or_default()));
     }
     let required = required.unwrap_or("more tip relief on the driver prevents it".to_owned());
     let at_rest = if solution.method == Method::Dynamic { " at rest" } else { "" };

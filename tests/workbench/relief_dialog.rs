@@ -25,7 +25,7 @@ fn a_typed_demand_starts_a_search_and_an_invalid_one_gets_a_reason() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "relief", "Enter"]).assert_shows("for 25 to 110 %");
     desk.keys(&["Ctrl-U", "110..25 %", "Enter"]);
-    desk.assert_shows("! the range is reversed: write a range");
+    desk.assert_shows("! 110..25 %: the range is reversed: write a range");
     desk.keys(&["Ctrl-U", "50..100 %, 2 um"]).assert_shows("Results of the earlier input");
     desk.keys(&["Enter"]).has(&["for 50 to 100 %", "tolerances 2 um"]);
     desk.keys(&["PageDown", "Down", "Esc"]);
