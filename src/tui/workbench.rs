@@ -69,6 +69,8 @@ pub(super) fn session(
     app.tab.origin = if is_last { Origin::LastCase } else { Origin::Given };
     app.tab.in_place_of = path.clone().filter(|_| faults.is_some());
     screen.take_mouse(settings.mouse)?;
+    // The form is there before threads, locks and results are.
+    screen.draw(&app)?;
     let threads = Workers::start(Arc::new(events.action_sender()))?;
     let autosave = Autosave::new(State::find(), Arc::clone(journal_writer));
     let mut workbench = Workbench { app, screen, events, threads, autosave, alarm: None };
