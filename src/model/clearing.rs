@@ -48,9 +48,9 @@ pub struct Clearing {
 /// dynamic:  C with max over t ≤ 0 of x(t) + e − S(t) = 0
 /// ```
 /// x is the displacement by the other pairs, in static balance or in the motion without the
-/// incoming tooth. The relief of the driver follows from the same balance over s ≥ B. S includes the reliefs of both flanks, with C along its whole length. Relief on
-/// the pair ahead at F makes the incoming tooth earlier, and each base pitch excites the mesh
-/// differently.
+/// incoming tooth. The relief of the driver follows from the same balance over s ≥ B. S includes the
+/// reliefs of both flanks, with C along its whole length. Relief on the pair ahead at F makes the
+/// incoming tooth earlier, and each base pitch excites the mesh differently.
 ///
 /// # Valid for
 /// With the relief rounded up, the solve of the method finds no contact before E. With a relief
@@ -85,12 +85,16 @@ pub fn clearing(
         Err(Refusal::Stopped) => return Err(Refusal::Stopped),
         Err(refusal) => (None, Some(refusal)),
     };
-    let at_exit = inputs.method.shares_load().then(|| {
-        Search::new(true).least(&inputs.mesh(), None, inputs.face(), solution, go_on).ok()
-    });
-    let at_exit = at_exit.flatten().filter(|relief| *relief > 0.0);
     let of_driver = inputs.driver.tip_relief;
-    let at_exit = at_exit.map(|relief| (of_driver, enough(relief, of_driver)));
+    let at_exit = inputs
+        .method
+        .shares_load()
+        .then(|| Search::new(true).least(&inputs.mesh(), None, inputs.face(), solution, go_on));
+    let at_exit = match at_exit {
+        Some(Err(Refusal::Stopped)) => return Err(Refusal::Stopped),
+        Some(Ok(relief)) if relief > 0.0 => Some((of_driver, enough(relief, of_driver))),
+        _ => None,
+    };
     let (runs, work) = (search.runs(), search.meter.spent());
     Ok(Clearing { given, relief, withheld, at_exit, runs, work })
 }
