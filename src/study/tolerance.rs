@@ -621,9 +621,13 @@ mod tests {
     fn a_grade_is_the_deviation_of_iso_1328_of_the_larger_gear() {
         let case = Case::table_1();
         let spread = Spread::new("deviations.base_pitch", "grade 7").unwrap();
-        let found = Distribution::of(&spread, &case, &case.inputs().unwrap()).unwrap();
-        let allowed = 14e-6 * 20_f64.to_radians().cos();
-        assert!((found.width - allowed).abs() < 1e-18 && found.shape == Shape::Truncated);
+        for (driver, driven, pitch) in [(20, 20, 14e-6), (20, 400, 18e-6), (400, 20, 18e-6)] {
+            let mut inputs = case.inputs().unwrap();
+            (inputs.driver.teeth, inputs.driven.teeth) = (driver, driven);
+            let found = Distribution::of(&spread, &case, &inputs).unwrap();
+            let allowed = pitch * 20_f64.to_radians().cos();
+            assert!((found.width - allowed).abs() < 1e-18 && found.shape == Shape::Truncated);
+        }
     }
 
     #[test]

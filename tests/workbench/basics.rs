@@ -316,6 +316,10 @@ fn values_that_an_edit_changed_are_marked_until_the_next_visit() {
     assert!(marked(&desk, "approach velocity") && !marked(&desk, "base pitch"));
     desk.fill("operation.power", "14 kW");
     assert!(marked(&desk, " mesh force  ") && !marked(&desk, "approach velocity"));
+    desk.keys(&["Ctrl-Z"]);
+    assert!(marked(&desk, " mesh force  ") && !marked(&desk, "approach velocity"));
+    desk.keys(&["Ctrl-Z"]);
+    assert!(marked(&desk, "approach velocity") && !marked(&desk, " mesh force  "));
 }
 
 #[test]
