@@ -15,13 +15,13 @@ use std::path::PathBuf;
 use ratatui::layout::{Position, Size};
 
 use super::app::App;
-use super::app::actions::{Action, Binding, Effect, Running, Slot, Work};
+use super::app::actions::{Action, Effect, Running, Slot, Work};
 use super::app::dialogs::Prompt;
 use super::app::dialogs::browser::Browser;
 use super::app::panes::chart::cursor_at;
 use super::app::panes::form;
 use super::app::tab::Tab;
-use super::layout::{Pane, Place, is_too_small};
+use super::layout::{Pane, is_too_small};
 use super::settings::Look;
 use super::{rows, solver, store};
 use crate::case::Document;
@@ -73,11 +73,8 @@ pub fn opened(document: Document, path: Option<PathBuf>, look: Look, size: Size)
 fn happen(app: &mut App, action: Action) {
     // Nothing is edited unseen; a question can be answered.
     let is_hidden = is_too_small(app.layout.size) && app.prompts.is_empty();
-    let may_act = |command: &Binding| {
-        command.places == Place::ALL || ["save", "quit", "suspend"].contains(&command.name)
-    };
     match action {
-        Action::Do(command, _) if is_hidden && !may_act(command) => {}
+        Action::Do(command, _) if is_hidden && !command.works_unseen => {}
         Action::Insert(_) | Action::Paste(_) | Action::Stray(_) | Action::Click(_) if is_hidden => {
         }
         Action::Do(command, way) => command.run(app, way),

@@ -29,6 +29,8 @@ pub struct Binding {
     pub sentence: &'static str,
     /// The places in which the status line shows it.
     pub(crate) status: Place,
+    /// Whether it works while the terminal is too small to show the panes.
+    pub(crate) works_unseen: bool,
     pub(crate) run: Run,
 }
 
@@ -49,6 +51,11 @@ impl Binding {
     /// The row with its name in the status line of these places.
     pub(crate) const fn shown_in(self, status: Place) -> Binding {
         Binding { status, ..self }
+    }
+
+    /// The row that also works while the terminal is too small.
+    pub(crate) const fn unseen(self) -> Binding {
+        Binding { works_unseen: true, ..self }
     }
 
     /// The direction or number of a key; `None` if it is not a key of this row.

@@ -451,7 +451,7 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::COMMANDED, ":", "commands", |app| type_command(app, ""),
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
             there.").shown_in(Place::OUTSIDE),
-    row(Place::OUTSIDE, "q", "quit", files::quit, "Quit; asks if there are unsaved edits.").shown(),
+    row(Place::OUTSIDE, "q", "quit", files::quit, "Quit; asks if there are unsaved edits.").shown().unseen(),
     row(Place::OUTSIDE.or(Place::CHOICE), "?", "help", help_page, "Show this page.")
         .shown_in(Place::OUTSIDE),
     row(Place::OUTSIDE, "Tab", "next pane", |app| panes::step(app, 1),
@@ -485,14 +485,14 @@ pub static BINDINGS: &[Binding] = &[
     // Everywhere.
     row(Place::WORK, "F1 Alt-H", "help", help_page, "Show this page.").shown(),
     row(Place::WORK, "Ctrl-S", "save", |app| files::save(app, Next::Stay),
-        "Save the case; the file keeps its comments and order.").shown(),
+        "Save the case; the file keeps its comments and order.").shown().unseen(),
     row(Place::WORK, "Ctrl-P", "commands", |app| type_command(app, ""),
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
             there.").shown(),
     row(Place::WORK, "Ctrl-O", "open", |app| super::browse(app, false),
         "Open another case in a tab.").shown(),
     row(Place::WORK, "Ctrl-Q", "quit", files::quit,
-        "Quit; asks if there are unsaved edits.").shown(),
+        "Quit; asks if there are unsaved edits.").shown().unseen(),
     row(Place::FORM, "Esc", LEAVE_FIELD, super::leave,
         "Leave the field and keep its value; letters and digits are then commands.").shown(),
     row(Place::WORK, "Ctrl-T F6", "method", |app| edit::set_method(app, None),
@@ -568,7 +568,7 @@ pub static BINDINGS: &[Binding] = &[
             hold Shift to select text."),
     row(Place::WORK, "Ctrl-L", "redraw", |app| app.want(Effect::Redraw), "Redraw the screen."),
     row(Place::WORK, "Alt-Z", "suspend", |app| app.want(Effect::Suspend),
-        "Suspend to the shell; fg resumes."),
+        "Suspend to the shell; fg resumes.").unseen(),
     pair(Place::FORM.or(Place::FIELD), "Shift-Up/Shift-Down", "step", edit::step,
         "Increase or decrease the last digit of the value by one.").shown_in(Place::FORM),
     pair(Place::FORM.or(Place::FIELD), "Alt-Up/Alt-Down", "", |app, by| edit::step(app, 10 * by),
@@ -609,7 +609,7 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::PROMPT, "Esc", "back", super::leave, "Close; no edit is lost.").shown(),
     row(Place::ALL, "Ctrl-C Ctrl-\\", "", super::cancel,
         "Close a dialog or stop the running work. Otherwise press twice to quit; asks before \
-            unsaved edits are discarded."),
+            unsaved edits are discarded.").unseen(),
     // In an input line.
     pair(Place::LINE, "Right/Left", "", |app, by| edit::handle(app, if by > 0 { Line::GoToNextChar } else { Line::GoToPrevChar }),
         "Move one character right or left."),
@@ -721,7 +721,7 @@ const fn row(
     run: fn(&mut App),
     sentence: &'static str,
 ) -> Binding {
-    Binding { keys, places, name, sentence, status: Place::NONE, run: Run::Once(run) }
+    bound(places, keys, name, Run::Once(run), sentence)
 }
 
 // A row whose keys name a direction or a number.
@@ -732,7 +732,17 @@ const fn pair(
     run: fn(&mut App, isize),
     sentence: &'static str,
 ) -> Binding {
-    Binding { keys, places, name, sentence, status: Place::NONE, run: Run::Way(run) }
+    bound(places, keys, name, Run::Way(run), sentence)
+}
+
+const fn bound(
+    places: Place,
+    keys: &'static str,
+    name: &'static str,
+    run: Run,
+    sentence: &'static str,
+) -> Binding {
+    Binding { keys, places, name, sentence, status: Place::NONE, works_unseen: false, run }
 }
 
 #[cfg(test)]
