@@ -631,6 +631,9 @@ fn a_pair_without_slices_has_no_contact_pattern() {
     desk.assert_shows("No chart: a spur pair without misalignment");
     desk.keys(&["j"]);
     assert_title(&desk, &GRAPHS[0]);
+    let mut desk = pattern(SMALL, &[]);
+    desk.keys(&["F8"]).assert_shows("the contact pattern is drawn in shades");
+    assert_title(desk.keys(&["Alt-T", "3"]), &GRAPHS[0]);
     // A misaligned spur pair has slices; its contact lines are parallel to the axis.
     let mut desk = at_method(SMALL, "static");
     desk.fill("deviations.misalignment", "20 um");

@@ -662,8 +662,10 @@ fn help_page(app: &mut App) {
 
 fn cycle_marker(app: &mut App) {
     if app.look.ascii {
-        app.say("the marker has no effect: the chart is drawn in ASCII");
-        return;
+        return app.say("the marker has no effect: the chart is drawn in ASCII");
+    }
+    if app.place().meets(Place::PATTERN) {
+        return app.say("the marker has no effect: the contact pattern is drawn in shades");
     }
     app.settings.marker = match app.settings.marker {
         Marker::Braille => Marker::HalfBlock,

@@ -255,6 +255,7 @@ pub(super) fn go_to_tab(app: &mut App, at: usize) {
     let before = std::mem::replace(&mut app.tab, next);
     app.others.insert(if at > now { now } else { now - 1 }, before);
     app.place_of_tab = at;
+    leave_pattern(app);
     // The worker may have dropped a request of this tab for a later one.
     if !app.tab.is_settled {
         app.tab.requested = Wanted::NOTHING;
@@ -520,6 +521,13 @@ fn add_tab(app: &mut App, origin: Origin, document: Document) {
     put_tab(app, Tab { origin, ..Tab::new(document, None) }, replaces);
 }
 
+/// Shows the first chart instead of the contact pattern beside a case that has no pattern.
+fn leave_pattern(app: &mut App) {
+    if app.chart.is_pattern() && app.tab.inputs_so_far.face().is_none() {
+        app.chart.selected = 0;
+    }
+}
+
 fn put_tab(app: &mut App, tab: Tab, replaces: bool) {
     let focus = app.tab.form.focus;
     app.last_id += 1;
@@ -528,6 +536,7 @@ fn put_tab(app: &mut App, tab: Tab, replaces: bool) {
         app.others.insert(app.place_of_tab, before);
         app.place_of_tab += 1;
     }
+    leave_pattern(app);
     app.layout.is_zoomed = false;
     app.layout.focus = Pane::Form;
     app.cursor = None;
