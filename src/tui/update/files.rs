@@ -468,7 +468,8 @@ fn refuse_faulty(app: &mut App) -> bool {
     let wrong = wrong.map(|(row, _)| *row);
     if let Some(row) = wrong {
         app.focus_on(row);
-        app.complain("not saved: fix the fields marked with ! first");
+        let name = rows::full_label(&app.tab.case, row);
+        app.complain(format!("not saved: fix {name}; the edits stay in the journal"));
     }
     wrong.is_some()
 }
