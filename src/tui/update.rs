@@ -196,6 +196,7 @@ fn leave(app: &mut App) {
     }
     // Hints such as `Esc n` rely on one Esc to leave the field, also while work runs.
     if app.has_line() {
+        edit::take_back(app);
         app.tab.history.end_visit();
         app.is_editing = false;
         return;

@@ -75,6 +75,10 @@ fn limits_are_a_group_of_the_form_with_their_verdicts() {
 #[test]
 fn a_new_limit_starts_at_the_result_and_an_empty_one_is_removed() {
     let mut desk = Desk::new(LARGE);
+    for name in ["normal_vel", "F_d,max"] {
+        desk.keys(&["Alt-L", name, "Enter", "Esc"]);
+        assert_eq!(desk.app.tab.case, desk.app.tab.document.case, "Esc takes the limit back");
+    }
     desk.keys(&["Alt-L", "normal_vel", "Enter"]);
     desk.assert(line(&desk, "ok 100 %").contains("0.82107 m/s"));
     desk.keys(&["Ctrl-U"]).assert_shows("(no limit)");

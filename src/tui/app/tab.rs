@@ -232,6 +232,7 @@ impl Tab {
 
     /// Stores the state before an edit of a row, with its results.
     pub(crate) fn before_edit(&mut self, row: usize) {
+        self.form.added_from = None;
         if self.history.before_edit(&self.case, self.form.focus, row) {
             self.remember();
         }

@@ -248,7 +248,9 @@ pub(super) fn ask_limit(app: &mut App) {
 /// Goes to the limit of a quantity; a new limit starts with the present value of the quantity, or
 /// empty without one.
 fn hold_limit(app: &mut App, quantity: &'static Quantity) {
-    if rows::of_entry(&app.tab.case, quantity.key).is_none() {
+    let from = app.tab.form.focus;
+    let is_new = rows::of_entry(&app.tab.case, quantity.key).is_none();
+    if is_new {
         // The printed value of the quantity, rounded up so that the limit is met.
         let value = app.tab.solution().and_then(|solution| report::value(quantity, solution));
         let begin = |value: f64| {
@@ -266,13 +268,25 @@ fn hold_limit(app: &mut App, quantity: &'static Quantity) {
         }
     }
     let row = rows::of_entry(&app.tab.case, quantity.key);
-    edit_row(app, row.unwrap_or(app.tab.form.focus));
+    edit_row(app, row.unwrap_or(from), is_new.then_some(from));
 }
 
-fn edit_row(app: &mut App, row: usize) {
+fn edit_row(app: &mut App, row: usize, added_from: Option<usize>) {
     app.layout.focus = Pane::Form;
     app.is_editing = true;
     app.focus_on(row);
+    app.tab.form.added_from = added_from;
+}
+
+/// Esc in a row that a command added: the case is as before, unless the row is edited.
+pub(super) fn take_back(app: &mut App) {
+    let Some(from) = app.tab.form.added_from else { return };
+    if rows::text(&app.tab.case, app.tab.form.focus).is_some() {
+        undo(app);
+    } else {
+        app.tab.case.drop_empty(None);
+        app.focus_on(from);
+    }
 }
 
 /// Goes to the distribution of the focused field, if it is a number; outside the form, opens the
@@ -316,10 +330,13 @@ fn spread_field(app: &App) -> Option<usize> {
 /// Goes to the distribution of a field; a new one is empty.
 fn begin_spread(app: &mut App, field: usize) {
     let Field { key, .. } = FIELDS[field];
-    if rows::of_entry(&app.tab.case, key).is_none() {
+    let from = app.tab.form.focus;
+    let is_new = rows::of_entry(&app.tab.case, key).is_none();
+    if is_new {
         app.tab.case.write_spread(key, "");
     }
-    edit_row(app, rows::of_entry(&app.tab.case, key).unwrap_or(field));
+    let row = rows::of_entry(&app.tab.case, key).unwrap_or(field);
+    edit_row(app, row, is_new.then_some(from));
 }
 
 /// Gives the focused field a distribution such as `normal 4 um`; `none` removes it.

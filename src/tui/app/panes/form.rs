@@ -33,6 +33,8 @@ pub struct FormState {
     pub(crate) written_unit: Option<String>,
     /// The first visible line.
     pub top: usize,
+    /// The row that had the focus before a command added this row; Esc removes an unedited one.
+    pub(crate) added_from: Option<usize>,
 }
 
 impl FormState {
@@ -43,6 +45,7 @@ impl FormState {
             input: text::Line::whole(rows::text(case, focus).unwrap_or_default()),
             written_unit: rows::written_unit(case, focus),
             top: 0,
+            added_from: None,
         }
     }
 }
