@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 /// How often the progress is reported.
 const TICK: Duration = Duration::from_millis(50);
 /// Number of chunks per thread: the last chunks are short, so that no thread waits long for another.
-const CHUNKS: usize = 64;
+const CHUNKS: usize = 512;
 /// Greatest number of points of a chunk.
 const LONGEST: usize = 1024;
 

@@ -690,7 +690,7 @@ fn now() -> u64 {
 }
 
 /// A duration in seconds as text.
-fn age(seconds: u64) -> String {
+pub(crate) fn age(seconds: u64) -> String {
     let (minutes, hours, days) = (seconds / 60, seconds / 3600, seconds / 86400);
     match (days, hours, minutes) {
         (2.., ..) => format!("{days} days"),

@@ -7,7 +7,7 @@ pub use crate::tui::app::dialogs::page::Explanation;
 pub use crate::tui::app::dialogs::picker::Item;
 pub use crate::tui::app::panes::chart::ChartRequest;
 pub use crate::tui::app::panes::chart::curves::CurveSource;
-pub use crate::tui::app::panes::study::{End, StudyParameters};
+pub use crate::tui::app::panes::study::End;
 pub use crate::tui::app::panes::teeth::{Centre, Picture, TeethView};
 pub use crate::tui::app::tab::{Origin, Tab};
 pub use crate::tui::input::{Event, take_action};

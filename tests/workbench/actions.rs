@@ -63,6 +63,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 6 d", "j", "", "▸ 6 Tolerance 2 to 15 of 28"),
     ("Esc 6 d j j", "k", "", "▸ 6 Tolerance 2 to 15 of 28"),
     ("Esc 6 d", "l", "", "▸ 6 Tolerance 14 to 27 of 28"),
+    ("Esc 6 d", "r", "", "Samples of the tolerance"),
     ("Esc 6 d l", "h", "", "▸ 6 Tolerance 1 to 14 of 28"),
     ("Esc 2", "v", "", "the case has no variants"),
     ("", ":variant", "", "Commands"),
@@ -316,10 +317,7 @@ fn the_help_has_every_key_with_its_sentence() {
 #[test]
 fn the_cases_by_their_numbers() {
     let mut desk = bench();
-    desk.keys(&[
-        "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X",
-        "Ctrl-N", "X", "Ctrl-N", "X",
-    ]);
+    desk.keys(&["Ctrl-N", "X"].repeat(8));
     assert_eq!(desk.app.tabs().count(), 9);
     for number in 1..=9 {
         desk.keys(&[&format!("Alt-{number}")]).assert_shows(&format!("[{number} "));

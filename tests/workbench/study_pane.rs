@@ -5,7 +5,7 @@ use crate::harness::{Desk, LARGE, SMALL, TABLE_1, requested, results};
 use insta::assert_snapshot;
 use ratatui::layout::{Position, Size};
 use tipstrike::case::Document;
-use tipstrike::tui::testing::{Action, Effect, End, Slot, StudyParameters, update};
+use tipstrike::tui::testing::{Action, Effect, End, Slot, update};
 
 const SPREAD: &str = "\n[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\" }\n\"operation.power\" = { \
         uniform = \"1 kW\" }\n";
@@ -40,21 +40,15 @@ fn a_gap_shows_where_no_tooth_strikes() {
 fn the_curve_follows_every_edit_and_the_baseline_stays_behind_it() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", "6", "b"]);
-    let ends = |desk: &Desk| {
-        let shown = desk.app.tab.study.shown.as_ref().expect("a study");
-        let StudyParameters::Grid(grid) = &shown.request.parameters else { panic!("a curve") };
-        let axis = &grid.axes[0];
-        (axis.key(), axis.with_unit(0), axis.with_unit(100))
-    };
-    desk.fill("operation.power", "20 kW");
-    assert_eq!(ends(&desk), ("operation.power", "10 kW".into(), "30 kW".into()));
-    desk.assert_shows("+ baseline");
-    desk.keys(&["Esc", "6", "+"]);
-    assert_eq!(ends(&desk).1, "15 kW");
-    desk.keys(&["-", "-"]);
-    assert_eq!(ends(&desk).2, "40 kW");
-    desk.keys(&["0"]);
-    assert_eq!(ends(&desk).1, "10 kW");
+    desk.fill("operation.power", "20 kW").assert_shows("+ baseline");
+    for (keys, ends) in [
+        (&["Esc", "6"][..], "10 kW 30 kW"),
+        (&["+"], "15 kW 25 kW"),
+        (&["-", "-"], "1e-15 kW 40 kW"),
+        (&["0"], "10 kW 30 kW"),
+    ] {
+        assert_eq!(key_and_ends(desk.keys(keys)), [format!("operation.power {ends} 100")]);
+    }
 }
 
 #[test]
@@ -167,7 +161,9 @@ fn the_tolerance_fills_its_page_and_needs_distributions() {
     let top = desk.screen();
     desk.keys(&["j", "j", "j"]);
     assert_ne!(desk.screen(), top);
-    desk.keys(&["d"]).lacks(&["10000 samples"]);
+    desk.keys(&["r", "1", "Enter"]).assert_shows("a number of samples from 2 to 1000000");
+    desk.keys(&["Ctrl-U", "500", "Enter"]).assert_shows("500 samples, seed 1");
+    desk.keys(&["d"]).lacks(&["500 samples"]);
 }
 
 #[test]
@@ -346,11 +342,7 @@ fn fields_that_exclude_each_other_make_no_map() {
 fn the_wheel_scrolls_the_tolerance_and_the_zoom_keys_keep_the_hidden_range() {
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));
     desk.go_to("operation.speed").keys(&["Esc", "6", "z"]);
-    let ends = |desk: &Desk| {
-        let shown = desk.app.tab.study.shown.as_ref().expect("a study");
-        shown.request.parameters.axes()[0].with_unit(0)
-    };
-    assert_eq!(ends(&desk), "1000 rpm");
+    let ends = key_and_ends(&desk);
     desk.keys(&["d"]);
     let top = desk.screen();
     desk.act(Action::Wheel(Position::new(5, 10), 3));
@@ -359,7 +351,7 @@ fn the_wheel_scrolls_the_tolerance_and_the_zoom_keys_keep_the_hidden_range() {
     desk.keys(&["k", "k", "k"]);
     assert_eq!(desk.screen(), top);
     desk.keys(&["+", "0", "-", "-", "d"]);
-    assert_eq!(ends(&desk), "1000 rpm");
+    assert_eq!(key_and_ends(&desk), ends);
 }
 
 #[test]

@@ -287,6 +287,11 @@ const TYPED: &[Typed] = &[
         run: studies::set_range,
     },
     Typed {
+        name: "tolerance",
+        about: |count| format!("Sample the distributions of [spread] with {count} samples."),
+        run: studies::set_samples,
+    },
+    Typed {
         name: "spread",
         about: |text| format!("Sample the focused field in the tolerance: {text}."),
         run: edit::set_spread,
@@ -433,6 +438,8 @@ pub static BINDINGS: &[Binding] = &[
         "Scroll the tolerance one line down or up.").shown(),
     pair(Place::TOLERANCE, "l/h Right/Left PageDown/PageUp", "next page", |app, by| app.study.top = study::paged(app, by),
         "Go to the next or previous page of the tolerance.").shown(),
+    row(Place::TOLERANCE, "r", "samples", studies::ask_samples,
+        "Type the number of samples of the tolerance.").shown(),
     row(Place::STUDY.or(Place::TOLERANCE), "d", "tolerance", studies::tolerance,
         "Sample the distributions of [spread], or show the curve again.").shown(),
     row(Place::COMMANDED, "/", "search", search,

@@ -30,12 +30,13 @@ use crate::tui::app::dialogs::question::PathDialog;
 use crate::tui::app::panes::results;
 use crate::tui::app::panes::study::range::{self, MOST_ZOOM, RangeOf, Steps};
 use crate::tui::app::panes::study::{
-    self, CURVE_POINTS, End, GridParameters, Layer, LayerFound, SAMPLES, StudyParameters,
-    StudyRequest, StudyResults, ToleranceParameters, map_points,
+    self, CURVE_POINTS, End, GridParameters, Layer, LayerFound, StudyParameters, StudyRequest,
+    StudyResults, StudyState, ToleranceParameters, map_points,
 };
 use crate::tui::app::panes::trade::{Traded, nearest, stepped};
 use crate::tui::layout::{Pane, is_too_small};
 use crate::tui::rows::{self, Row};
+use crate::tui::session::age;
 use crate::tui::solver::{Baseline, Variants};
 use crate::tui::text::Line;
 
@@ -44,6 +45,13 @@ const RANGE: &str = "Range of the study";
 const HOW: &str = "A range such as 50..200 N m, or a list such as 20, 30, 40 mm; then, if wanted, \
     `, 31 points` and `, log`. KEY = before it chooses the field. A second range after a semicolon \
     makes a map.";
+
+/// The title and the instruction of the dialog for the samples.
+const SAMPLES: &str = "Samples of the tolerance";
+const HOW_MANY: &str = "A number from 2 to 1000000. More samples narrow the intervals and take \
+    longer.";
+/// Greatest number of samples whose page is computed while they arrive.
+const MOST_SAMPLES: usize = 1_000_000;
 
 /// Time between two messages of a grid.
 const STEP: Duration = Duration::from_millis(40);
@@ -98,7 +106,8 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
                 d in this pane shows the field over its range."
                 .to_owned());
         }
-        let parameters = ToleranceParameters { case, inputs, quantity: quantity.key };
+        let (quantity, samples) = (quantity.key, app.study.samples());
+        let parameters = ToleranceParameters { case, inputs, quantity, samples };
         return Ok(StudyParameters::Tolerance(Box::new(parameters)));
     }
     let field = field(app).ok_or("A limit has no range: go to a field of the form.")?;
@@ -231,6 +240,26 @@ pub(super) fn set_range(app: &mut App, text: &str) {
     }
 }
 
+/// Asks for the number of samples of the tolerance.
+pub(super) fn ask_samples(app: &mut App) {
+    let input = Line::whole(app.study.samples().to_string());
+    let done = |app: &mut App, text: &str, _| set_samples(app, text);
+    app.prompts.push(Prompt::Path(PathDialog::new(SAMPLES, HOW_MANY, input, done)));
+}
+
+/// Samples the tolerance with the typed number of samples.
+pub(super) fn set_samples(app: &mut App, text: &str) {
+    match text.trim().parse() {
+        Ok(count @ 2..=MOST_SAMPLES) => {
+            app.close_titled(SAMPLES);
+            show_grid(app);
+            let StudyState { is_tolerance, samples, top, .. } = &mut app.study;
+            (*is_tolerance, *samples, *top) = (true, Some(count), 0);
+        }
+        _ => app.complain(format!("type a number of samples from 2 to {MOST_SAMPLES}")),
+    }
+}
+
 // Shows the pane with a curve, a map or a table.
 fn show_grid(app: &mut App) {
     app.study.is_tolerance = false;
@@ -336,9 +365,9 @@ fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
             (quantity, PointsRequest::Sweep { vary, points, log: false }, options)
         }
         StudyParameters::Tolerance(of) => {
-            let points =
-                PointsRequest::Tolerance { samples: SAMPLES, seed: 1, ranked: USUAL_RANKED };
-            (of.quantity, points, format!(" --samples {SAMPLES}"))
+            let (samples, ranked) = (of.samples, USUAL_RANKED.min(of.samples));
+            let points = PointsRequest::Tolerance { samples, seed: 1, ranked };
+            (of.quantity, points, format!(" --samples {samples}"))
         }
     };
     let word = if app.study.is_tolerance { "tolerance" } else { "sweep" };
@@ -405,15 +434,25 @@ fn solve(
     solve_all(batch, 0..count, &Control { jobs, go_on: &|_, _| running.is_wanted() }, take)
 }
 
+/// The solved part of a study, and the remaining time in words after a second.
+fn progress(begun: Instant, solved: usize, count: usize) -> (f64, String) {
+    let (part, past) = (solved as f64 / count.max(1) as f64, begun.elapsed().as_secs_f64());
+    let left = (past / part * (1.0 - part)).ceil() as u64;
+    (part, if past > 1.0 { format!(", {} left", age(left)) } else { String::new() })
+}
+
 fn solve_grid(
     tab: usize,
     parameters: &GridParameters,
     running: &Running<'_>,
 ) -> Result<Result<(), Stopped>, Problem> {
-    let grid = Grid::of(parameters.axes.clone())?;
+    let (grid, begun) = (Grid::of(parameters.axes.clone())?, Instant::now());
+    let all = grid.count() * parameters.layers.len();
     for (at, layer) in parameters.layers.iter().enumerate() {
-        let send =
-            |found| running.send(move |app| change(app, tab, |results| results.add(at, found)));
+        let send = |found, solved| {
+            let progress = progress(begun, at * grid.count() + solved, all);
+            running.send(move |app| change(app, tab, |results| results.add(at, found, progress)));
+        };
         let quantities: Vec<&'static Quantity> = layer.quantity().into_iter().collect();
         let inputs = &layer.inputs.clone().needing(quantities.iter().map(|of| of.stage));
         let batch = Batch { inputs, points: &grid, quantities: &quantities };
@@ -426,12 +465,13 @@ fn solve_grid(
             if sent.elapsed() > STEP {
                 sent = Instant::now();
                 waiting.refusals = refusals.clone();
-                send(std::mem::replace(&mut waiting, LayerFound::of(layer)));
+                let found = std::mem::replace(&mut waiting, LayerFound::of(layer));
+                send(found, first + rows.len());
             }
             true
         });
         waiting.refusals = refusals;
-        send(waiting);
+        send(waiting, grid.count());
         if solved.is_err() {
             return Ok(solved);
         }
@@ -444,11 +484,11 @@ fn sample(
     parameters: &ToleranceParameters,
     running: &Running<'_>,
 ) -> Result<Result<(), Stopped>, Problem> {
-    let ToleranceParameters { case, inputs, quantity } = parameters;
-    let size = Size { samples: SAMPLES, seed: 1, ranked: None };
+    let ToleranceParameters { case, inputs, quantity, samples } = parameters;
+    let size = Size { samples: *samples, seed: 1, ranked: None };
     let only: Vec<&'static Quantity> = Quantity::find(quantity).into_iter().collect();
     let study = Tolerance::of(case, inputs, &only, size)?;
-    let count = study.design.count();
+    let (count, begun) = (study.design.count(), Instant::now());
     // The page of the samples so far; the ranking needs all samples.
     let send = |samples: &Samples| {
         let solved = samples.outcomes.len();
@@ -465,9 +505,9 @@ fn sample(
         let mut page = report.lines_for_screen();
         let refused = samples.refusals.0.iter().map(|refused| refused.sentence(&so_far.design));
         page.extend(refused);
-        let part = solved as f64 / count as f64;
+        let progress = progress(begun, solved, count);
         running.send(move |app| {
-            change(app, tab, |results| (results.page, results.part) = (page, part));
+            change(app, tab, |results| (results.page, results.progress) = (page, progress));
         });
     };
     let needing = &inputs.clone().needing(only.iter().map(|of| of.stage));

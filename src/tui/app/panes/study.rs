@@ -3,6 +3,8 @@
 
 pub(crate) mod range;
 
+use std::mem::discriminant;
+
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
@@ -21,6 +23,7 @@ use crate::report::table::{Cell, Column, Table};
 use crate::report::{self, common_unit, shown_in, shown_with};
 use crate::study::axis::Axis as StudyAxis;
 use crate::study::batch::{PointOutcome, Refusals, Refused};
+use crate::study::tolerance::USUAL_SAMPLES;
 use crate::tui::app::App;
 use crate::tui::layout::Pane;
 use crate::tui::text::{self, symbol};
@@ -57,10 +60,16 @@ pub struct StudyState {
     pub(crate) zoom: i32,
     /// The first visible line of the tolerance.
     pub(crate) top: usize,
+    /// The typed number of samples of the tolerance.
+    pub(crate) samples: Option<usize>,
 }
 
-/// Samples of a tolerance study in the workbench.
-pub(crate) const SAMPLES: usize = 10_000;
+impl StudyState {
+    /// The number of samples of the tolerance.
+    pub(crate) fn samples(&self) -> usize {
+        self.samples.unwrap_or(USUAL_SAMPLES)
+    }
+}
 
 /// A requested study.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,6 +118,8 @@ pub struct ToleranceParameters {
     pub(crate) inputs: Inputs,
     /// The selected quantity.
     pub(crate) quantity: &'static str,
+    /// The number of samples.
+    pub(crate) samples: usize,
 }
 
 /// How a study ended.
@@ -158,8 +169,8 @@ pub struct StudyResults {
     pub layers: Vec<LayerFound>,
     /// The page of a tolerance study.
     pub page: Vec<String>,
-    /// The solved part of a tolerance study.
-    pub(crate) part: f64,
+    /// The solved part, and the remaining time in words, unless it is short.
+    pub(crate) progress: (f64, String),
     /// How the study ended, if it has ended.
     pub end: Option<End>,
 }
@@ -207,6 +218,9 @@ impl Study {
         if before.is_none_or(|before| before.parameters.axes() != request.parameters.axes()) {
             self.cursor = None;
         }
+        // A curve is no earlier state of a tolerance.
+        let kind = |request: &StudyRequest| discriminant(&request.parameters);
+        self.shown.take_if(|shown| kind(&shown.request) != kind(&request));
         self.request = Some(request);
     }
 
@@ -270,11 +284,12 @@ impl StudyResults {
             StudyParameters::Grid(grid) => grid.layers.iter().map(LayerFound::of).collect(),
             StudyParameters::Tolerance(_) => Vec::new(),
         };
-        StudyResults { request, layers, page: Vec::new(), part: 0.0, end: None }
+        StudyResults { request, layers, page: Vec::new(), progress: Default::default(), end: None }
     }
 
     /// Adds points to a layer.
-    pub(crate) fn add(&mut self, layer: usize, found: LayerFound) {
+    pub(crate) fn add(&mut self, layer: usize, found: LayerFound, progress: (f64, String)) {
+        self.progress = progress;
         if let Some(known) = self.layers.get_mut(layer) {
             known.outcomes.extend(found.outcomes);
             known.values.extend(found.values);
@@ -317,16 +332,14 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
 
 /// The hint line while the pane has the focus.
 pub(crate) fn hint(app: &App) -> String {
-    let shown = app.tab.study.shown.as_ref();
-    let shown = shown.filter(|_| app.tab.study.obstacle.is_none());
-    match shown.map(|shown| &shown.request.parameters) {
-        Some(StudyParameters::Grid(_)) => {
-            format!("● present value, ▴ cursor, {NO_CONTACT} no contact, {REFUSED} refused point.")
-        }
-        Some(StudyParameters::Tolerance(_)) => {
-            format!("{SAMPLES} samples draw every field of [spread] from its distribution.")
-        }
-        None => "The study varies a field over a range; r types the range.".to_owned(),
+    let Study { shown, obstacle, .. } = &app.tab.study;
+    if app.study.is_tolerance {
+        let count = app.study.samples();
+        format!("{count} samples draw every field of [spread] from its distribution.")
+    } else if shown.is_some() && obstacle.is_none() {
+        format!("● present value, ▴ cursor, {NO_CONTACT} no contact, {REFUSED} refused point.")
+    } else {
+        "The study varies a field over a range; r types the range.".to_owned()
     }
 }
 
@@ -431,7 +444,7 @@ fn top(app: &App, shown: &StudyResults) -> usize {
 fn title(app: &App) -> String {
     let shown = app.tab.study.shown.as_ref().filter(|_| app.tab.study.obstacle.is_none());
     let Some(shown) = shown.filter(|shown| shown.quantity().is_some()) else {
-        return "Study".to_owned();
+        return if app.study.is_tolerance { "Tolerance" } else { "Study" }.to_owned();
     };
     let state = progress(shown);
     let words = match &shown.request.parameters {
@@ -461,16 +474,12 @@ fn position(app: &App, shown: &StudyResults) -> String {
 
 /// The progress of an unfinished study.
 fn progress(shown: &StudyResults) -> String {
-    match (&shown.end, &shown.request.parameters) {
-        (Some(End::Whole), _) => String::new(),
-        (Some(End::Stopped), _) => ", stopped".to_owned(),
-        (Some(End::Failed(_)), _) => ", failed".to_owned(),
-        (None, StudyParameters::Tolerance(_)) => format!(", {:.0} % solved", 100.0 * shown.part),
-        (None, StudyParameters::Grid(_)) => {
-            let solved: usize = shown.layers.iter().map(|found| found.outcomes.len()).sum();
-            let all = (shown.count() * shown.layers.len()).max(1);
-            format!(", {:.0} % solved", 100.0 * solved as f64 / all as f64)
-        }
+    let (part, left) = &shown.progress;
+    match &shown.end {
+        Some(End::Whole) => String::new(),
+        Some(End::Stopped) => ", stopped".to_owned(),
+        Some(End::Failed(_)) => ", failed".to_owned(),
+        None => format!(", {:.0} % solved{left}", 100.0 * part),
     }
 }
 
