@@ -15,10 +15,10 @@ use crate::tui::form_aids::materials;
 use crate::tui::layout::Pane;
 use crate::tui::{rows, text};
 
-/// Widths of the marks and of a symbol, and the usual width of a label.
+/// Widths of the marks and of a symbol, and the usual width of a label with its blank.
 const MARKS: u16 = 2;
 const SYMBOL: u16 = 6;
-const LABEL: u16 = 20;
+const LABEL: u16 = 21;
 /// The least width of the value of a field.
 const VALUE: u16 = 14;
 
@@ -211,7 +211,12 @@ fn draw_line(app: &App, index: usize, line: Rect, buffer: &mut Buffer) -> Option
     let (is_edited, is_choice) = (app.is_edited(index), matches!(kind, Some(Kind::Choice(..))));
     let is_typed = is_edited && written.is_some() && !is_choice;
     let width = |text: &str| text::width(text) as u16 + 1;
-    let of_label = if label.is_empty() { 0 } else { width(label).max(LABEL + 1) };
+    let of_label = match width(label) {
+        1 => 0,
+        ..=LABEL => LABEL,
+        // The value is not below the other values: a second blank separates it.
+        long => long + 1,
+    };
     let (of_symbol, end) = (SYMBOL.max(width(symbol)), text::width(&verdict) as u16);
     let least = if field.is_some() { VALUE } else { 0 };
     let of_value = if is_typed { VALUE } else { least.max(width(&value)) };

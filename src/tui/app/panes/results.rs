@@ -184,32 +184,37 @@ enum Place {
 fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
     let width = usize::from(app.area(Pane::Results).width.saturating_sub(1));
     let height = usize::from(app.area(Pane::Results).height.saturating_sub(1));
-    let (mut head, mut hidden) = (Vec::new(), 0);
+    let (mut head, mut has_more) = (Vec::new(), false);
     let height = height.saturating_sub(usize::from(app.has_result_header()) + inputs(app).len());
     let kept = |rows: usize| height.saturating_sub(rows);
     let most = if app.tab.answer.is_some() { kept(LEAST_ROWS + 1) } else { height };
     for Sentence { text, style, place } in sentences(app) {
         let lines = text::wrap(&text, width).into_iter().map(|line| Line::styled(line, style));
-        // The last line counts the hidden sentences.
+        // The last line names the page of the hidden sentences.
         let room = kept(USUAL_ROWS).saturating_sub(head.len() + 1);
         match place {
             Place::Pane => head.extend(lines),
-            Place::Room if hidden == 0 && lines.len() <= room => head.extend(lines),
-            Place::Room | Place::Page => hidden += 1,
+            Place::Room if !has_more && lines.len() <= room => head.extend(lines),
+            Place::Room | Place::Page => has_more = true,
         }
     }
     if head.len() > most {
         head.truncate(most);
         head.iter_mut().last().into_iter().for_each(|line| line.push_span("…"));
     }
-    let notes = (hidden > 0).then(|| {
-        let ending = if hidden == 1 { "" } else { "s" };
-        format!("{hidden} note{ending} ({}n)", app.leave())
+    let notes = has_more.then(|| {
+        let notes = match app.tab.answer.as_ref().map_or(0, |answer| answer.notes.len()) {
+            0 => "more".to_owned(),
+            1 => "1 note".to_owned(),
+            count => format!("{count} notes"),
+        };
+        format!("{notes} ({}n)", app.leave())
     });
     let folded = app.tab.answer.as_ref().and_then(|answer| folded(app, answer));
-    // Between variants the results need the line; the key of the notes is in the line of keys.
-    let has_room = app.shown_variants().is_none() || head.len() < kept(USUAL_ROWS);
-    let last: Vec<String> = notes.into_iter().chain(folded).filter(|_| has_room).collect();
+    // Variants, and the last of the usual rows, need the line; the line of keys has the key of the notes.
+    let is_needed = head.len() == kept(USUAL_ROWS)
+        || app.shown_variants().is_some() && head.len() > kept(USUAL_ROWS);
+    let last: Vec<String> = notes.into_iter().chain(folded).filter(|_| !is_needed).collect();
     if !last.is_empty() {
         let last = text::cut(&last.join(", "), width);
         head.push(Line::styled(last, app.look.theme.note));
@@ -249,7 +254,12 @@ fn sentences(app: &App) -> Vec<Sentence> {
     if let Some(solution) = answer.of(answer.active) {
         let verdicts =
             if app.tab.is_stale() { Vec::new() } else { verdicts(&app.tab.case, solution) };
+        // A pending method may compute what the shown one lacks.
+        let is_open = |verdict: &Verdict<'_>| {
+            answer.pending.is_some() && verdict.standing == Standing::Unknown
+        };
         let written = verdicts.iter().filter(|verdict| !verdict.limit.text.is_empty());
+        let written = written.filter(|verdict| !is_open(verdict));
         let (met, unmet): (Vec<_>, Vec<_>) = written.partition(|verdict| is_met(verdict));
         let limit = |verdict: &Verdict<'_>| {
             format!("Limit {}: {}.", verdict.standing.word(), verdict.sentence(app.settings.units))
@@ -583,12 +593,9 @@ fn columns(
     };
     let symbols = |of: &'static Quantity| symbol(of.symbol_in(active), app.look.ascii);
     let symbols = words(0, 0, Style::new(), &symbols);
-    // In a narrow pane the difference from the baseline leaves room for the symbols or for the names.
     let is_narrow = app.area(Pane::Results).width < WIDE;
-    let gives_way = is_narrow && app.baseline.is_some() && variants.is_none();
-    let rank = if gives_way { NAMES + 1 } else { 0 };
     let mut columns = vec![
-        Column { room: symbols.room.min(SYMBOL), rank, least: usize::MAX, ..symbols },
+        Column { room: symbols.room.min(SYMBOL), ..symbols },
         words(NAMES, 9, Style::new(), &|of| label(of, active)),
     ];
     for (at, &method) in methods.iter().enumerate() {
