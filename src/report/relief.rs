@@ -282,7 +282,10 @@ impl Specification {
         let [amounts, lengths] = KEYS;
         let reliefs = [amounts[0], lengths[0], amounts[1], lengths[1]].into_iter();
         let crowning = self.is_over_face.then_some(CROWNING);
-        let errors = ["transmission_error", "change", "worst_transmission_error"];
+        // A line has room for the change or for the crowning.
+        let change = (!self.is_over_face).then_some("change");
+        let errors = ["transmission_error"].into_iter().chain(change);
+        let errors = errors.chain(["worst_transmission_error"]);
         self.of_choices(&reliefs.chain(crowning).chain(errors).collect::<Vec<_>>())
     }
 
