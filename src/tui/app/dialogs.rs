@@ -253,22 +253,6 @@ impl App {
         self.inside(wanted)
     }
 
-    /// A box with an input line above other lines. Returns the input line and the position of the
-    /// text cursor.
-    fn input_box(
-        &self,
-        title: &str,
-        width: u16,
-        input: &Line,
-        lines: Vec<Words<'_>>,
-        buffer: &mut Buffer,
-    ) -> (Rect, Option<Position>) {
-        let inner = self.frame(title, Size::new(width, lines.len() as u16 + 1), buffer);
-        let [line, below] = text::split(inner, 1);
-        Text::from(lines).render(below, buffer);
-        (line, text::edited(input, line, self.look.theme.focus, buffer))
-    }
-
     /// A box that shows the lines from `top`, with a scroll bar if they do not fit.
     fn page_box(&self, title: &str, lines: &[Words<'_>], top: usize, buffer: &mut Buffer) {
         let inner = self.frame(title, Size::new(WIDEST, extent(lines).height), buffer);

@@ -1,7 +1,7 @@
 //! Questions with buttons, and dialogs for a line of text such as a path.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::Style;
 use ratatui::text::{Line as Words, Span, Text};
 use ratatui::widgets::Widget;
@@ -177,8 +177,12 @@ impl Dialog for PathDialog {
             Ok(text) => Words::styled(text::cut(&text, width.into()), theme.note),
             Err(reason) => Words::styled(text::cut(&reason, width.into()), theme.faint),
         });
-        let lines = meant.into_iter().chain(said(self.how, theme.faint, width)).collect();
-        let (line, cursor) = app.input_box(self.title, WIDEST, &self.input, lines, buffer);
+        let lines = meant.into_iter().chain(said(self.how, theme.faint, width));
+        let lines = lines.collect::<Text<'_>>();
+        let size = Size::new(WIDEST, lines.height() as u16 + 1);
+        let [line, below] = text::split(app.frame(self.title, size, buffer), 1);
+        lines.render(below, buffer);
+        let cursor = text::edited(&self.input, line, theme.focus, buffer);
         text::ending(ending.flatten().as_deref(), typed.width(), line, theme, buffer);
         cursor
     }
