@@ -12,7 +12,7 @@ use super::mesh::build::Meshes;
 use super::position::printed_relief_to_clear;
 use super::relief::Reliefs;
 use super::slices::{self, Face};
-use super::static_load::{lead_after_end, lead_before_start, places_before_start};
+use super::static_load::{lead_at_rest, lead_work};
 use super::{Outcome, Refusal, Solution, Stage};
 
 /// Limit of the search, relative to the sum of deflection, deviation and given relief.
@@ -68,8 +68,18 @@ pub fn clearing(
     solution: &Solution,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Clearing, Refusal> {
-    let search = Search::new(false);
-    let given = inputs.driven.tip_relief;
+    let meter = Meter::new(SEARCH_WORK);
+    let (entry, exit) = (Search::new(false, &meter), Search::new(true, &meter));
+    let (given, of_driver) = (inputs.driven.tip_relief, inputs.driver.tip_relief);
+    let at_rest = solution.static_load.as_ref();
+    let at_exit = match at_rest.and_then(|load| load.last_contact_angle) {
+        None => None,
+        Some(_) => match exit.least(&inputs.mesh(), None, inputs.face(), solution, go_on) {
+            Err(Refusal::Stopped) => return Err(Refusal::Stopped),
+            Ok(relief) if relief > 0.0 => Some((of_driver, enough(relief, of_driver))),
+            _ => None,
+        },
+    };
     let found = match (solution.outcome, inputs.method) {
         (Outcome::NoCornerContact, _) => Ok(None),
         (_, Method::Exact | Method::Auto) => Ok(Some(solution.deviation.total)),
@@ -77,7 +87,7 @@ pub fn clearing(
         (_, Method::Static | Method::Dynamic) => {
             let is_moving = inputs.method == Method::Dynamic;
             let motion = is_moving.then(|| Settings::approach(inputs, solution.reduced_mass));
-            search.least(&inputs.mesh(), motion.as_ref(), inputs.face(), solution, go_on).map(Some)
+            entry.least(&inputs.mesh(), motion.as_ref(), inputs.face(), solution, go_on).map(Some)
         }
     };
     let (relief, withheld) = match found {
@@ -85,18 +95,8 @@ pub fn clearing(
         Err(Refusal::Stopped) => return Err(Refusal::Stopped),
         Err(refusal) => (None, Some(refusal)),
     };
-    let of_driver = inputs.driver.tip_relief;
-    let at_exit = inputs
-        .method
-        .shares_load()
-        .then(|| Search::new(true).least(&inputs.mesh(), None, inputs.face(), solution, go_on));
-    let at_exit = match at_exit {
-        Some(Err(Refusal::Stopped)) => return Err(Refusal::Stopped),
-        Some(Ok(relief)) if relief > 0.0 => Some((of_driver, enough(relief, of_driver))),
-        _ => None,
-    };
-    let (runs, work) = (search.runs(), search.meter.spent());
-    Ok(Clearing { given, relief, withheld, at_exit, runs, work })
+    let runs = entry.runs() + exit.runs();
+    Ok(Clearing { given, relief, withheld, at_exit, runs, work: meter.spent() })
 }
 
 /// The relief, rounded up so far that the sum with the given relief is enough after its conversion
@@ -106,16 +106,16 @@ fn enough(relief: f64, given: f64) -> f64 {
 }
 
 /// The tested reliefs and the work of the search.
-struct Search {
+struct Search<'a> {
     /// Whether the driver's tip after B is searched in place of the driven tip before E.
     at_exit: bool,
-    meter: Meter,
+    meter: &'a Meter,
     tries: RefCell<Vec<Tried>>,
 }
 
-impl Search {
-    fn new(at_exit: bool) -> Search {
-        Search { at_exit, meter: Meter::new(SEARCH_WORK), tries: RefCell::default() }
+impl<'a> Search<'a> {
+    fn new(at_exit: bool, meter: &'a Meter) -> Search<'a> {
+        Search { at_exit, meter, tries: RefCell::default() }
     }
 
     /// The least additional relief, in m, by the static balance or by a motion.
@@ -162,7 +162,7 @@ impl Search {
         let Reliefs { driver, driven, .. } = &mut relieved.reliefs;
         (if self.at_exit { driver } else { driven }).tip += relief;
         Meshes::new(&relieved, solution, solution.mesh.as_ref(), None).find(|mesh| {
-            let meter = &self.meter;
+            let meter = self.meter;
             meter.spend(mesh.work());
             let at_rest = |lead: f64| Approach { lead, contact_lost: false };
             let over_face =
@@ -172,9 +172,8 @@ impl Search {
                 (Some(face), None) => at_rest(face.lead_at_rest(self.at_exit)?),
                 (None, Some(motion)) => approach(mesh, motion, meter, go_on)?,
                 (None, None) => {
-                    meter.spend(places_before_start(mesh));
-                    let lead = if self.at_exit { lead_after_end } else { lead_before_start };
-                    at_rest(lead(mesh)?)
+                    meter.spend(lead_work(mesh, self.at_exit));
+                    at_rest(lead_at_rest(mesh, self.at_exit)?)
                 }
             };
             Ok(Tried { relief, lead, contact_lost })
@@ -349,7 +348,7 @@ impl Solution {
         match (&self.face_load, &self.face_motion) {
             (Some(face), _) => face.least_gap.map(|gap| -gap),
             (None, Some(_)) => None,
-            (None, None) => lead_before_start(self.mesh.as_ref()?).ok(),
+            (None, None) => lead_at_rest(self.mesh.as_ref()?, false).ok(),
         }
     }
 }

@@ -596,10 +596,10 @@ impl Stage {
                     && match one.method {
                         Method::Exact | Method::Auto => true,
                         Method::Paper => equal(cases, Inputs::shape),
-                        Method::Static => equal(cases, Inputs::mesh),
-                        Method::Dynamic => {
-                            equal(cases, |i| (i.mesh(), i.speed, Settings::approach(i, 0.0)))
-                        }
+                        Method::Static => equal(cases, |i| (i.mesh(), i.face())),
+                        Method::Dynamic => equal(cases, |i| {
+                            (i.mesh(), i.face(), i.speed, Settings::approach(i, 0.0))
+                        }),
                     }
             }
         }

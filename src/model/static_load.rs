@@ -189,37 +189,30 @@ fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<Place> {
     borders.windows(2).flat_map(between).collect()
 }
 
-/// The greatest lead before E, in m: the displacement by the other pairs minus the gap of the
-/// incoming pair. Above 0 the tooth touches before E. A negative value is the gap that is left.
+/// The greatest lead before E, or of the outgoing pair after B, in m: the displacement by the other
+/// pairs minus the gap of the pair. Above 0 the tooth touches there. A negative value is the gap
+/// that is left.
 ///
 /// # Errors
 /// [`Refusal::BeyondReach`] if the deflection of the pairs exceeds the computed range of the mesh.
-pub fn lead_before_start(mesh: &Mesh) -> Result<f64, Refusal> {
-    greatest_lead(mesh, mesh.ends().0, 0.0)
-}
-
-/// The greatest lead of the outgoing pair after B, in m, see [`lead_before_start`].
-///
-/// # Errors
-/// [`Refusal::BeyondReach`] if the deflection of the pairs exceeds the computed range of the mesh.
-pub fn lead_after_end(mesh: &Mesh) -> Result<f64, Refusal> {
-    greatest_lead(mesh, mesh.ends().1, mesh.length)
-}
-
-/// The greatest lead of the incoming pair between an end of the mesh and a place, in m.
-fn greatest_lead(mesh: &Mesh, end: f64, to: f64) -> Result<f64, Refusal> {
-    let places = grid(mesh, end.min(to), end.max(to)).into_iter();
+pub fn lead_at_rest(mesh: &Mesh, at_exit: bool) -> Result<f64, Refusal> {
+    let (end, places) = beyond(mesh, at_exit);
+    let places = places.into_iter();
     let leads: Vec<_> = places.map(|place| (place.0, lead_of(mesh, 0, place))).collect();
     let is_clear = lead(mesh, end) <= 0.0;
     let found = is_clear.then(|| greatest(&leads, |s| lead(mesh, s)).1);
     found.ok_or(Refusal::BeyondReach)
 }
 
-/// Work of [`lead_before_start`]: the number of places times the pairs at each place.
-pub fn places_before_start(mesh: &Mesh) -> u64 {
-    let (from, _) = mesh.ends();
-    let pairs = mesh.standing(0.0).count();
-    (grid(mesh, from, 0.0).len() * pairs) as u64
+/// Work of [`lead_at_rest`]: the number of places times the pairs at each place.
+pub fn lead_work(mesh: &Mesh, at_exit: bool) -> u64 {
+    (beyond(mesh, at_exit).1.len() * mesh.standing(0.0).count()) as u64
+}
+
+/// The end of the mesh before E, or after B, and places up to there.
+fn beyond(mesh: &Mesh, at_exit: bool) -> (f64, Vec<Place>) {
+    let (from, to) = mesh.ends();
+    if at_exit { (to, grid(mesh, mesh.length, to)) } else { (from, grid(mesh, from, 0.0)) }
 }
 
 /// The range from the first to the last contact of the incoming pair. `None` if the pair never

@@ -14,7 +14,7 @@ use crate::model::geometry::Geometry;
 use crate::model::inputs::{Drive, Gear, Method, ReliefShape};
 use crate::model::profile::{Profile, Rack};
 use crate::model::slices::Face;
-use crate::model::static_load::{lead_after_end, lead_before_start};
+use crate::model::static_load::lead_at_rest;
 use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve, solve_while};
 pub use demand::{Criterion, Demand};
 use search::{Bench, Grid, MOST_TRIES, Search};
@@ -616,7 +616,7 @@ impl WholeSolves<'_> {
                 let last = load.and_then(|load| load.last_contact_angle);
                 ([before, f64::NEG_INFINITY], last.is_some())
             }
-            (Some(mesh), None) => ([lead_before_start(mesh)?, lead_after_end(mesh)?], false),
+            (Some(mesh), None) => ([lead_at_rest(mesh, false)?, lead_at_rest(mesh, true)?], false),
             (None, _) => ([f64::NEG_INFINITY; 2], false),
         };
         let line_load = solution.face_load.as_ref().map(|load| load.peak.line_load);

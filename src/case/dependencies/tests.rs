@@ -79,6 +79,10 @@ const VARIANTS: &[(&str, Change)] = &[
         inputs.tooth_compliance = Some(ToothCompliance::KUANG_YANG);
         (inputs.driver.young, inputs.driven.young) = (90e9, 90e9);
     }),
+    ("static, misaligned", |inputs| {
+        relieved(inputs, Method::Static);
+        (inputs.helix_angle, inputs.misalignment, inputs.slices) = (0.3, 5e-6, Some(9));
+    }),
 ];
 
 /// The variants that are also solved by other methods.
