@@ -29,8 +29,8 @@ pub struct Loads {
     pub mean_loads: Vec<f64>,
     /// Displacement under the loads minus the gap, in m, above 0 where a pair carries.
     pub leads: Vec<f64>,
-    /// The mean of the leads over each slice, in m.
-    means: Vec<f64>,
+    /// The mean over each slice of the displacement less that of the teeth, in m.
+    advances: Vec<f64>,
     /// Force that turns the driver, in N.
     pub force: f64,
     /// Change of the force with the displacement, in N/m.
@@ -452,8 +452,8 @@ impl Face {
             return 0.0;
         }
         let teeth = |place: f64| {
-            let [_, _, driver, driven, _] = self.section(place);
-            driver + driven
+            // The sections of the driver and of the driven tooth.
+            self.sections.slope(3, place) + self.sections.slope(4, place)
         };
         let mean = (teeth(place) * teeth(place + way)).sqrt();
         mesh.coupling(apart, place) * self.inputs.width / mean
@@ -547,6 +547,11 @@ impl Position<'_> {
                 smooth = f64::min(smooth, (means[at].abs() - half).abs() / lines[at][0].abs());
             }
         }
+        // Beyond the computed range no load displaces the teeth.
+        let advance = |(of, mean): (&Contact, &f64)| {
+            if of.mean < f64::INFINITY { mean + of.mean } else { displacement }
+        };
+        let advances = self.contacts.iter().zip(&means).map(advance).collect();
         let (mut leads, mut line_loads) = (means.clone(), vec![0.0; count]);
         let mut mean_loads = line_loads.clone();
         let known = self.contacts.iter().enumerate().filter(|(_, of)| of.gap < f64::INFINITY);
@@ -573,7 +578,7 @@ impl Position<'_> {
             line_loads,
             mean_loads,
             leads,
-            means,
+            advances,
             force: sums[0] * displacement - sums[1],
             stiffness: sums[0],
             bend,
@@ -618,10 +623,12 @@ impl Position<'_> {
             let mut means = self.moved(first);
             if let [second, ..] = rest {
                 let part = (self.s - first.s) / (second.s - first.s);
-                for (mean, other) in means.iter_mut().zip(self.moved(second)) {
-                    let change = part * (other - *mean);
-                    *mean += if change.is_finite() { change } else { 0.0 };
+                for (advance, other) in means.iter_mut().zip(self.moved(second)) {
+                    *advance += part * (other - *advance);
                 }
+            }
+            for (mean, of) in means.iter_mut().zip(&self.contacts) {
+                *mean -= of.mean;
             }
             let guess = |(at, of): (usize, &Contact)| {
                 let rise = self.rise(&means, at);
@@ -645,24 +652,21 @@ impl Position<'_> {
         (self.contacts.iter().map(guess).collect(), displacement)
     }
 
-    /// The means of the leads near by, which keep their places on the path.
+    /// The advances near by, which keep their places on the path and have no bends at its ends.
     fn moved(&self, near: &Loads) -> Vec<f64> {
         let moved = self.face.slices_in(self.s - near.s);
         let (whole, part) = (moved.floor() as isize, moved - moved.floor());
         let last = self.face.slices.len() - 1;
-        let mut means = vec![f64::NEG_INFINITY; self.contacts.len()];
+        let mut advances = vec![near.displacement; self.contacts.len()];
         for (pair, ahead) in (self.first..).take(self.pairs).enumerate() {
             let Some(known) = near.index(ahead) else { continue };
-            let mean = |slice: usize| near.means[slice.min(last) * near.pairs + known];
-            for (slice, new) in means[pair..].iter_mut().step_by(self.pairs).enumerate() {
+            let advance = |slice: usize| near.advances[slice.min(last) * near.pairs + known];
+            for (slice, new) in advances[pair..].iter_mut().step_by(self.pairs).enumerate() {
                 let before = slice.saturating_add_signed(whole);
-                *new = mean(before);
-                if part > 0.0 {
-                    *new += part * (mean(before + 1) - *new);
-                }
+                *new = advance(before) + part * (advance(before + 1) - advance(before));
             }
         }
-        means
+        advances
     }
 
     /// Mean displacement under the loads minus the mean gap, of every pair over every slice, if what is

@@ -620,20 +620,18 @@ impl<'a> Passage<'a> {
         let behind = |place: &FacePlace| (place.path - mesh.length) / mesh.base_radii.0;
         let [before_start, after_end] = [Part::BeforeStart, Part::AfterEnd].map(line_peak);
         // Reliefs can let the tooth touch after E at its end and before E farther inside; alike at B.
-        let strikes = |part: Part, peak: Option<LinePeak>, radius: f64| {
+        let strike = |part: Part, peak: Option<LinePeak>, radius: f64| {
             peak.map(|_| extreme(&|loads| face.deepest(loads, part)) / radius)
         };
-        let (first_strike, last_strike) = (
-            strikes(Part::BeforeStart, before_start, mesh.base_radii.1),
-            strikes(Part::AfterEnd, after_end, mesh.base_radii.0),
-        );
+        let first_strike = || strike(Part::BeforeStart, before_start, mesh.base_radii.1);
+        let last_strike = || strike(Part::AfterEnd, after_end, mesh.base_radii.0);
         let is_apart = |angle: &f64| *angle > 0.0;
         let at_slices =
             |loads: &Rc<Loads>| (0..face.slices.len()).map(|at| loads.at(0, at)).collect();
         Ok(Some(Passed {
             ends: (
-                Some(ahead(&first_place)).filter(is_apart).or(first_strike),
-                Some(behind(&last_place)).filter(is_apart).or(last_strike),
+                Some(ahead(&first_place)).filter(is_apart).or_else(first_strike),
+                Some(behind(&last_place)).filter(is_apart).or_else(last_strike),
             ),
             force_at_start: extreme(&|loads| face.force(loads, 0, Part::BeforeStart)),
             force_at_end: extreme(&|loads| face.force(loads, 0, Part::AfterEnd)),
