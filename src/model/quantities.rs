@@ -301,6 +301,7 @@ pub static QUANTITIES: &[Quantity] = &{
 pub fn steps() -> impl Iterator<Item = &'static Step> {
     [
         geometry::STEPS,
+        face::STEPS,
         figures::STEPS,
         deviation::STEPS,
         position::STEPS,

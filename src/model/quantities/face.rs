@@ -3,8 +3,8 @@
 use super::{Formula, Need, PLAIN, Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{Dynamic, Geometry, Load, Static, StaticSpectrum};
-use crate::model::explanation::Formula::{Found, Made, Text};
-use crate::model::explanation::{Check, Context};
+use crate::model::explanation::Formula::{Found, Made, Text, Words};
+use crate::model::explanation::{Check, Context, Step, step};
 use crate::model::helix::Helix;
 use crate::model::slices::load::{FaceCycle, FaceLoad};
 
@@ -139,6 +139,23 @@ fn axial_force(k: &Context) -> String {
     format!("{sign}F_0 tan β_b")
 }
 
+pub(super) const STEPS: &[Step] = &[
+    step(
+        "w_max",
+        "greatest line load of all pairs, averaged over a base pitch",
+        "N/mm",
+        Words("by the balance in slices"),
+        |k| Some(cycle(k.solution)?.peak_line_load),
+    ),
+    step(
+        "w_m",
+        "mean of this line load over the face",
+        "N/mm",
+        Words("by the balance in slices"),
+        |k| Some(cycle(k.solution)?.mean_line_load),
+    ),
+];
+
 pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["transverse_module", "m_t", "transverse module"],
@@ -236,14 +253,11 @@ pub(super) const TABLE: &[Quantity] = &[
         .row(
             ["face_load_factor", "K_Hβ", "face load factor"],
             ("1", "1", 5),
-            |s| Some(cycle(s)?.face_load_factor),
+            |s| Some(cycle(s)?.peak_line_load / cycle(s)?.mean_line_load),
             "The greatest line load of all pairs, averaged over a base pitch without base pitch \
             deviations, over its mean over the face. Misalignment, helix slopes and \
             modifications of the flank lines count.",
-            Found(
-                "b max w/F_0, w: line load of all pairs averaged over a base pitch",
-                &["b", "F_0"],
-            ),
+            Text("w_max/w_m"),
         )
         .equation("ISO 6336-1")
         .stage(StaticSpectrum)

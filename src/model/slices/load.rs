@@ -68,8 +68,10 @@ pub struct FaceLoad {
 pub struct FaceCycle {
     /// Mean displacement of the driver ahead, in m.
     pub mean_displacement: f64,
-    /// K_Hβ: greatest line load of all pairs, averaged over a base pitch, over its mean.
-    pub face_load_factor: f64,
+    /// Greatest line load of all pairs, averaged over a base pitch, in N/m.
+    pub peak_line_load: f64,
+    /// Its mean over the face, in N/m.
+    pub mean_line_load: f64,
     /// Swing of the point of attack of the force along the face, in m.
     pub swing: f64,
 }
@@ -231,7 +233,7 @@ impl Face {
     ///
     /// # Formula
     /// ```text
-    /// K_Hβ = b max w(z)/F0,   w(z) = mean of Σ_k p_k(z) over a base pitch
+    /// K_Hβ = max w(z)/w_m,   w(z) = mean of Σ_k p_k(z) over a base pitch,   w_m = mean of w(z)
     /// ```
     ///
     /// # Source
@@ -262,11 +264,11 @@ impl Face {
             let line_loads = loads.of_all();
             self.over_face(&line_loads, |z| z) / self.over_face(&line_loads, |_| 1.0)
         };
-        let most = line_loads.iter().copied().fold(0.0, f64::max);
         let cycle = FaceCycle {
             mean_displacement: all.iter().map(|loads| loads.displacement).sum::<f64>()
                 / steps as f64,
-            face_load_factor: most * self.inputs.width / self.over_face(&line_loads, |_| 1.0),
+            peak_line_load: line_loads.iter().copied().fold(0.0, f64::max),
+            mean_line_load: self.over_face(&line_loads, |_| 1.0) / self.inputs.width,
             swing: extreme(&middle) + extreme(&|loads| -middle(loads)),
         };
         let spectrum = Spectrum {
