@@ -12,11 +12,11 @@ use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::sanitize;
 use crate::case::units::{self, System};
 use crate::model::inputs::{Method, ToothCompliance};
-use crate::model::{Outcome, Quantity, Stage};
+use crate::model::{Quantity, Stage};
 use crate::numeric::decimal::{shortest, significant};
 use crate::report::tolerance::ToleranceReport;
 use crate::study::axis::{AxisRange, Grid};
-use crate::study::batch::{Points, Refusals, Row, with_unit};
+use crate::study::batch::{PointOutcome, Points, Refusals, Row, with_unit};
 use crate::study::excitation::{self, Excitation, STIFFNESS, VALUES};
 use crate::study::seek::{Condition, Found, Sample, State};
 use crate::study::shard::{Format, Kind, Study};
@@ -227,7 +227,7 @@ pub fn table(
     let cells = (first..).zip(rows).map(|(index, row)| {
         let point = points.cells(index).into_iter().map(Cell::Text);
         let computed = row.values.iter().map(|&value| Cell::number(value, ""));
-        let exit = row.exit_outcome().map_or("", Outcome::name);
+        let exit = row.exit_outcome.map_or("", PointOutcome::name);
         let names = [row.outcome.name(), row.method.name(), exit].map(Cell::from);
         point.chain(computed).chain(names.into_iter().take(count)).collect()
     });
@@ -252,7 +252,7 @@ fn line(grid: &Grid, quantities: &[&Quantity], index: usize, row: &Row) -> Json 
         "varied": object(varied),
         "outcome": row.outcome.name(),
         "method": row.method.name(),
-        "exit_outcome": row.exit_outcome().map(Outcome::name),
+        "exit_outcome": row.exit_outcome.map(PointOutcome::name),
         "quantities": row.refusal.is_none().then(|| object(values)),
         "refusal": row.refusal.as_deref().map(reason),
     })

@@ -117,24 +117,16 @@ impl PointOutcome {
     }
 }
 
-impl Row {
-    /// The outcome at the exit, if the method computes it.
-    pub fn exit_outcome(&self) -> Option<Outcome> {
-        let outcomes = [Outcome::NoCornerContact, Outcome::CornerContact];
-        self.strikes_at_exit.map(|strikes| outcomes[usize::from(strikes)])
-    }
-}
-
 /// The results of a point.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// How the point ended.
+    /// The outcome at the entry.
     pub outcome: PointOutcome,
+    /// The outcome at the exit, if the method computes it.
+    pub exit_outcome: Option<PointOutcome>,
     /// The method that solved the point, or the requested method of a refused point.
     #[serde(with = "SolvedMethod")]
     pub method: Method,
-    /// Whether the driver's tip touches after B, if the method computes it.
-    pub strikes_at_exit: Option<bool>,
     /// The quantities in SI, in their order; none of a refused point has a value.
     pub values: Vec<Option<f64>>,
     /// Why the point is refused.
@@ -243,8 +235,8 @@ impl<'a> PointSolver<'a> {
             Ok(row) => Ok(row),
             Err(problem) => Ok(Row {
                 outcome: PointOutcome::Refused,
+                exit_outcome: None,
                 method: self.inputs.method,
-                strikes_at_exit: None,
                 values: vec![None; self.batch.quantities.len()],
                 refusal: Some(Box::new(problem.at_given_diameter(&self.inputs))),
             }),
@@ -269,8 +261,8 @@ impl<'a> PointSolver<'a> {
             Some(refusal) => Err(Problem::from(&refusal)),
             None => Ok(Row {
                 outcome: PointOutcome::Solved(solved.outcome),
+                exit_outcome: solved.exit_outcome().map(PointOutcome::Solved),
                 method: solved.method,
-                strikes_at_exit: solved.exit_outcome().map(|exit| exit == Outcome::CornerContact),
                 values,
                 refusal: None,
             }),

@@ -137,7 +137,7 @@ impl Condition {
         };
         let is_met = match self.kind {
             Kind::Outcome(wanted, false) => outcome == wanted,
-            Kind::Outcome(wanted, true) => row.exit_outcome() == Some(wanted),
+            Kind::Outcome(wanted, true) => row.exit_outcome == Some(PointOutcome::Solved(wanted)),
             Kind::Compared(quantity, relation, ..) => {
                 match self.margin(row) {
                     Some(margin) => margin > 0.0 || margin == 0.0 && !relation.is_strict,

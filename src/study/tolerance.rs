@@ -105,14 +105,16 @@ impl Tolerance {
     pub fn summary(&self, samples: &Samples) -> Summary {
         let count = self.design.samples;
         let outcomes = &samples.outcomes[..count];
-        let is = |wanted| outcomes.iter().filter(|&&outcome| outcome == wanted).count();
-        let strikes = is(PointOutcome::Solved(Outcome::CornerContact));
-        let exits: Vec<bool> = samples.exits[..count].iter().copied().flatten().collect();
-        let refused = is(PointOutcome::Refused);
+        let exits: Vec<_> = samples.exits[..count].iter().copied().flatten().collect();
+        let strikes = PointOutcome::Solved(Outcome::CornerContact);
+        let of = |outcomes: &[PointOutcome], wanted| {
+            outcomes.iter().filter(|&&outcome| outcome == wanted).count()
+        };
+        let refused = of(outcomes, PointOutcome::Refused);
         Summary {
             solved: count - refused,
-            contact: probability(strikes, count - refused),
-            exit: probability(exits.iter().filter(|strikes| **strikes).count(), exits.len()),
+            contact: probability(of(outcomes, strikes), count - refused),
+            exit: probability(of(&exits, strikes), exits.len()),
             limits: self.limits.iter().map(|limit| self.exceedance(limit, samples)).collect(),
             quantities: (0..self.quantities.len()).map(|at| self.quantity(at, samples)).collect(),
         }
@@ -173,10 +175,10 @@ impl Tolerance {
 /// The results of every point of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Samples {
-    /// How each point ended.
+    /// The outcome of each point at the entry.
     pub outcomes: Vec<PointOutcome>,
-    /// Whether the driver's tip touches after B at each point, if the method computes it.
-    exits: Vec<Option<bool>>,
+    /// The outcome of each point at the exit, if the method computes it.
+    exits: Vec<Option<PointOutcome>>,
     /// The refused points.
     pub refusals: Refusals,
     /// One column per quantity, in SI; NaN marks an absent value.
@@ -201,7 +203,7 @@ impl Samples {
         self.refusals.count(first, rows);
         for row in rows {
             self.outcomes.push(row.outcome);
-            self.exits.push(row.strikes_at_exit);
+            self.exits.push(row.exit_outcome);
             for (column, value) in self.columns.iter_mut().zip(&row.values) {
                 column.push(value.unwrap_or(f64::NAN));
             }
