@@ -64,6 +64,8 @@ pub struct Quantity {
     pub variants: &'static [Variant],
     /// Whether the value can be negative.
     pub is_signed: bool,
+    /// Whether only a corner contact at the exit gives it a value.
+    pub is_at_exit: bool,
     /// What the case must give for the quantity.
     pub needs: Need,
     /// The key of the result of `static` that corresponds to a quantity of the free impact.
@@ -113,6 +115,7 @@ const PLAIN: Quantity = Quantity {
     checks: &[],
     variants: &[],
     is_signed: false,
+    is_at_exit: false,
     needs: Need::Nothing,
     by_static: None,
     by_dynamic: None,
@@ -147,6 +150,10 @@ impl Quantity {
 
     const fn signed(self) -> Quantity {
         Quantity { is_signed: true, ..self }
+    }
+
+    const fn at_exit(self) -> Quantity {
+        Quantity { is_at_exit: true, ..self }
     }
 
     /// The corresponding quantities of the methods `static` and `dynamic`.

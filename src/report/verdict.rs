@@ -314,11 +314,7 @@ impl Absence {
             (_, Need::Slices) if solution.helix.is_none() && !solution.has_slices() => {
                 Absence::Because("only a helical, misaligned or crowned pair has this quantity")
             }
-            _ if is_shared
-                && ["last_contact", "after_end"].iter().any(|at| quantity.key.contains(at)) =>
-            {
-                Absence::NoExit
-            }
+            _ if quantity.is_at_exit => Absence::NoExit,
             _ if is_without && !solution.method.shares_load() => no_contact,
             (_, Need::Friction) if is_shared && !has_friction() => {
                 Absence::Because("the case has no operation.friction_coefficient")

@@ -160,19 +160,21 @@ pub(super) const TABLE: &[Quantity] = &[
             Variant::meaning(friction_given, " and the addition by friction."),
             Variant::meaning(always, "."),
         ]),
-    AT_REST.row(
-        ["static_last_contact_angle", "θ_st,B", "static: exit angle"],
-        ("rad", "deg", 4),
-        |s| s.static_load.as_ref()?.last_contact_angle,
-        "The angle of the driver after B at which the incoming tooth no longer \
-            carries load at rest: the corner contact at the exit, of the driver's tip \
-            on the driven flank.",
-        Found(
-            "the angle after B at which the gap of the tooth equals the displacement by \
-            the other pairs, with Σ w_k F_k = F_0",
-            SHARED,
-        ),
-    ),
+    AT_REST
+        .row(
+            ["static_last_contact_angle", "θ_st,B", "static: exit angle"],
+            ("rad", "deg", 4),
+            |s| s.static_load.as_ref()?.last_contact_angle,
+            "The angle of the driver after B at which the incoming tooth no longer \
+                carries load at rest: the corner contact at the exit, of the driver's tip \
+                on the driven flank.",
+            Found(
+                "the angle after B at which the gap of the tooth equals the displacement by \
+                the other pairs, with Σ w_k F_k = F_0",
+                SHARED,
+            ),
+        )
+        .at_exit(),
     AT_REST
         .row(
             ["static_transmission_error", "TE_st", "transmission error"],

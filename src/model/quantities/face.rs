@@ -109,7 +109,8 @@ const fn of_load<const MOVES: bool>(names: [[&'static str; 3]; 5]) -> [Quantity;
             |s| Some(load::<MOVES>(s)?.after_end?.line_load),
             "The greatest force per width of the driver's tip after B.",
             formula,
-        ),
+        )
+        .at_exit(),
     ]
 }
 

@@ -123,14 +123,16 @@ pub(super) const TABLE: &[Quantity] = &[
             BY_MOTION,
         )
         .corrections(&["Eq. 32"]),
-    IN_MOTION.row(
-        ["dynamic_last_contact_angle", "θ_d,B", "dynamic: exit angle"],
-        ("rad", "deg", 4),
-        |s| s.dynamic.as_ref()?.last_contact_angle,
-        "The angle of the driver after B at the last contact of the incoming tooth \
+    IN_MOTION
+        .row(
+            ["dynamic_last_contact_angle", "θ_d,B", "dynamic: exit angle"],
+            ("rad", "deg", 4),
+            |s| s.dynamic.as_ref()?.last_contact_angle,
+            "The angle of the driver after B at the last contact of the incoming tooth \
             in motion.",
-        BY_MOTION,
-    ),
+            BY_MOTION,
+        )
+        .at_exit(),
     IN_MOTION
         .row(
             ["dynamic_contact_lost", "lost", "dynamic: contact lost"],
