@@ -19,7 +19,7 @@ pub mod tolerance;
 pub mod trade;
 pub mod verdict;
 
-use self::table::Named;
+use self::table::{Cell, Column, Named, Table};
 use self::verdict::Absence;
 use crate::case::Case;
 use crate::case::fields::index_of;
@@ -330,6 +330,19 @@ pub fn groups(method: Method) -> Vec<&'static Group> {
     let mut groups: Vec<&Group> = GROUPS.iter().collect();
     groups.sort_by_key(|group| group.rank(method));
     groups
+}
+
+/// The tables of the groups that have rows, in the order of a method.
+fn grouped(
+    method: Method,
+    columns: &[Column],
+    row: impl Fn(&'static Quantity) -> Option<Vec<Cell>>,
+) -> Vec<Table> {
+    let tables = groups(method).into_iter().map(|group| {
+        Table::new(group.heading(method), columns.to_vec())
+            .with(group.quantities().filter_map(&row))
+    });
+    tables.filter(|table| !table.rows.is_empty()).collect()
 }
 
 /// Every quantity in the same order.

@@ -5,8 +5,8 @@ use std::io::{self, Write};
 
 use super::table::{Cell, Column, Table, text, widths};
 use super::table::{Json, json, measured, object, reason, write_line};
-use super::table::{WIDTH, item, plain_markdown};
-use super::{Report, Selection, common_unit, digest, groups, shown_with, value, value_as_in};
+use super::table::{WIDTH, flow, item, plain_markdown};
+use super::{Report, Selection, common_unit, digest, grouped, shown_with, value, value_as_in};
 use crate::case::changes::{between, label, text_of};
 use crate::case::fields::index_of;
 use crate::case::file::FORMAT;
@@ -94,6 +94,11 @@ impl ComparedCase {
 /// Columns before those of the cases: name and SI unit for scripts; symbol, label and unit for
 /// readers. The differences from the first case follow the values.
 const NAMES: usize = 5;
+/// The column of labels.
+const LABEL: usize = 3;
+/// Least width of this column in text beside several cases, and beside one with long values.
+const SHORT: usize = 18;
+const SHORTEST: usize = 12;
 
 impl Comparison {
     fn columns(&self) -> Vec<Column> {
@@ -114,21 +119,14 @@ impl Comparison {
     /// the user names some.
     pub(super) fn tables(&self) -> Vec<Table> {
         let columns = self.columns();
-        let table =
-            |title: String, rows: Vec<Vec<Cell>>| Table::new(title, columns.clone()).with(rows);
-        let mut found = vec![table("Inputs that differ".to_owned(), self.inputs())];
+        let table = |title: &str| Table::new(title, columns.clone());
+        let mut found = vec![table("Inputs that differ").with(self.inputs())];
         if let Some(method) = self.cases.iter().find_map(|case| Some(case.solution()?.method)) {
-            let rows = |quantities: &mut dyn Iterator<Item = &'static Quantity>| {
-                quantities.filter_map(|quantity| self.row(quantity, method)).collect()
-            };
+            let row = |quantity| self.row(quantity, method);
             if self.selection.is_whole() {
-                let all = groups(method).into_iter();
-                found.extend(
-                    all.map(|group| table(group.heading(method), rows(&mut group.quantities()))),
-                );
+                found.extend(grouped(method, &columns, row));
             } else {
-                let rows = rows(&mut self.selection.quantities());
-                found.push(table("Results".to_owned(), rows));
+                found.push(table("Results").with(self.selection.quantities().filter_map(row)));
             }
         }
         found.retain(|table| !table.rows.is_empty());
@@ -208,7 +206,7 @@ impl Comparison {
         }
     }
 
-    /// Writes the comparison as text, at most 80 columns wide unless one difference needs more.
+    /// Writes the comparison as text, at most 80 columns wide unless one case needs more.
     ///
     /// # Errors
     /// Errors of the writer.
@@ -224,32 +222,19 @@ impl Comparison {
             return Ok(());
         }
         let others: Vec<usize> = (1..self.cases.len()).collect();
-        // The number of further cases that fit a line behind these columns.
-        let fitting = |tables: &[Table], names: &[usize]| {
-            let widths = widths(tables);
-            let room = |columns: &[usize]| -> usize {
-                columns.iter().map(|&at| widths[at] + tables[0].columns[at].gap).sum()
-            };
-            let widest = others.iter().map(|&at| room(&self.pair(at))).max().unwrap_or(WIDTH);
-            WIDTH.saturating_sub(room(names)) / widest.max(1)
+        let widths = widths(&tables);
+        let room = |columns: &[usize]| -> usize {
+            columns.iter().map(|&at| widths[at] + tables[0].columns[at].gap).sum()
         };
-        let (with_labels, without) = ([2, 3, 4, NAMES], [2, 4, NAMES]);
-        let all = fitting(&tables, &with_labels);
-        let mut short = tables.clone();
-        for row in short.iter_mut().flat_map(|table| &mut table.rows) {
-            if row[2] == Cell::from("") {
-                row[2] = row[3].clone();
-            }
-        }
-        let fewer = fitting(&short, &without).max(1);
-        // The labels are shown if they take no more lines.
-        let has_labels = all > 0 && others.len().div_ceil(all) <= others.len().div_ceil(fewer);
-        let (names, in_a_line) =
-            if has_labels { (&with_labels[..], all) } else { (&without[..], fewer) };
-        let tables = if has_labels { tables } else { short };
+        // As many cases as leave room for short labels; long labels are wrapped.
+        let free = WIDTH.saturating_sub(room(&[2, 4, NAMES]) + tables[0].columns[LABEL].gap);
+        let widest = others.iter().map(|&at| room(&self.pair(at))).max().unwrap_or(1);
+        let in_a_line = (free.saturating_sub(SHORT) / widest).clamp(1, others.len().max(1));
+        let width = free.saturating_sub(in_a_line * widest).max(SHORTEST);
+        let tables: Vec<Table> = tables.iter().map(|table| wrapped(table, width)).collect();
         for others in others.chunks(in_a_line) {
-            let columns = names.iter().copied().chain(others.iter().flat_map(|&at| self.pair(at)));
-            let columns: Vec<usize> = columns.collect();
+            let further = others.iter().flat_map(|&at| self.pair(at));
+            let columns: Vec<usize> = [2, LABEL, 4, NAMES].into_iter().chain(further).collect();
             let shown: Vec<Table> = tables.iter().map(|table| table.of(&columns)).collect();
             for lines in text(&shown) {
                 writeln!(out, "\n{}", lines.join("\n"))?;
@@ -367,17 +352,28 @@ impl Comparison {
     }
 }
 
-/// The symbol of an input: a field, a limit of a quantity, or the spread of a field.
+/// The table with further rows for the labels that are longer than a width.
+fn wrapped(table: &Table, width: usize) -> Table {
+    let rows = table.rows.iter().flat_map(|row| {
+        let mut lines = flow(row[LABEL].text().split_whitespace(), width).into_iter();
+        let first = with_label(row.clone(), lines.next().unwrap_or_default());
+        let blank = vec![Cell::from(""); row.len()];
+        [first].into_iter().chain(lines.map(move |line| with_label(blank.clone(), line)))
+    });
+    Table { rows: rows.collect(), ..table.clone() }
+}
+
+fn with_label(mut row: Vec<Cell>, label: String) -> Vec<Cell> {
+    row[LABEL] = label.into();
+    row
+}
+
+/// The symbol of an input: of the field, or of the subject of a limit or a distribution.
 fn symbol(key: &str) -> String {
-    let of_field = |key: &str| index_of(key).map(|field| FIELDS[field].symbol);
-    if let Some(quantity) = key.strip_prefix("limits.").and_then(Quantity::find) {
-        format!("{} limit", quantity.symbol)
-    } else if let Some(field) = key.strip_prefix("spread.") {
-        let symbol = of_field(field.trim_matches('"'));
-        symbol.map(|symbol| format!("{symbol} spread")).unwrap_or_default()
-    } else {
-        of_field(key).unwrap_or_default().to_owned()
-    }
+    let quantity = key.strip_prefix("limits.").and_then(Quantity::find);
+    let field = key.strip_prefix("spread.").map_or(key, |field| field.trim_matches('"'));
+    let field = index_of(field).map(|field| FIELDS[field].symbol);
+    quantity.map(|quantity| quantity.symbol).or(field).unwrap_or_default().to_owned()
 }
 
 /// A to Z, then AA and so on.

@@ -1,6 +1,6 @@
 //! A solve as a page of text, as a JSON object on one line, and as rows of CSV.
 
-use super::{Report, case_notes, groups, is_default, shown, value};
+use super::{Report, case_notes, grouped, is_default, shown, value};
 use crate::case::file::FORMAT;
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
@@ -119,12 +119,7 @@ fn quantity_lines(report: &Report) -> Vec<String> {
         Some(names.into_iter().chain([shown.unit, &equation]).map(Cell::from).collect())
     };
     if is_whole {
-        let tables = groups(method).into_iter().map(|group| {
-            let rows = group.quantities().filter_map(row);
-            Table::new(group.heading(method), columns.clone()).with(rows)
-        });
-        let tables: Vec<Table> = tables.filter(|table| !table.rows.is_empty()).collect();
-        return text(&tables).concat();
+        return text(&grouped(method, &columns, row)).concat();
     }
     Table::new("", columns).with(report.selection.quantities().filter_map(row)).lines()
 }
@@ -171,18 +166,17 @@ fn titled(title: &str, mut lines: Vec<String>) -> Vec<String> {
 pub(super) fn subject(quantity: &Quantity, method: Method) -> Option<&'static str> {
     if method.shares_load() && quantity.is_of_free_impact() {
         Some("free-impact")
-    } else if is_without_deviations(quantity) {
+    } else if matches!(
+        quantity.stage,
+        Stage::StaticSpectrum | Stage::SteadyMotion | Stage::SpeedRun
+    ) {
+        // No tooth of the pair deviates.
         Some("without-deviations")
     } else if quantity.symbol_in(method) != quantity.symbol {
         Some("deviations-without-reliefs")
     } else {
         None
     }
-}
-
-/// Whether the quantity belongs to a pair in which no tooth deviates.
-pub(super) fn is_without_deviations(quantity: &Quantity) -> bool {
-    matches!(quantity.stage, Stage::StaticSpectrum | Stage::SteadyMotion | Stage::SpeedRun)
 }
 
 /// Writes the report as one line.

@@ -2,7 +2,7 @@
 //! verdict, the inputs, the main results and charts; the appendix has the rest.
 
 use super::data::{self, verdict};
-use super::{Report, case_notes, common_unit, groups, is_default, numbers, shown_with, value};
+use super::{Report, case_notes, common_unit, grouped, is_default, numbers, shown_with, value};
 use crate::case::fields::{Absent, index_of};
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
@@ -386,9 +386,9 @@ fn input(at: usize, report: &Report) -> (Option<String>, bool) {
 fn results(cases: &[PageCase]) -> (Table, Vec<Table>) {
     let mut columns = columns("quantity", titles(cases));
     columns.extend(["unit", "source"].map(|key| Column::text(key, key)));
-    let table = |title: String| Table::new(title, columns.clone());
+    let main = Table::new("", columns);
     let Some(method) = cases.first().map(|case| case.report.solution.method) else {
-        return (table(String::new()), Vec::new());
+        return (main, Vec::new());
     };
     let row = |quantity: &'static Quantity| {
         let values = cases.iter().map(|case| value(quantity, &case.report.solution));
@@ -398,18 +398,15 @@ fn results(cases: &[PageCase]) -> (Table, Vec<Table>) {
         let source = [unit, quantity.equation].map(Cell::from);
         Some(names.into_iter().chain(texts).chain(source).collect())
     };
-    let all = groups(method)
-        .into_iter()
-        .map(|group| table(group.heading(method)).with(group.quantities().filter_map(row)));
     let own = |key: &&str| {
         let quantity = Quantity::find(key)?;
         if quantity.is_of_free_impact() { quantity.by(method) } else { Some(quantity) }
     };
     let limited = cases.iter().flat_map(|case| &case.report.case.limits);
     let limited = limited.map(|limit| limit.quantity);
-    let main = distinct(MAIN_RESULTS.iter().filter_map(own).chain(limited));
-    let main = table(String::new()).with(main.into_iter().filter_map(row));
-    (main, all.filter(|table| !table.rows.is_empty()).collect())
+    let shown = distinct(MAIN_RESULTS.iter().filter_map(own).chain(limited));
+    let all = grouped(method, &main.columns, row);
+    (main.with(shown.into_iter().filter_map(row)), all)
 }
 
 /// The tables of the studies of a case.
