@@ -207,8 +207,11 @@ impl Opened {
         out: Option<&Path>,
         streams: &mut Streams,
     ) -> Done {
-        let case = Named { name: &self.name, title: self.document.case.title() };
-        write_to(out, streams, |sink| case.write(results, format, sink))
+        write_to(out, streams, |sink| self.named().write(results, format, sink))
+    }
+
+    fn named(&self) -> Named<'_> {
+        Named { name: &self.name, title: self.document.case.title() }
     }
 
     /// The case, to solve for a report or a picture.

@@ -16,6 +16,7 @@ use crate::report::chart::{Axis, Cell, Chart, Kind, Map, Point, Series, Span};
 use crate::report::relief::{RELIEF, relief_chart, tolerances};
 use crate::report::solve::{Part, Subject, Unsolved};
 use crate::report::stations::{Column, GRAPHS, Graph};
+use crate::report::table::Named;
 use crate::study::stiffness::{FIELD, Flanks, GearComparison, Point as FlankPoint};
 use std::f64::consts::PI;
 use std::fmt;
@@ -118,20 +119,20 @@ pub fn find(key: &str) -> Option<Picture> {
 }
 
 impl Picture {
-    /// Draws solved cases; a picture of one case draws the first.
+    /// Draws solved cases with a caption; a picture of one case draws the first.
     ///
     /// # Errors
     /// The reason if no case has values for the picture.
-    pub fn draw(self, cases: &[NamedCase]) -> Result<String, String> {
+    pub fn draw(self, cases: &[NamedCase], caption: &str) -> Result<String, String> {
         let chart = match self.drawing {
             Drawing::Graph(graph) => graph_chart(graph, cases)?,
             Drawing::Chart(chart) => chart(cases)?,
             Drawing::Teeth => {
                 let (_, report) = first(cases)?;
-                return Ok(svg::teeth(&report.inputs, &report.solution));
+                return Ok(svg::teeth(&report.inputs, &report.solution, caption));
             }
         };
-        Ok(svg::draw(&chart))
+        Ok(svg::draw(&Chart { caption: caption.to_owned(), ..chart }))
     }
 
     /// Solves a case and draws it. `go_on` receives the number of computed parts and their total,
@@ -145,7 +146,8 @@ impl Picture {
         go_on: &dyn Fn(usize, usize) -> bool,
     ) -> Result<String, NoPicture> {
         let fix = if self.part == Part::Speeds { "" } else { ": choose another chart" };
-        self.draw(&[("", &source.part(self.part, go_on)?)])
+        let pair = Named { name: source.name, title: source.case.title() }.caption();
+        self.draw(&[("", &source.part(self.part, go_on)?)], &pair)
             .map_err(|reason| NoPicture::Absent(format!("{self} has no curve: {reason}{fix}")))
     }
 }
@@ -687,6 +689,7 @@ impl<'a> Pattern<'a> {
             title: format!("Contact pattern: line load of the tooth {state}"),
             across: Axis::new("driver roll angle after E in each plane", "deg"),
             up: Axis::new("z", unit),
+            caption: String::new(),
             series: [lines(false), lines(true), peaks].into_iter().filter(is_drawn).collect(),
             marks: vec![(0.0, "E"), (degrees(self.length), "B")],
             map: Some(Map {

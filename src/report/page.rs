@@ -182,7 +182,7 @@ impl<'a> Page<'a> {
         let drawn = |picture: Picture| -> Vec<String> {
             let sets: Vec<&[NamedCase]> =
                 if picture.is_of_one_case { cases.chunks(1).collect() } else { vec![&cases[..]] };
-            sets.into_iter().filter_map(|cases| picture.draw(cases).ok()).collect()
+            sets.into_iter().filter_map(|cases| picture.draw(cases, "").ok()).collect()
         };
         let is_main = |picture: &Picture| MAIN_PICTURES.contains(&picture.key);
         let mut charts: Vec<String> =

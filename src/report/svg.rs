@@ -6,7 +6,7 @@ use crate::model::contact_state::{first_contact_of_driver, first_contact_point};
 use crate::model::outline::on_line_of_action;
 use crate::model::{ContactState, Inputs, Solution};
 use crate::report::chart::{Axis, Cell, Chart, Kind, Map, Point, Series, Span};
-use crate::report::table::escaped;
+use crate::report::table::{escaped, parts};
 use crate::report::teeth::{Ink, Scene, Window, scale_bar};
 use nalgebra::{Point2, Vector2};
 use std::fmt::Write;
@@ -30,9 +30,10 @@ const MOST_LETTERS: usize = 43;
 pub fn draw(chart: &Chart) -> String {
     let legend = legend(chart);
     let places = places(legend.iter().map(|(_, name)| name.as_str()));
-    let lines = places.last().map_or(0.0, |(_, y)| y - LEGEND + LINE);
+    let end = places.last().map_or(LEGEND, |(_, y)| y + LINE);
     let spans = chart.spans();
-    let mut text = frame(chart, LEGEND + lines);
+    let mut text = frame(chart, end + caption_height(&chart.caption));
+    text += &caption(&chart.caption, FIELD.0, end);
     if let Some(map) = &chart.map {
         draw_map(&mut text, map, spans);
     }
@@ -46,13 +47,46 @@ pub fn draw(chart: &Chart) -> String {
         draw_series(&mut text, series, (at, chart.series.len()), place);
     }
     for ((symbol, name), (x, y)) in legend.into_iter().zip(places) {
-        let (beside, name) = (x + 38.0, escaped(&name));
+        let (beside, name) = (x + 38.0, typeset(&name));
         let _ = writeln!(
             text,
             "<g transform=\"translate({x} {y})\">{symbol}</g><text x=\"{beside}\" y=\"{y}\">{name}</text>"
         );
     }
     text + "</svg>\n"
+}
+
+fn caption_height(caption: &str) -> f64 {
+    if caption.is_empty() { 0.0 } else { LINE }
+}
+
+/// The name of the pair in a line of its own.
+fn caption(caption: &str, left: f64, y: f64) -> String {
+    if caption.is_empty() {
+        return String::new();
+    }
+    let size = fitted(caption, 15.0, WIDTH - left);
+    let text = escaped(caption);
+    format!("<text x=\"{left}\" y=\"{y}\" style=\"font-size:{size:.1}px\">{text}</text>\n")
+}
+
+/// A size of letters, smaller for a text that is longer than its room.
+fn fitted(text: &str, size: f64, room: f64) -> f64 {
+    size * (room / (LETTER * text.chars().count() as f64)).min(1.0)
+}
+
+/// Escapes a text with the indices of its symbols as subscripts.
+fn typeset(text: &str) -> String {
+    let mut is_low = false;
+    let part = |(part, is_index): (&str, bool)| {
+        let (part, was_low) = (escaped(part), std::mem::replace(&mut is_low, is_index));
+        match (is_index, was_low) {
+            (true, _) => format!("<tspan dy=\"4\" font-size=\"11\">{part}</tspan>"),
+            (false, true) => format!("<tspan dy=\"-4\">{part}</tspan>"),
+            (false, false) => part,
+        }
+    };
+    parts(text).into_iter().filter(|(part, _)| !part.is_empty()).map(part).collect()
 }
 
 /// The symbols and names of the legend.
@@ -164,13 +198,13 @@ fn frame(chart: &Chart, height: f64) -> String {
     let (middle, half, below) =
         (f64::midpoint(left, right), f64::midpoint(top, bottom), bottom + 42.0);
     let label = |axis: &Axis| match axis.unit.as_str() {
-        "" => escaped(&axis.name),
-        unit => escaped(&format!("{}, {unit}", axis.name)),
+        "" => axis.name.clone(),
+        unit => format!("{}, {unit}", axis.name),
     };
-    let (title, across, up) = (escaped(&chart.title), label(&chart.across), label(&chart.up));
-    // A long label has smaller letters.
-    let [size, small] = [(&title, 17.0, right - left), (&up, 15.0, bottom + 40.0)]
-        .map(|(text, size, room)| size * (room / (LETTER * text.chars().count() as f64)).min(1.0));
+    let (title, up) = (escaped(&chart.title), label(&chart.up));
+    let size = fitted(&chart.title, 17.0, right - left);
+    let small = fitted(&up, 15.0, bottom + 40.0);
+    let [across, up] = [label(&chart.across), up].map(|label| typeset(&label));
     format!(
         "{}<text x=\"{left}\" y=\"17\" class=\"title\" style=\"font-size:{size:.1}px\">{title}</text>\n\
          <text x=\"{middle}\" y=\"{below}\" text-anchor=\"middle\">{across}</text>\n\
@@ -388,7 +422,7 @@ const APART: f64 = 14.0;
 const BAR: f64 = 110.0;
 
 /// Draws the teeth at the first contact, or at E without corner contact.
-pub fn teeth(inputs: &Inputs, solution: &Solution) -> String {
+pub fn teeth(inputs: &Inputs, solution: &Solution, pair: &str) -> String {
     let contact = first_contact_of_driver(solution);
     let title = if contact.is_some() {
         "Teeth at the first contact D"
@@ -404,7 +438,7 @@ pub fn teeth(inputs: &Inputs, solution: &Solution) -> String {
         (WINDOW.2 / 2.0 + off.x, WINDOW.3 / 2.0 - off.y)
     };
     let (left, top, width, height) = WINDOW;
-    let mut text = opening(&escaped(title), WIDTH, HEIGHT);
+    let mut text = opening(&escaped(title), WIDTH, HEIGHT + caption_height(pair));
     let _ = writeln!(
         text,
         "<text x=\"{left}\" y=\"22\" class=\"title\">{title}</text>\n\
@@ -450,12 +484,13 @@ pub fn teeth(inputs: &Inputs, solution: &Solution) -> String {
     let (dots, base) = (length * scale, HEIGHT - 14.0);
     let (first, bar, above) = (base - 21.0, WIDTH - left - dots, base - 8.0);
     let middle = bar + dots / 2.0;
+    let caption = caption(pair, left, HEIGHT + 6.0);
     text + &format!(
         "</svg>\n<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" class=\"axis\"/>\n\
          <text x=\"{left}\" y=\"{first}\">Driver left, driven gear right; E to B: path of contact.</text>\n\
          <text x=\"{left}\" y=\"{base}\">Reliefs are not drawn.</text>\n\
          <path d=\"M{bar:.1} {base}v-5v5h{dots:.1}v-5\" class=\"axis\"/>\
-         <text x=\"{middle:.1}\" y=\"{above}\" text-anchor=\"middle\">{name}</text>\n</svg>\n"
+         <text x=\"{middle:.1}\" y=\"{above}\" text-anchor=\"middle\">{name}</text>\n{caption}</svg>\n"
     )
 }
 

@@ -321,7 +321,12 @@ impl Table {
     pub fn html(&self, has_head: bool) -> String {
         let cell = |tag: &str, column: &Column, faint: &str, text: &str| {
             let class = if column.is_right { "number" } else { &column.key };
-            format!("<{tag} class=\"{class}{faint}\">{}</{tag}>", escaped(text))
+            let text = match (tag, &*column.key) {
+                ("td", "symbol") => typeset(&numbered(text)),
+                ("td", _) => typeset(text),
+                _ => escaped(text),
+            };
+            format!("<{tag} class=\"{class}{faint}\">{text}</{tag}>")
         };
         let title = |column| cell("th", column, "", &column.title);
         let value = |(column, value): (&Column, &Cell)| {
@@ -337,6 +342,46 @@ impl Table {
         };
         format!("<table>\n{caption}{}</table>\n", rows.collect::<String>())
     }
+}
+
+/// Escapes a text for HTML, with the indices of its symbols as subscripts.
+pub(super) fn typeset(text: &str) -> String {
+    let part = |(part, is_index): (&str, bool)| {
+        let part = escaped(part);
+        if is_index { format!("<sub>{part}</sub>") } else { part }
+    };
+    parts(text).into_iter().map(part).collect()
+}
+
+/// Symbols with the number of the gear as an index: `z_1 / z_2` for `z1 / z2`.
+fn numbered(symbols: &str) -> String {
+    let symbol = |symbol: &str| {
+        let name = symbol.trim_end_matches(|c: char| c.is_ascii_digit());
+        let is_name = !name.is_empty() && name.chars().all(|c| c.is_alphabetic() || c == '*');
+        let number = &symbol[name.len()..];
+        if is_name && !number.is_empty() { format!("{name}_{number}") } else { symbol.to_owned() }
+    };
+    symbols.split(' ').map(symbol).collect::<Vec<_>>().join(" ")
+}
+
+/// The parts of a text, and whether each is the index of a symbol, such as `d,max` of `F_d,max`.
+pub(super) fn parts(text: &str) -> Vec<(&str, bool)> {
+    /// Greatest number of characters before an index.
+    const MOST: usize = 3;
+    let (mut parts, mut from) = (Vec::new(), 0);
+    for (at, _) in text.match_indices('_') {
+        let before = text[..at].chars().rev();
+        let symbol = before.take_while(|c| c.is_alphanumeric() || "'*_".contains(*c)).count();
+        let after = &text[at + 1..];
+        let end = after.find(|c: char| !c.is_alphanumeric() && c != ',').unwrap_or(after.len());
+        let index = after[..end].trim_end_matches(',');
+        if (1..=MOST).contains(&symbol) && !index.is_empty() && !after[end..].starts_with('_') {
+            parts.extend([(&text[from..at], false), (index, true)]);
+            from = at + 1 + index.len();
+        }
+    }
+    parts.push((&text[from..], false));
+    parts
 }
 
 /// Escapes a text for an element or an attribute of HTML or SVG.
@@ -398,6 +443,14 @@ impl Named<'_> {
     /// The title, or the name of a case without one.
     pub fn heading(&self) -> String {
         sanitize(if self.title.is_empty() { self.name } else { self.title })
+    }
+
+    /// The title and the name without folders, below a picture.
+    pub fn caption(&self) -> String {
+        let name = self.name.rsplit('/').next().unwrap_or_default();
+        let title = Some(self.title).filter(|title| !title.is_empty());
+        let parts: Vec<String> = title.into_iter().chain([name]).map(sanitize).collect();
+        parts.join(" · ")
     }
 
     /// The title and the name with the subject of the results, wrapped.
@@ -628,6 +681,17 @@ mod tests {
         assert_eq!(rows, r#"[{"name":"tip|","force":1500.0},{"name":"root","force":null}]"#);
         assert_eq!(table.markdown(), "| | A |\n|---|--:|\n| tip\\| | 1.50 |\n| root | – |");
         assert!(table.html(false).contains("<td class=\"number\">1.50</td>"));
+    }
+
+    #[test]
+    fn the_indices_of_symbols_are_subscripts_and_other_underscores_stay() {
+        for (text, expected) in [
+            ("x+Δf_0, TE_st,pp, c'_q", "x+Δf<sub>0</sub>, TE<sub>st,pp</sub>, c'<sub>q</sub>"),
+            ("F_S/F_0 of base_pitch_a < b", "F<sub>S</sub>/F<sub>0</sub> of base_pitch_a &lt; b"),
+            (&numbered("ha*1 / O1D"), "ha*<sub>1</sub> / O1D"),
+        ] {
+            assert_eq!(typeset(text), expected);
+        }
     }
 
     #[test]

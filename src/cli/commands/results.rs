@@ -17,13 +17,14 @@ use crate::cli::{
 };
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stage, Stages};
+use crate::report::chart::Chart;
 use crate::report::charts::{NoPicture, Picture, find, pictures};
 use crate::report::compare::ComparedCase;
 use crate::report::digest::{Digest, STAGES, sentence};
 use crate::report::explain::{explain, render, write_json};
 use crate::report::page::render as render_report;
 use crate::report::solve::{self, compared, comparison};
-use crate::report::table::item;
+use crate::report::table::{Named, item};
 use crate::report::verdict::{self, Standing, refused, stages, verdicts};
 use crate::report::{self, Selection, data, fields, page, studies, svg};
 use crate::study::shard::Format;
@@ -326,9 +327,11 @@ impl Plot {
         let text = if self.sweep.is_some() {
             let bytes = read_bytes(source, MOST_SWEEP_BYTES)?;
             let only: Vec<&Quantity> = self.only.iter().flatten().copied().collect();
-            let drawn = studies::drawn(&String::from_utf8_lossy(&bytes), &only);
             let name = source.display().to_string();
-            svg::draw(&drawn.map_err(|reason| Failure::of_case(&name, &reason))?)
+            let caption = Named { name: &name, title: "" }.caption();
+            let drawn = studies::drawn(&String::from_utf8_lossy(&bytes), &only);
+            let drawn = drawn.map_err(|reason| Failure::of_case(&name, &reason))?;
+            svg::draw(&Chart { caption, ..drawn })
         } else {
             let opened = cli::open(source, &self.changes.edits(), &[], streams)?;
             let source = opened.unsolved();

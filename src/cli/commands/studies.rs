@@ -9,9 +9,11 @@ use crate::cli::questions::{NoAnswer, Question, within};
 use crate::cli::{Done, Exit, Failure, Opened, Streams, check_out, follow, write_text, write_to};
 use crate::model::Quantity;
 use crate::model::inputs::Method;
+use crate::report::chart::Chart;
 use crate::report::page::is_picture;
 use crate::report::studies::{self, Take};
 use crate::report::svg::draw;
+use crate::report::table::Named;
 use crate::report::verdict::Absence;
 use crate::study::axis::{Axis, Grid};
 use crate::study::batch::{Points, Refusals, solve_all};
@@ -256,9 +258,11 @@ fn write_study(
         let mut text = Vec::new();
         refusals = studies::write(study, rows, &mut text)?;
         if is_drawn {
+            let name = study.request.name.as_str();
             let drawn = studies::drawn(&String::from_utf8_lossy(&text), &study.quantities);
-            let drawn = drawn.map_err(|reason| Failure::of_case(&study.request.name, &reason))?;
-            text = draw(&drawn).into_bytes();
+            let drawn = drawn.map_err(|reason| Failure::of_case(name, &reason))?;
+            let caption = Named { name, title: study.case.title() }.caption();
+            text = draw(&Chart { caption, ..drawn }).into_bytes();
         }
         write_to(out, streams, |sink| sink.write_all(&text))?;
     }
@@ -305,7 +309,8 @@ impl<Q: Args + Question> Asked<Q> {
         let out = destination.out.as_deref();
         if let Some(chart) = found.picture(inputs).filter(|_| format.is_none()) {
             let chart = chart.map_err(|reason| opened.failed(&reason))?;
-            write_text(out, streams, &draw(&chart))?;
+            let caption = opened.named().caption();
+            write_text(out, streams, &draw(&Chart { caption, ..chart }))?;
             return opened.write(&*found, Format::Text, None, streams);
         }
         opened.write(&*found, format.unwrap_or(Format::Text), out, streams)?;
