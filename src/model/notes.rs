@@ -458,7 +458,7 @@ fn without_coupling(k: &Context) -> Found {
     let message = format!(
         "`{}` does not couple neighbouring teeth. Without coupling, the first contact is {} \
             earlier and the peak force changes by {} (finite elements with and without \
-            coupling, cases/)",
+            coupling, over the examples)",
         model.name, UNCOUPLED.0, UNCOUPLED.1
     );
     (is_coupled && !model.has_coupling).then_some(("no-coupling", message))

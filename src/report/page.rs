@@ -13,7 +13,7 @@ use crate::model::{Inputs, Quantity};
 use crate::report::charts::NamedCase;
 use crate::report::charts::{PATTERN, Picture, find, pictures};
 use crate::report::compare::{ComparedCase, Comparison};
-use crate::report::relief::{BEGINS, RELIEF};
+use crate::report::relief::{BEGINS, RELIEF, begins, tolerance, tolerances};
 use crate::report::solve::Subject;
 use crate::report::table::{Cell, Column, Table};
 use crate::report::tolerance::{distributions, probabilities, samples as samples_of};
@@ -229,14 +229,15 @@ impl PageCase<'_> {
         let report = subject.own()?;
         let limits = verdicts(&report.case, &report.solution);
         let limits = limits.iter().map(|verdict| {
-            (verdict.standing.holds(), verdict.standing.word(), verdict.to_string())
+            let sentence = with_labels(&verdict.to_string());
+            (verdict.standing.holds(), verdict.standing.word(), sentence)
         });
         Some(PageCase {
             report,
             title: report.named().heading(),
             verdict: verdict(report),
             limits: limits.collect(),
-            notes: case_notes(&report.notes).map(|note| sanitize(&note.message)).collect(),
+            notes: notes(report),
             studies: tables(subject, &report.case),
             lines: without_comments(&subject.file),
             file: &subject.file,
@@ -302,6 +303,30 @@ impl PageCase<'_> {
     }
 }
 
+/// The codes of notes on the settings of the program, not on the gears.
+const SETTINGS: [&str; 4] =
+    ["method-taken", "deflection-given", "base-pitch-not-used", "grade-not-used"];
+
+/// The notes on the gears, without advice for the user of the program.
+fn notes(report: &Report) -> Vec<String> {
+    let notes = case_notes(&report.notes).filter(|note| !SETTINGS.contains(&note.code));
+    let fix = report.solution.withheld.map(|refusal| format!("; {}", refusal.fix()));
+    let fix = fix.unwrap_or_default();
+    notes
+        .map(|note| with_labels(note.message.strip_suffix(&fix).unwrap_or(&note.message)))
+        .collect()
+}
+
+/// A sentence with the labels of fields in place of their keys.
+fn with_labels(sentence: &str) -> String {
+    let word = |word: &str| {
+        let key = word.trim_end_matches([',', ';', '.', ':']);
+        let label = index_of(key).map(|at| FIELDS[at].full_label());
+        label.map_or_else(|| word.to_owned(), |label| label + &word[key.len()..])
+    };
+    sanitize(&sentence.split(' ').map(word).collect::<Vec<_>>().join(" "))
+}
+
 /// Columns of labels and symbols, then one of numbers for each header.
 fn columns(name: &'static str, headers: impl IntoIterator<Item = String>) -> Vec<Column> {
     let numbers = headers.into_iter().map(|header| Column::text("", header).to_the_right());
@@ -349,22 +374,23 @@ fn inputs(cases: &[PageCase]) -> Table {
         let Inputs { driver, driven, .. } = &case.report.inputs;
         driver.tip_relief + driven.tip_relief > 0.0
     };
-    let begins = BEGINS.iter().filter(|_| cases.iter().any(has_relief));
-    let begins = begins.map(|(label, symbol, unit, place)| {
+    let places = BEGINS.iter().filter(|_| cases.iter().any(has_relief));
+    let places = places.map(|(label, symbol, unit, place)| {
         let of = |case: &PageCase| {
             let geometry = &case.report.solution.geometry;
             let reliefs = TipReliefs::of_case(&case.report.inputs, geometry);
-            let begins = reliefs.begins(geometry).each_ref().map(place);
-            let text = |at: usize| match reliefs.amounts[at] {
-                0.0 => "–".to_owned(),
-                _ => format!("{:.2}", begins[at]),
+            let found = begins(*place, &reliefs, geometry, tolerances(&case.report.case));
+            let text = |at: usize| match (reliefs.amounts[at], found[at]) {
+                (0.0, _) => "–".to_owned(),
+                (_, [own, 0.0]) => format!("{own:.2}"),
+                (_, [own, by]) => format!("{own:.2} ±{by:.2}"),
             };
             Cell::Default(format!("{} / {} {unit}", text(0), text(1)))
         };
         let names = [format!("tip relief {label}"), (*symbol).to_owned()].map(Cell::from);
         names.into_iter().chain(cases.iter().map(of)).collect()
     });
-    Table::new("", columns("input", titles(cases))).with(rows.chain(begins))
+    Table::new("", columns("input", titles(cases))).with(rows.chain(places))
 }
 
 /// The text of a field, given, computed from other fields or by default, and whether the case does
@@ -379,7 +405,10 @@ fn input(at: usize, report: &Report) -> (Option<String>, bool) {
     });
     let words = matches!(field.absent, Absent::Without(_)) && case.text(at).is_none();
     let text = derived.or_else(|| case.effective(at).filter(|_| !words).map(sanitize));
-    (text, is_default(at, case))
+    let unit = field.usual_unit();
+    let off = tolerance(case, field.key) / units::factor(unit).unwrap_or(1.0);
+    let off = if off > 0.0 { format!(" ±{} {unit}", tidy(off, DIGITS)) } else { String::new() };
+    (text.map(|text| text + &off), is_default(at, case))
 }
 
 /// The main results, and all results in groups, in the order of the method of the first case.
@@ -429,7 +458,7 @@ fn of_variants(comparison: &Comparison) -> Table {
     });
     let notes = comparison.cases.iter().flat_map(|ComparedCase { name, found, .. }| {
         let problems = found.as_ref().err().into_iter().flatten();
-        problems.map(move |problem| sanitize(&format!("{name}: {problem}")))
+        problems.map(move |problem| sanitize(&format!("{name}: {}", problem.cause)))
     });
     Table {
         notes: notes.collect(),
@@ -459,7 +488,7 @@ fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples) -> Table {
     });
     let spread = distributions(case).into_iter();
     let spread: Vec<String> = spread.map(|(field, text)| format!("{field} {text}")).collect();
-    let spread = format!("Spread: {}.", spread.join("; "));
+    let spread = with_labels(&format!("Spread: {}.", spread.join("; ")));
     let chances = probabilities(&summary).into_iter();
     let chances =
         chances.map(|(name, text)| format!("Probability of {name} (95 % interval): {text}."));

@@ -131,16 +131,14 @@ impl Specification {
     fn drawing(&self, at: usize) -> Table {
         let Specification { choices, demand, geometry, is_over_face, .. } = self;
         let (reliefs, off) = (choices[at].reliefs, self.tolerance_length());
-        let shorter = TipReliefs { lengths: reliefs.lengths.map(|own| own - off), ..reliefs };
-        let ends = [reliefs, shorter].map(|reliefs| reliefs.begins(geometry));
         let row = |title: &str, of: &dyn Fn(usize) -> String| {
             let cell = |at: usize| if reliefs.amounts[at] > 0.0 { of(at) } else { "-".to_owned() };
             vec![format!("  {title}"), cell(0), cell(1)]
         };
         let places = BEGINS.map(|(label, _, unit, of)| {
             row(&format!("{label}, {unit}"), &|at| {
-                let [own, other] = ends.each_ref().map(|begins| of(&begins[at]));
-                format!("{own:.2} +-{:.2}", other - own)
+                let [own, by] = begins(of, &reliefs, geometry, [off; 4])[at];
+                format!("{own:.2} +-{by:.2}")
             })
         });
         let mut rows = vec![
@@ -561,21 +559,39 @@ pub(super) const BEGINS: [(&str, &str, &str, PlaceOf); 2] = [
     ("begins at diameter dCa", "dCa1 / dCa2", "mm", |at| at.diameter * 1e3),
 ];
 
+/// The places at which the reliefs of both gears begin, and their tolerances by those of the reliefs.
+pub(super) fn begins(
+    of: PlaceOf,
+    reliefs: &TipReliefs,
+    geometry: &Geometry,
+    off: Off,
+) -> [[f64; 2]; 2] {
+    let ends = [*reliefs, reliefs.off(off.map(|by| -by))].map(|one| one.begins(geometry));
+    [0, 1].map(|gear| {
+        let [own, shorter] = ends.each_ref().map(|begins| of(&begins[gear]));
+        [own, shorter - own]
+    })
+}
+
 /// The key of the diagram of reliefs.
 pub const RELIEF: &str = "relief";
 
-/// The deviations of the tip reliefs by the distributions of a case: the half-width, or three standard
-/// deviations of a normal distribution.
+/// The tolerances of the tip reliefs by the distributions of a case.
 pub fn tolerances(case: &Case) -> Off {
-    const DEVIATIONS: f64 = 3.0;
     let [[one, other], [from, to]] = KEYS;
-    [one, other, from, to].map(|key| {
-        let spread = case.spread.iter().find(|spread| spread.field == key);
-        let given = spread.filter(|_| index_of(key).and_then(|at| case.value(at)).is_some());
-        given.map_or(0.0, |spread| match spread.shape {
-            Shape::Normal => DEVIATIONS * spread.width,
-            _ => spread.width,
-        })
+    [one, other, from, to].map(|key| tolerance(case, key))
+}
+
+/// The tolerance of a tip relief or its length by its distribution in a case: the half-width, or three
+/// standard deviations of a normal distribution; 0 for another field.
+pub(super) fn tolerance(case: &Case, key: &str) -> f64 {
+    const DEVIATIONS: f64 = 3.0;
+    let is_of_relief = KEYS.as_flattened().contains(&key);
+    let spread = case.spread.iter().find(|spread| spread.field == key && is_of_relief);
+    let given = spread.filter(|_| index_of(key).and_then(|at| case.value(at)).is_some());
+    given.map_or(0.0, |spread| match spread.shape {
+        Shape::Normal => DEVIATIONS * spread.width,
+        _ => spread.width,
     })
 }
 
