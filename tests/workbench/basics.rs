@@ -65,7 +65,7 @@ fn a_case_with_missing_values_opens_is_saved_and_opens_again() {
     desk.has(&["Required values are missing:", "the driver's number of teeth"]);
     desk.keys(&["Enter"]).assert_shows("! 6 required values are missing");
     desk.go_to("driver.teeth").keys(&["17.5", "Ctrl-S"]);
-    desk.assert_shows("fix driver number of teeth; the edits stay in the journal");
+    desk.assert_shows("fix driver number of teeth first; the edits stay in the form");
 }
 
 fn listed(desk: &Desk) -> Vec<Arc<Item>> {

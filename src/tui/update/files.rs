@@ -469,7 +469,7 @@ fn refuse_faulty(app: &mut App) -> bool {
     if let Some(row) = wrong {
         app.focus_on(row);
         let name = rows::full_label(&app.tab.case, row);
-        app.complain(format!("not saved: fix {name}; the edits stay in the journal"));
+        app.complain(format!("not saved: fix {name} first; the edits stay in the form"));
     }
     wrong.is_some()
 }
