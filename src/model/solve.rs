@@ -588,7 +588,7 @@ impl Stage {
             Stage::Static => equal(cases, |i| (i.face(), i.speed, Spacing::of(i))),
             Stage::Dynamic => equal(cases, |i| (i.face(), i.speed, Settings::of(i, 0.0))),
             Stage::StaticSpectrum => equal(cases, Inputs::face),
-            Stage::SteadyMotion => equal(cases, |i| (i.speed, Settings::steady(i, 0.0))),
+            Stage::SteadyMotion => equal(cases, |i| (i.face(), i.speed, Settings::steady(i, 0.0))),
             // The torque stays the same at every speed.
             Stage::SpeedRun => stages(&[Stage::SteadyMotion]) && equal(cases, Inputs::torque),
             Stage::Clearing => {
