@@ -63,7 +63,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 6 d", "j", "", "▸ 6 Tolerance 2 to 15 of 28"),
     ("Esc 6 d j j", "k", "", "▸ 6 Tolerance 2 to 15 of 28"),
     ("Esc 6 d", "l", "", "▸ 6 Tolerance 14 to 27 of 28"),
-    ("Esc 6 d", "r", "", "Samples of the tolerance"),
+    ("Esc 6 d", "N", "", "Samples of the tolerance"),
     ("Esc 6 d l", "h", "", "▸ 6 Tolerance 1 to 14 of 28"),
     ("Esc 2", "v", "", "the case has no variants"),
     ("", ":variant", "", "Commands"),

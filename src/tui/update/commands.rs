@@ -438,7 +438,7 @@ pub static BINDINGS: &[Binding] = &[
         "Scroll the tolerance one line down or up.").shown(),
     pair(Place::TOLERANCE, "l/h Right/Left PageDown/PageUp", "next page", |app, by| app.study.top = study::paged(app, by),
         "Go to the next or previous page of the tolerance.").shown(),
-    row(Place::TOLERANCE, "r", "samples", studies::ask_samples,
+    row(Place::TOLERANCE, "N", "samples", studies::ask_samples,
         "Type the number of samples of the tolerance.").shown(),
     row(Place::STUDY.or(Place::TOLERANCE), "d", "tolerance", studies::tolerance,
         "Sample the distributions of [spread], or show the curve again.").shown(),
