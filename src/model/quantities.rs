@@ -162,6 +162,10 @@ impl Quantity {
     }
 }
 
+/// The plane of the results of a helical pair.
+pub const PLANE: &str = "Lengths, angles, forces and velocities are in the transverse plane, unless \
+            the name says otherwise.";
+
 /// Texts of a quantity in some cases: the end of the meaning, and other assumptions.
 #[derive(Debug, Clone, Copy)]
 pub struct Variant {
@@ -215,8 +219,10 @@ impl Quantity {
     }
 
     /// The assumptions of the formula in a case with these inputs.
-    pub fn assumptions_in(&self, inputs: &Inputs) -> &'static str {
-        self.variant(inputs).and_then(|variant| variant.assumptions).unwrap_or(self.assumptions)
+    pub fn assumptions_in(&self, inputs: &Inputs) -> String {
+        let own = self.variant(inputs).and_then(|variant| variant.assumptions);
+        let plane = if inputs.helix_angle == 0.0 { "" } else { PLANE };
+        [own.unwrap_or(self.assumptions), plane].join(" ").trim().to_owned()
     }
 
     fn variant(&self, inputs: &Inputs) -> Option<&'static Variant> {

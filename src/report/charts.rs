@@ -263,8 +263,7 @@ fn stiffness(column: &Column, cases: &[NamedCase]) -> Result<Vec<Series>, String
                 continue;
             }
             let is_own = if model == own { " (case)" } else { "" };
-            let section =
-                if report.inputs.helix_angle > 0.0 { ", one transverse section" } else { "" };
+            let section = if report.inputs.helix_angle > 0.0 { ", transverse section" } else { "" };
             let name = match *case {
                 "" => format!("{}{is_own}{section}", model.name()),
                 case => of(case, model.name()) + section,

@@ -60,7 +60,7 @@ pub struct Page {
     /// Corrected misprints.
     pub corrections: Vec<&'static Correction>,
     /// The assumptions of the formula.
-    pub assumptions: &'static str,
+    pub assumptions: String,
     /// The ranges of validity with the values of the case.
     #[serde(skip)]
     pub validity: Vec<Finding>,
@@ -614,7 +614,7 @@ impl Writer {
     }
 
     fn validity(&mut self, page: &Page) {
-        self.paragraph(page.assumptions, 2);
+        self.paragraph(&page.assumptions, 2);
         for Finding { range, here, inside } in &page.validity {
             let (kind, mark) =
                 if *inside { (Kind::Text, "  ok   ") } else { (Kind::Outside, "  NOT  ") };

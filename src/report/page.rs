@@ -215,6 +215,10 @@ impl<'a> Page<'a> {
         self.cases.len() == 1
     }
 
+    fn is_helical(&self) -> bool {
+        self.cases.iter().any(|case| case.report.inputs.helix_angle != 0.0)
+    }
+
     fn has_notes(&self) -> bool {
         self.cases.iter().any(|case| !case.notes.is_empty())
     }

@@ -8,8 +8,7 @@ use crate::model::explanation::Formula::{Cases, Difference, Made, Text, Words};
 use crate::model::explanation::{Context, Step, step};
 use crate::model::figures::{IsoDynamic, RESONANCE_ENDS};
 
-const SPUR: &str = "External spur gears with involute flanks; the values are in the transverse \
-            section.";
+const INVOLUTE: &str = "External gears with involute flanks.";
 const RIGID: &str = "Rigid gears on parallel, rigid shafts at steady speed.";
 const STEEL: &str = "Solid gears of the basic rack of the case, C_R = 1 and C_M = 0.8; other \
             materials by their Young's modulus. Each pair carries its load alone. Virtual teeth are z_n = \
@@ -20,7 +19,7 @@ const PEAK: &str = "The flanks are smooth cylinders without oil, and the load is
 
 /// A figure.
 const FIGURE: Quantity =
-    Quantity { equation: "ISO 21771", stage: Figures, assumptions: SPUR, ..PLAIN };
+    Quantity { equation: "ISO 21771", stage: Figures, assumptions: INVOLUTE, ..PLAIN };
 
 /// A specific sliding.
 const SLIDING: Quantity = Quantity {

@@ -9,12 +9,12 @@ use crate::model::Stage::{Geometry, Load};
 use crate::model::explanation::Formula::{Cases, Difference, Given, Solved, Text};
 use crate::model::explanation::{Context, Equation, Step, step};
 
-const SPUR_PAIR: &str = "External spur gears on parallel, rigid shafts, with involute flanks down \
-            to the contact.";
+const PARALLEL: &str = "External gears on parallel, rigid shafts, with involute flanks down to \
+            the contact.";
 
 /// A row of the geometry.
 const GEOMETRY: Quantity =
-    Quantity { equation: "ISO 21771", stage: Geometry, assumptions: SPUR_PAIR, ..PLAIN };
+    Quantity { equation: "ISO 21771", stage: Geometry, assumptions: PARALLEL, ..PLAIN };
 
 pub(super) const TABLE: &[Quantity] = &[
     GEOMETRY
