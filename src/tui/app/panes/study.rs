@@ -336,8 +336,10 @@ pub(crate) fn hint(app: &App) -> String {
     if app.study.is_tolerance {
         let count = app.study.samples();
         format!("{count} samples draw every field of [spread] from its distribution.")
-    } else if shown.is_some() && obstacle.is_none() {
-        format!("● present value, ▴ cursor, {NO_CONTACT} no contact, {REFUSED} refused point.")
+    } else if let (Some(shown), None) = (shown, obstacle) {
+        refused(shown).unwrap_or_else(|| {
+            format!("● present value, ▴ cursor, {NO_CONTACT} no contact, {REFUSED} refused point.")
+        })
     } else {
         "The study varies a field over a range; r types the range.".to_owned()
     }
@@ -483,13 +485,13 @@ fn progress(shown: &StudyResults) -> String {
     }
 }
 
-/// The text below the plot: why the study failed, the values at the cursor, the refused points.
+/// The text below the plot: why the study failed, the values at the cursor.
 fn below(app: &App, shown: &StudyResults) -> String {
     let failed = match &shown.end {
         Some(End::Failed(reason)) => Some(reason.clone()),
         _ => None,
     };
-    let parts = [failed, Some(values_at_cursor(app, shown)), refused(shown)];
+    let parts = [failed, Some(values_at_cursor(app, shown))];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     symbol(&parts.join(". "), app.look.ascii).into_owned()
 }
@@ -512,17 +514,11 @@ fn values_at_cursor(app: &App, shown: &StudyResults) -> String {
     format!("{}: {}", settings.join(", "), values.join(", "))
 }
 
-/// The value of a point, or why there is none; with the symbol and unit of the quantity.
-fn value_words(found: &LayerFound, at: usize, units: System, has_name: bool) -> Option<String> {
+/// The value of a point, with its unit if wanted, or why there is none.
+fn value_words(found: &LayerFound, at: usize, units: System, has_unit: bool) -> Option<String> {
     let known = found.layer.quantity()?;
     Some(match (found.outcomes.get(at)?, found.values.get(at)?) {
-        (_, Some(value)) if has_name => {
-            format!(
-                "{} {}",
-                known.symbol_in(found.layer.inputs.method),
-                shown_in(known, *value, units)
-            )
-        }
+        (_, Some(value)) if has_unit => shown_in(known, *value, units).to_string(),
         (_, Some(value)) => shown_with(known, *value, found.unit(units)?).number,
         (PointOutcome::Refused, None) => "refused".to_owned(),
         (PointOutcome::Solved(Outcome::NoCornerContact), None) => "no contact".to_owned(),
