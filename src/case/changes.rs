@@ -114,7 +114,8 @@ impl Variant {
     }
 }
 
-/// Every text of a case by its key: fields, limits, distributions, overrides and `[about]`.
+/// Every text of a case by its key: fields, limits, distributions, overrides and `[about]`; without
+/// empty limits and distributions.
 pub(super) fn texts(case: &Case) -> Vec<(String, String)> {
     let fields = FIELDS
         .iter()
@@ -125,13 +126,15 @@ pub(super) fn texts(case: &Case) -> Vec<(String, String)> {
         .iter()
         .map(|limit| (format!("limits.{}", limit.quantity.key), limit.text.clone()));
     let spreads = case.spread.iter().map(|held| (spread::place(held.field), held.text.clone()));
+    // A new row of the form is empty until the user writes into it.
+    let rows = limits.chain(spreads).filter(|(_, text)| !text.is_empty());
     let overrides = case.variants.iter().flat_map(|variant| {
         let of = |change: &Override| (variant.place(&change.key), change.text.clone());
         variant.overrides.iter().map(of)
     });
     let about = case.about.iter();
     let about = about.map(|(name, text)| (format!("{ABOUT}{name}"), text.clone()));
-    fields.chain(limits).chain(spreads).chain(overrides).chain(about).collect()
+    fields.chain(rows).chain(overrides).chain(about).collect()
 }
 
 /// Greatest length of the name of a variant, in characters.
@@ -306,7 +309,9 @@ mod tests {
             assert_eq!(between(&case, &to), []);
             assert_eq!(case, to);
         }
-        assert_eq!(between(&varied(), &varied()), []);
+        let mut begun = varied();
+        begun.write_spread("pair.module", "");
+        assert_eq!(between(&varied(), &begun), []);
     }
 
     #[test]
