@@ -601,7 +601,10 @@ pub(super) fn unknown_quantity(field: &str, written: &str) -> Problem {
         return is(&what, "name a result; `tipstrike fields --results` lists them");
     }
     if ["outcome", "exit_outcome"].contains(&name) {
-        return is("no number", &format!("as a condition write {name}=no-corner-contact"));
+        return is(
+            "no number",
+            &format!("leave it out: every result has it; `seek` takes {name}=no-corner-contact"),
+        );
     }
     // Two letters are a misprint; more can be another name in the same words.
     let is_misprint = |near: &&str| strsim::damerau_levenshtein(name, near) <= 2;
@@ -609,6 +612,9 @@ pub(super) fn unknown_quantity(field: &str, written: &str) -> Problem {
         if near.is_some_and(|near| is_misprint(&near)) { Vec::new() } else { by_words(name) };
     let meant = if words.is_empty() { near.into_iter().collect() } else { words };
     unknown(match &meant[..] {
+        _ if let Some(known) = Quantity::find(&name.replace(' ', "_")) => {
+            format!("did you mean {}?", known.key)
+        }
         _ if name.contains(' ') => "put commas between names".to_owned(),
         [] => "`tipstrike fields --results` lists every quantity".to_owned(),
         meant => format!("did you mean {}?", meant.join(" or ")),

@@ -356,7 +356,7 @@ fn always(_: &Inputs) -> bool {
 }
 
 fn by_impact(inputs: &Inputs) -> bool {
-    !inputs.method.shares_load()
+    matches!(inputs.method, Method::Paper | Method::Exact)
 }
 
 /// Whether the index of a gear is that of the driver.

@@ -107,7 +107,7 @@ pub enum Command {
     /// tolerances. Of the kinds of relief within 10 % of the least transmission error, or 2 % of
     /// the least peak force, the command chooses the one with the smallest amounts. The
     /// transmission error is peak to peak, at rest and without base pitch deviations: the greatest
-    /// over six loads of the range, or the mean over a spectrum. With method dynamic the motion
+    /// over six loads of the range, over the face width at its ends, or the mean over a spectrum. With method dynamic the motion
     /// must have no corner contact either. --out FILE.svg draws the relief with its tolerances. CSV
     /// has one row per choice and point of the map, JSON is one object; both are in SI units.
     Relief(studies::Asked<Demand>),

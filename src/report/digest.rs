@@ -121,7 +121,7 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
     });
     let forces = match (tip, most) {
         (Some((tip, ratio)), Some(most)) => format!(": up to {tip} on the tip{ratio}, {most}"),
-        (Some((tip, ratio)), None) => format!(": impact force {tip}{ratio}"),
+        (Some((tip, ratio)), None) => format!(": free impact {tip}{ratio}"),
         _ => String::new(),
     };
     let exit = at_exit(solution, system).unwrap_or_default();
@@ -140,10 +140,11 @@ fn at_exit(solution: &Solution, system: System) -> Option<String> {
     let required = relief.map(|(given, more)| required(more, given, "driver", system));
     if solution.outcome == Outcome::CornerContact {
         let is_larger = most > LARGER * of("static_force_at_start", solution).unwrap_or(0.0);
-        let required = required.filter(|_| is_larger).map(|required| format!(", {required}"));
+        let required =
+            required.filter(|_| is_larger).map(|required| format!(", {required}; each alone"));
         return Some(format!("; at the exit {force}{}", required.unwrap_or_default()));
     }
-    let required = required.unwrap_or("more tip relief on the driver prevents it".to_owned());
+    let required = required.unwrap_or("tip relief on the driver prevents it".to_owned());
     let at_rest = if solution.method == Method::Dynamic { " at rest" } else { "" };
     Some(format!(
         "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's tip; \

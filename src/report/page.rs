@@ -263,7 +263,7 @@ impl PageCase<'_> {
         }
         let about = report.case.about.iter();
         let about = about.map(|(key, text)| {
-            let mut name = sanitize(key);
+            let mut name = sanitize(key).replace('_', " ");
             if let Some(first) = name.get_mut(..1) {
                 first.make_ascii_uppercase();
             }

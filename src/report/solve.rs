@@ -3,6 +3,7 @@
 use super::compare::{ComparedCase, Comparison};
 use super::digest::{Digest, STAGES};
 use super::{Report, Selection, verdict};
+use crate::case::fields::index_of;
 use crate::case::units::System;
 use crate::case::{Case, Evaluator, Problem};
 use crate::model::inputs::Method;
@@ -235,6 +236,14 @@ impl Unsolved<'_> {
         Report::solve(name, case, self.inputs.clone(), selection)
     }
 
+    /// Solves the case with as many stations as its curves need, unless the case gives their number.
+    fn solve_for_picture(&self) -> Result<Report, Refusal> {
+        let is_given =
+            index_of("model.stations").is_some_and(|field| self.case.text(field).is_some());
+        let stations = self.inputs.stations.filter(|_| is_given);
+        Unsolved { inputs: &Inputs { stations, ..self.inputs.clone() }, ..*self }.solve(true)
+    }
+
     /// Computes the results that a picture shows.
     ///
     /// # Errors
@@ -243,7 +252,7 @@ impl Unsolved<'_> {
         if part == Part::Speeds {
             return Ok(Subject { speeds: Some(self.speeds(go_on)?), ..Subject::default() });
         }
-        let stations = Subject::of(self.solve(true)?, String::new()).with_other_method();
+        let stations = Subject::of(self.solve_for_picture()?, String::new()).with_other_method();
         let path = (part == Part::Path).then(|| compare_path(self.inputs, PATH_POINTS));
         let flanks = (part == Part::Flanks).then(|| compare_flanks(self.inputs, FLANK_POINTS));
         Ok(Subject { path, flanks, ..stations })
@@ -255,7 +264,10 @@ impl Unsolved<'_> {
     /// # Errors
     /// The refusal of the model; [`Refusal::Stopped`] if `go_on` returns false.
     pub fn subject(&self, file: String, format: Format, go_on: GoOn) -> Result<Subject, Refusal> {
-        let report = self.solve(format != Format::Csv)?;
+        let report = match format {
+            Format::Html => self.solve_for_picture()?,
+            _ => self.solve(format != Format::Csv)?,
+        };
         if !matches!(format, Format::Html | Format::Md) {
             return Ok(Subject::of(report, file));
         }

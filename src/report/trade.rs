@@ -74,8 +74,8 @@ pub fn build(trade: &Trade) -> String {
     }
 }
 
-/// The conclusion if no method finds corner contact.
-pub const NO_CONTACT: &str = "No method finds corner contact: no setting is recommended";
+/// The conclusion if the reference finds no corner contact.
+pub const NO_CONTACT: &str = "There is no corner contact: no setting is recommended";
 
 /// The recommendation as a sentence.
 pub fn conclusion(trade: &Trade) -> String {

@@ -290,7 +290,10 @@ impl Absence {
         if solution.method.shares_load() && quantity.is_of_free_impact() && is_without_form {
             return match stage {
                 Stage::Position | Stage::Velocity => Absence::OverFace(solution.method),
-                _ => Absence::Withheld(Refusal::NotOverFace { method: Method::Exact }),
+                _ => Absence::Because(
+                    "over the face width the impact begins at a point and has no closed form; \
+                     `static` and `dynamic` have the forces before E",
+                ),
             };
         }
         let is_shared = matches!(stage, Stage::Static | Stage::Dynamic);

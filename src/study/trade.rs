@@ -247,16 +247,16 @@ impl Trade {
         self.settings.iter().find(|measured| measured.setting == usual)
     }
 
-    /// The fastest setting that qualifies; `None` if no method finds corner contact: without a
-    /// force, no setting can reduce its error.
+    /// The fastest setting that qualifies; `None` without corner contact: without a force, no setting
+    /// can reduce its error.
     pub fn recommended(&self) -> Option<&MeasuredSetting> {
         self.cheapest_where(|_| true).filter(|_| !self.is_without_contact())
     }
 
-    /// Whether every method that solves the case finds no corner contact.
+    /// Whether the reference finds no corner contact.
     pub fn is_without_contact(&self) -> bool {
-        let mut outcomes = self.finest.iter().filter_map(|model| model.outcome.ok()).peekable();
-        outcomes.peek().is_some() && outcomes.all(|outcome| outcome == Outcome::NoCornerContact)
+        let reference = &self.finest[reference(self.is_over_face)];
+        reference.outcome == Ok(Outcome::NoCornerContact)
     }
 
     /// Whether the error of a setting is within the accepted error.

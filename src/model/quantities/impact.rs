@@ -74,7 +74,7 @@ macro_rules! spread {
     ($key:literal, $symbol:literal, $label:literal, $end:ident, $word:literal, $choice:literal) => {
         FORCE.row(
             [$key, $symbol, $label],
-            ("N", "N", 4),
+            ("N", "N", 5),
             |s| Some(s.band?.$end),
             concat!(
                 "The impact force by the ",

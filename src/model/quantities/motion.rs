@@ -219,7 +219,7 @@ pub(super) const TABLE: &[Quantity] = &[
         ["resonance_speed", "n_E", "speed of N = 1"],
         ("rad/s", "rpm", 5),
         |s| Some(s.resonance?.natural_frequency * s.geometry.base_pitch / s.geometry.driver.base),
-        "The speed of the driver at which the mesh frequency equals the natural \
+        "The critical speed of the driver, at which the mesh frequency equals the natural \
             frequency of the mean stiffness, N = 1. The motion peaks at another speed: \
             see resonance_peak_speed.",
         Text("2 π f_n/z1"),

@@ -59,7 +59,7 @@ const SIGNS: [&str; 6] = [
     "Signs after a result: ← changed by the last edit; ! above its limit; – no value. ▸ marks the \
         column of the case's method.",
     "Column vs baseline: the difference from the baseline; b pins the baseline. \"was none\": the \
-        baseline has no value; \"not solved\": its method does not compute one. \"was\" and a value: the program prints no percentage.",
+        baseline has no value; \"not solved\": it was not computed when b pinned the baseline. \"was\" and a value: the program prints no percentage.",
     "Chart curves: dots or * the method of the case; · paper; ∘ exact; × static; + the baseline; \
         ╌ a reference value, such as Δ in the gap chart. Compared stiffness models alternate in the \
         columns that several of them cross. On the x axis: L last contact; d first contact of another \
@@ -72,7 +72,7 @@ const SIGNS: [&str; 6] = [
 ];
 
 const PLACES: [(&str, Place); 16] = [
-    ("Everywhere", Place::WORK),
+    ("Outside dialogs", Place::WORK),
     ("In a field", Place::TEXT),
     ("Outside a field (Esc leaves the field)", Place::FIELD),
     ("In a field of choices", Place::CHOICE),

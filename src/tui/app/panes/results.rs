@@ -19,6 +19,7 @@ use crate::model::inputs::Method;
 use crate::model::quantities::Need;
 use crate::model::{QUANTITIES, Quantity, Solution, Stage, Stages};
 use crate::report::compare::difference;
+use crate::report::trade::duration;
 use crate::report::verdict::{Standing, Verdict, verdict, verdicts};
 use crate::report::{self, digest, value_as_in};
 use crate::tui::app::App;
@@ -352,7 +353,8 @@ fn title(app: &App, count: usize, rows: usize) -> String {
     let pending = app.tab.answer.as_ref().and_then(|answer| answer.pending);
     let pending = pending.map(|method| format!(", {} pending", method.name()));
     let cost = app.tab.answer.as_ref().filter(|_| app.shows_cost).map(|answer| answer.cost);
-    let cost = cost.map(|cost| format!(", {} stages in {} us", cost.stages, cost.micros));
+    let cost = cost
+        .map(|cost| format!(", {} stages in {}", cost.stages, duration(cost.micros as f64 / 1e6)));
     let method = app
         .tab
         .answer

@@ -188,6 +188,12 @@ impl Layer {
 }
 
 impl LayerFound {
+    /// The name of the layer with the symbol of its quantity.
+    fn title(&self) -> Option<String> {
+        let symbol = self.layer.quantity()?.symbol_in(self.layer.inputs.method);
+        Some(format!("{} {symbol}", self.layer.name()))
+    }
+
     /// No points of a layer yet.
     pub(crate) fn of(layer: &Layer) -> LayerFound {
         let (layer, outcomes, values) = (layer.clone(), Vec::new(), Vec::new());
@@ -616,8 +622,7 @@ fn curves(app: &App, shown: &StudyResults, axis: &StudyAxis) -> Option<(Chart, V
             (_, false) => (sign_of(layer.inputs.method), theme.other),
         };
         if at == 0 || !pieces.is_empty() {
-            series
-                .push((Series { name: layer.name().to_owned(), pieces, kind: Kind::Curve }, look));
+            series.push((Series { name: found.title()?, pieces, kind: Kind::Curve }, look));
         }
     }
     let mut mark = |name: &str, points: Vec<Point>, look: (char, _)| {
@@ -742,11 +747,9 @@ fn draw_table(app: &App, shown: &StudyResults, area: Rect, buffer: &mut Buffer) 
     let (marked, rows) = (y * width + x, usize::from(area.height.saturating_sub(1)));
     let top = marked.saturating_sub(rows / 2).min(count.saturating_sub(rows));
     let lines = |layers: &[LayerFound], is_short: bool| {
-        let curves = layers.iter().filter_map(|found| {
-            let symbol = found.layer.quantity()?.symbol_in(found.layer.inputs.method);
-            let name = format!("{} {symbol}", found.layer.name());
-            Some(Axis::new(name, found.unit(app.settings.units)?))
-        });
+        let curves = layers
+            .iter()
+            .filter_map(|found| Some(Axis::new(found.title()?, found.unit(app.settings.units)?)));
         let field = |axis: &StudyAxis| match FIELDS[axis.field].symbol {
             symbol if is_short && !symbol.is_empty() => Axis::new(symbol, axis.unit.clone()),
             _ => field_axis(axis),
