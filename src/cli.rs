@@ -82,7 +82,18 @@ pub fn parse(
         streams.say(&line);
         return Err(Exit::Usage);
     }
-    matches.and_then(|matches| Arguments::from_arg_matches(&matches)).map_err(|error| {
+    let parsed = matches.and_then(|matches| Arguments::from_arg_matches(&matches));
+    if let Ok(Arguments { case: Some(case), .. }) = &parsed
+        && !case.exists()
+    {
+        streams.say(&format!(
+            "error: {0}: there is no such case: `tipstrike new {0}` writes one, `tipstrike help` \
+             lists the commands",
+            case.display()
+        ));
+        return Err(Exit::Unreadable);
+    }
+    parsed.map_err(|error| {
         let text = error.render().to_string();
         if error.use_stderr() {
             // Cause, values and tip; usage and the way to the help follow.
