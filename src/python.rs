@@ -582,7 +582,7 @@ impl Solved {
 
     #[getter]
     fn notes(&self) -> Vec<(&'static str, String)> {
-        self.report().notes.into_iter().map(|note| (note.code, note.message)).collect()
+        self.report().notes.into_iter().map(|note| (note.code, note.to_string())).collect()
     }
 
     /// The line of `tipstrike solve --format json`.

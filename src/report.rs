@@ -25,7 +25,7 @@ use crate::case::Case;
 use crate::case::fields::index_of;
 use crate::case::units::{self, System};
 use crate::model::inputs::Method;
-use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Solution, Stage, Stages};
+use crate::model::{self, About, Inputs, Note, QUANTITIES, Quantity, Solution, Stage, Stages};
 use crate::numeric::decimal::significant;
 use serde::{Serialize, Serializer};
 #[cfg(all(unix, feature = "tui"))]
@@ -148,19 +148,9 @@ fn is_default(at: usize, case: &Case) -> bool {
     }
 }
 
-/// The codes of notes that say the same for almost every case by a closed form. JSON has them;
-/// elsewhere they are findings of `explain`.
-const GENERAL_NOTES: [&str; 4] =
-    ["impact-outlasts-approach", "impulse-ratio", "gap-left-open", "no-end-of-impact"];
-
-/// Whether a note says the same for almost every case.
-pub fn is_general(note: &Note) -> bool {
-    GENERAL_NOTES.contains(&note.code)
-}
-
-/// The notes that are about this case.
+/// The notes that do not say the same for almost every case.
 fn case_notes(notes: &[Note]) -> impl Iterator<Item = &Note> {
-    notes.iter().filter(|note| !is_general(note))
+    notes.iter().filter(|note| note.about != About::General)
 }
 
 /// Label and symbol of a quantity.
@@ -234,10 +224,8 @@ pub fn number(value: f64, unit: &str, digits: usize) -> String {
 
 fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
     (quantity.value)(solution.having(quantity.stage)).filter(|value| !value.is_finite()).map(|_| {
-        Note {
-            code: "not-finite",
-            message: format!("{} exceeds the range of numbers and is omitted", quantity.key),
-        }
+        let message = format!("{} exceeds the range of numbers and is omitted", quantity.key);
+        Note::case("not-finite", message)
     })
 }
 
@@ -245,7 +233,7 @@ fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
 fn absent(quantity: &Quantity, solution: &Solution) -> Option<Note> {
     (quantity.value)(solution.having(quantity.stage)).is_none().then(|| {
         let absence = Absence::of(quantity, solution);
-        Note { code: "no-value", message: format!("{} has no value: {absence}", quantity.key) }
+        Note::case("no-value", format!("{} has no value: {absence}", quantity.key))
     })
 }
 

@@ -20,15 +20,51 @@ use crate::numeric::decimal::significant;
 pub struct Note {
     /// A short name for scripts.
     pub code: &'static str,
+    /// What the note is about.
+    pub about: About,
     /// One sentence with the value and the limit.
     pub message: String,
+    /// What the user of the program can do.
+    pub fix: Option<&'static str>,
+}
+
+/// What a note is about: this decides where the note is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum About {
+    /// This case.
+    Case,
+    /// Almost every case by a closed form: JSON has the note; elsewhere it is a finding of `explain`.
+    General,
+    /// A setting of the program that changes no gear: pages for others do not have it.
+    Setting,
+}
+
+impl std::fmt::Display for Note {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.message)?;
+        self.fix.map_or(Ok(()), |fix| write!(f, "; {fix}"))
+    }
+}
+
+impl Note {
+    /// A note on this case.
+    pub fn case(code: &'static str, message: String) -> Note {
+        Note { code, about: About::Case, message, fix: None }
+    }
+
+    fn general(code: &'static str, message: String) -> Note {
+        Note { about: About::General, ..Note::case(code, message) }
+    }
+
+    fn setting(code: &'static str, message: String) -> Note {
+        Note { about: About::Setting, ..Note::case(code, message) }
+    }
 }
 
 /// The notes on the results.
 pub fn notes(inputs: &Inputs, solution: &Solution) -> Vec<Note> {
     let context = Context { inputs, given: inputs, solution };
-    let found = ROWS.iter().filter_map(|row| row(&context));
-    found.map(|(code, message)| Note { code, message }).collect()
+    ROWS.iter().filter_map(|row| row(&context)).collect()
 }
 
 /// A value with four significant digits.
@@ -46,11 +82,8 @@ fn micro(value: f64) -> String {
     four(value * 1e6)
 }
 
-/// The code and the sentence of a note if its condition is true.
-type Found = Option<(&'static str, String)>;
-
 /// All notes, in order: first that the pair cannot be assembled.
-const ROWS: &[fn(&Context) -> Found] = &[
+const ROWS: &[fn(&Context) -> Option<Note>] = &[
     |k| {
         let (backlash, part) = backlash(k)?;
         let value = milli(backlash);
@@ -59,20 +92,20 @@ const ROWS: &[fn(&Context) -> Found] = &[
                 "the centre distance jams the mesh: the normal backlash is {value} mm and must not \
                     be below 0"
             );
-            return Some(("centre-distance-jams", message));
+            return Some(Note::case("centre-distance-jams", message));
         }
         let message = format!(
             "the centre distance opens the mesh: the normal backlash is {value} mm, above a tenth \
                 of the module, {} mm",
             milli(USUAL_BACKLASH.end() * k.inputs.module)
         );
-        (part > *USUAL_BACKLASH.end()).then_some(("centre-distance-opens", message))
+        (part > *USUAL_BACKLASH.end()).then_some(Note::case("centre-distance-opens", message))
     },
     |k| {
         let choice = k.solution.choice?;
         let model = || format!("; tooth compliance `{}`", model_of(k.inputs).name());
         let model = k.inputs.tooth_compliance.map_or_else(model, |_| String::new());
-        Some(("method-taken", format!("{choice}{model}")))
+        Some(Note::setting("method-taken", format!("{choice}{model}")))
     },
     |k| {
         let given = k.inputs.deflection.filter(|_| k.solution.method.shares_load())?;
@@ -82,7 +115,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             micro(given),
             micro(k.solution.deviation.combined_deflection)
         );
-        Some(("deflection-ignored", message))
+        Some(Note::case("deflection-ignored", message))
     },
     |k| {
         let is_subtracted = k.solution.method == Method::Paper && k.inputs.backlash > 0.0;
@@ -91,7 +124,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
                 under load, so the other methods do not",
             micro(k.inputs.backlash)
         );
-        is_subtracted.then_some(("backlash-subtracted", message))
+        is_subtracted.then_some(Note::case("backlash-subtracted", message))
     },
     |k| {
         let is_changed = k.inputs.effective_combination() != k.inputs.combination;
@@ -100,19 +133,19 @@ const ROWS: &[fn(&Context) -> Found] = &[
             "base pitch deviations of unlike sign, {driver} and {driven} um, are known with their \
                 signs: they add as a sum"
         );
-        is_changed.then_some(("deviations-added", message))
+        is_changed.then_some(Note::case("deviations-added", message))
     },
     |k| {
         let message = "all teeth lose contact for a time: the gears rattle".to_owned();
         let is_lost = k.solution.dynamic.as_ref()?.contact_lost;
-        is_lost.then_some(("dynamic-contact-lost", message))
+        is_lost.then_some(Note::case("dynamic-contact-lost", message))
     },
     stiffness_step,
     back_strikes,
     // The search found no relief without contact before E.
     |k| {
         let refusal = k.solution.clearing?.withheld?;
-        Some((refusal.code(), format!("the required tip relief is unknown: {refusal}")))
+        Some(Note::case(refusal.code(), format!("the required tip relief is unknown: {refusal}")))
     },
     |k| {
         let [period, time, part] = inertia_at_rest(k)?;
@@ -127,13 +160,12 @@ const ROWS: &[fn(&Context) -> Found] = &[
         // A trial motion measured the effect.
         let tried = k.solution.choice.and_then(|choice| choice.inertia);
         let is_known = matches!(tried, Some(Inertia::Tried(_)));
-        (is_fast && !is_known).then_some(("inertia", message))
+        (is_fast && !is_known).then_some(Note::case("inertia", message))
     },
     |k| {
         let refusal = k.solution.withheld?;
-        let message =
-            format!("{refusal}; force, energy and duration are not computed; {}", refusal.fix());
-        Some((refusal.code(), message))
+        let message = format!("{refusal}; force, energy and duration are not computed");
+        Some(Note { fix: Some(refusal.fix()), ..Note::case(refusal.code(), message) })
     },
     |k| {
         let refusal = k.solution.stations_withheld?;
@@ -145,7 +177,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             }
             None => format!("some stations are omitted: {refusal}"),
         };
-        Some(("stations-left-out", message))
+        Some(Note::case("stations-left-out", message))
     },
     barely_clear,
     long_relief,
@@ -160,7 +192,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             micro(closed),
             micro(total)
         );
-        is_open.then_some(("gap-left-open", message))
+        is_open.then_some(Note::general("gap-left-open", message))
     },
     |k| {
         let impact = k.solution.impact.filter(|_| !k.solution.method.shares_load())?;
@@ -171,7 +203,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             micro(duration),
             micro(transit)
         );
-        (duration > transit).then_some(("impact-outlasts-approach", message))
+        (duration > transit).then_some(Note::general("impact-outlasts-approach", message))
     },
     |k| {
         let ratio = k.solution.impact?.impulse_ratio;
@@ -183,7 +215,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             _ => "force and duration do not belong to one impact",
         };
         let message = format!("the impulse ratio is {}, outside 1..2: {cause}", four(ratio));
-        (!is_possible(ratio)).then_some(("impulse-ratio", message))
+        (!is_possible(ratio)).then_some(Note::general("impulse-ratio", message))
     },
     |k| {
         let deviation = k.solution.deviation;
@@ -195,7 +227,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             micro(error)
         );
         let is_lost = !k.solution.method.shares_load() && deflection < error;
-        is_lost.then_some(("contact-lost", message))
+        is_lost.then_some(Note::case("contact-lost", message))
     },
     |k| {
         let [at_contact, at_start] = sliding(k)?;
@@ -204,7 +236,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             four(at_contact),
             four(at_start)
         );
-        (at_contact * at_start < 0.0).then_some(("sliding-reverses", message))
+        (at_contact * at_start < 0.0).then_some(Note::case("sliding-reverses", message))
     },
     |k| {
         let message =
@@ -213,7 +245,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
                 .to_owned();
         let has_none = k.solution.friction?.ratio.is_none();
         let is_printed = k.solution.method == Method::Paper;
-        (is_printed && has_none).then_some(("no-end-of-impact", message))
+        (is_printed && has_none).then_some(Note::general("no-end-of-impact", message))
     },
     |k| {
         let friction = k.inputs.friction_coefficient?;
@@ -228,7 +260,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             let does = "sliding stops during the impact";
             ("sticking", format!("not below the stick limit {}: {does}", four(limit)))
         };
-        Some((code, format!("the friction coefficient is {friction}, {does}")))
+        Some(Note::case(code, format!("the friction coefficient is {friction}, {does}")))
     },
     |k| {
         let given = k.inputs.deflection.filter(|_| !k.solution.method.shares_load())?;
@@ -236,7 +268,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             "the deflection of {} um is given: power and torque change only F_0, not D or the impact",
             micro(given)
         );
-        Some(("deflection-given", message))
+        Some(Note::setting("deflection-given", message))
     },
     |k| {
         let common = k.inputs.base_pitch_deviation;
@@ -246,7 +278,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             "deviations.base_pitch = {} um is not used: both gears have their own",
             micro(common)
         );
-        is_unused.then_some(("base-pitch-not-used", message))
+        is_unused.then_some(Note::case("base-pitch-not-used", message))
     },
     |k| grade("driver", k, &k.inputs.driver),
     |k| grade("driven", k, &k.inputs.driven),
@@ -259,12 +291,13 @@ const ROWS: &[fn(&Context) -> Found] = &[
         let message =
             format!("the tooth compliance is `{}`: {}", used.name, (first.why_outside)(k.inputs));
         let is_second_choice = k.inputs.tooth_compliance.is_none() && used.name != first.name;
-        is_second_choice.then_some((used.chosen, message))
+        is_second_choice.then_some(Note::case(used.chosen, message))
     },
     // The model is used outside its range.
     |k| {
         let used = k.solution.compliance?.model.model();
-        (used.outside)(k.inputs, &k.solution.geometry)
+        let (code, message) = (used.outside)(k.inputs, &k.solution.geometry)?;
+        Some(Note::case(code, message))
     },
     without_coupling,
     |k| {
@@ -274,7 +307,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             milli(half_width),
             milli(limit)
         );
-        (half_width > limit).then_some(("hertz-width-not-small", message))
+        (half_width > limit).then_some(Note::case("hertz-width-not-small", message))
     },
     |k| {
         let ratio = k.solution.geometry.contact_ratio;
@@ -293,7 +326,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             "the contact ratio is {}, above 2: more than one pair carries the load at F; {done}",
             four(ratio)
         );
-        (ratio > 2.0).then_some(("contact-ratio-above-2", message))
+        (ratio > 2.0).then_some(Note::case("contact-ratio-above-2", message))
     },
     |k| {
         let ratio = k.solution.geometry.contact_ratio;
@@ -301,7 +334,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
             "the contact ratio is {}, below 1: at some angles no pair is in contact",
             four(ratio)
         );
-        (ratio < 1.0).then_some(("contact-ratio-below-1", message))
+        (ratio < 1.0).then_some(Note::case("contact-ratio-below-1", message))
     },
     |k| {
         let length = k.solution.geometry.approach_length;
@@ -310,7 +343,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
                 driven tip without its chamfer",
             milli(length)
         );
-        (length < 0.0).then_some(("start-past-pitch", message))
+        (length < 0.0).then_some(Note::case("start-past-pitch", message))
     },
     |k| {
         let rest = k.solution.geometry.tangent_length - k.solution.geometry.end;
@@ -319,7 +352,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
                 be above 0",
             milli(rest)
         );
-        (rest <= 0.0).then_some(("interference-at-end", message))
+        (rest <= 0.0).then_some(Note::case("interference-at-end", message))
     },
     |k| undercut("driver", k, &k.inputs.driver),
     |k| undercut("driven gear", k, &k.inputs.driven),
@@ -338,7 +371,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
                 must be above 0",
             milli(least)
         );
-        (least <= 0.0).then_some(("no-tip-clearance", message))
+        (least <= 0.0).then_some(Note::case("no-tip-clearance", message))
     },
 ];
 
@@ -369,33 +402,33 @@ pub(super) fn sliding(k: &Context) -> Option<[f64; 2]> {
 }
 
 /// The rack cuts into the flank of a gear.
-fn undercut(name: &str, k: &Context, gear: &Gear) -> Found {
+fn undercut(name: &str, k: &Context, gear: &Gear) -> Option<Note> {
     let (shift, limit) = (gear.profile_shift, Rack::of(k.inputs, gear).least_shift());
     let message = format!(
         "the {name} is undercut: its profile shift is {shift} and should be at least {}",
         four(limit)
     );
-    (shift < limit).then_some(("undercut", message))
+    (shift < limit).then_some(Note::case("undercut", message))
 }
 
 /// The tip of a gear is pointed or thin.
-fn tip(name: &str, k: &Context, gear: &Gear, circles: &Circles) -> Found {
+fn tip(name: &str, k: &Context, gear: &Gear, circles: &Circles) -> Option<Note> {
     let thickness = normal_tip_thickness(k.inputs, gear, circles);
     let (value, least) = (milli(thickness), THIN_TIP * k.inputs.module);
     if thickness <= 0.0 {
         let message = format!(
             "the {name}'s tip is pointed: its thickness would be {value} mm and must be above 0"
         );
-        return Some(("pointed-tip", message));
+        return Some(Note::case("pointed-tip", message));
     }
     let limit = milli(least);
     let message =
         format!("the {name}'s tip is thin: {value} mm, below a fifth of the module, {limit} mm");
-    (thickness < least).then_some(("thin-tip", message))
+    (thickness < least).then_some(Note::case("thin-tip", message))
 }
 
 /// D or E is below the form circle of the driver.
-fn form_circle(k: &Context) -> Found {
+fn form_circle(k: &Context) -> Option<Note> {
     let geometry = &k.solution.geometry;
     let form = Profile::of(&Rack::of(k.inputs, &k.inputs.driver), &geometry.driver).form_radius();
     let contact = k.solution.position.map(|position| ("D", position.contact.radius_driver));
@@ -410,28 +443,28 @@ fn form_circle(k: &Context) -> Found {
         mm(radius),
         mm(form)
     );
-    Some(("below-form-circle", message))
+    Some(Note::case("below-form-circle", message))
 }
 
 /// The inertia of a gear whose teeth an undercut cuts through.
-fn inertia_of(name: &str, gear: usize, k: &Context) -> Found {
+fn inertia_of(name: &str, gear: usize, k: &Context) -> Option<Note> {
     let is_fallback = k.solution.kept.masses.inertias[gear].is_fallback
         && k.inputs.inertia_model() == InertiaModel::Outline;
     let message = format!(
         "the inertia of the {name} is that of a disc to its base circle, Eq. 47: the undercut cuts \
             its teeth through"
     );
-    is_fallback.then_some(("inertia-base-circle", message))
+    is_fallback.then_some(Note::case("inertia-base-circle", message))
 }
 
-fn grade(table: &str, k: &Context, gear: &Gear) -> Found {
+fn grade(table: &str, k: &Context, gear: &Gear) -> Option<Note> {
     let grade = gear.grade?;
     if let Some(own) = gear.base_pitch {
         let message = format!(
             "{table}.grade = {grade} is not used: {table}.base_pitch = {} um replaces it",
             micro(own)
         );
-        return Some(("grade-not-used", message));
+        return Some(Note::case("grade-not-used", message));
     }
     let outside = out_of_range(k.inputs.module, gear.teeth)
         .map(|range| format!("; the standard covers {range}, and this gear is outside"));
@@ -441,11 +474,11 @@ fn grade(table: &str, k: &Context, gear: &Gear) -> Found {
         micro(k.inputs.base_pitch_of(gear).0),
         outside.unwrap_or_default()
     );
-    Some(("grade", message))
+    Some(Note::case("grade", message))
 }
 
 /// The model has independent springs although the method supports coupling.
-fn without_coupling(k: &Context) -> Found {
+fn without_coupling(k: &Context) -> Option<Note> {
     /// Changes of first contact and peak force in `dynamic` without coupling, with finite elements
     /// over `cases/`.
     const UNCOUPLED: (&str, &str) = ("2 to 13 %", "-12 to +14 %");
@@ -461,7 +494,7 @@ fn without_coupling(k: &Context) -> Found {
             coupling, over the examples)",
         model.name, UNCOUPLED.0, UNCOUPLED.1
     );
-    (is_coupled && !model.has_coupling).then_some(("no-coupling", message))
+    (is_coupled && !model.has_coupling).then_some(Note::case("no-coupling", message))
 }
 
 /// No contact before E, but slightly more base pitch deviation or load causes corner contact.
@@ -473,7 +506,7 @@ fn without_coupling(k: &Context) -> Found {
 /// g is the remaining gap. An increase of √2 f_pb by g closes it, Eqs. 1 and 5; of 2 f_pb if the
 /// deviations add as a sum. δ is approximately proportional to the load. If the gears have their
 /// own deviations, f_pb is the common deviation with the same effect.
-fn barely_clear(k: &Context) -> Found {
+fn barely_clear(k: &Context) -> Option<Note> {
     const CLOSE: f64 = 0.1;
     let clear = k.solution.margin()?;
     let [now, enough] = [0.0, clear].map(|more| k.inputs.common_base_pitch(more));
@@ -491,11 +524,11 @@ fn barely_clear(k: &Context) -> Found {
         micro(enough),
         micro(now)
     );
-    (enough < (1.0 + CLOSE) * now || has_more_load).then_some(("barely-clear", message))
+    (enough < (1.0 + CLOSE) * now || has_more_load).then_some(Note::case("barely-clear", message))
 }
 
 /// A relief covers the whole path of contact.
-fn long_relief(k: &Context) -> Found {
+fn long_relief(k: &Context) -> Option<Note> {
     let Reliefs { driver, driven, .. } = k.inputs.reliefs();
     let path = k.solution.geometry.end - k.solution.geometry.start;
     let of = |name: &'static str, it: GearReliefs| {
@@ -512,11 +545,11 @@ fn long_relief(k: &Context) -> Found {
             involute",
         milli(path)
     );
-    k.solution.method.shares_load().then_some(("relief-over-whole-path", message))
+    k.solution.method.shares_load().then_some(Note::case("relief-over-whole-path", message))
 }
 
 /// The contact leaves the tip radius at E, and the stiffness of the pair rises in one step.
-fn stiffness_step(k: &Context) -> Found {
+fn stiffness_step(k: &Context) -> Option<Note> {
     const LEAST: f64 = 0.02;
     k.solution.dynamic.as_ref()?.first_contact_angle?;
     let rise = k.solution.mesh.as_ref()?.stiffness_step() - 1.0;
@@ -525,11 +558,11 @@ fn stiffness_step(k: &Context) -> Found {
          rises by {} % in one step: so does its force, at any speed; method static has no such step",
         significant(100.0 * rise, 3)
     );
-    (rise > LEAST).then_some(("stiffness-step", message))
+    (rise > LEAST).then_some(Note::case("stiffness-step", message))
 }
 
 /// The back flanks strike.
-fn back_strikes(k: &Context) -> Found {
+fn back_strikes(k: &Context) -> Option<Note> {
     let steady = k.solution.steady.as_ref().and_then(|found| found.as_ref().ok());
     let in_motion = k.solution.dynamic.as_ref().and_then(|found| found.rattle);
     let all = [
@@ -547,7 +580,7 @@ fn back_strikes(k: &Context) -> Found {
         micro(k.inputs.backlash),
         four(rattle.force)
     );
-    Some(("back-flank-strikes", message))
+    Some(Note::case("back-flank-strikes", message))
 }
 
 /// Period of the mesh and the time in which the load on the incoming tooth grows, in s, and the part

@@ -19,7 +19,7 @@ pub fn render(report: &Report) -> String {
     let items = |mark: &str, sentences: Vec<String>| -> Vec<String> {
         sentences.iter().flat_map(|sentence| item(mark, sentence)).collect()
     };
-    let notes = case_notes(&report.notes).map(|note| sanitize(&note.message)).collect();
+    let notes = case_notes(&report.notes).map(|note| sanitize(&note.to_string())).collect();
     let sections = [
         report.named().headings(&methods(report)),
         items("", verdict(report)),
@@ -191,7 +191,8 @@ pub fn write_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         (quantity.key, member)
     });
     let stations = report.selection.stations.then(|| stations(report).objects());
-    let notes = report.notes.iter().map(|note| json!({"code": note.code, "message": note.message}));
+    let notes =
+        report.notes.iter().map(|note| json!({"code": note.code, "message": note.to_string()}));
     let stages = solution.all_stages();
     let line = json!({
         "case": report.name,

@@ -78,7 +78,7 @@ impl Digest {
             method,
             outcome,
             limits: limits.collect(),
-            notes: case_notes(&notes).map(|note| note.message.clone()).collect(),
+            notes: case_notes(&notes).map(|note| note.to_string()).collect(),
         }
     }
 }

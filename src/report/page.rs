@@ -2,14 +2,14 @@
 //! verdict, the inputs, the main results and charts; the appendix has the rest.
 
 use super::data::{self, verdict};
-use super::{Report, case_notes, common_unit, grouped, is_default, numbers, shown_with, value};
+use super::{Report, common_unit, grouped, is_default, numbers, shown_with, value};
 use crate::case::fields::{Absent, index_of};
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
 use crate::case::{Case, FIELDS, units};
 use crate::model::explanation::tidy;
-use crate::model::{Inputs, Quantity};
+use crate::model::{About, Inputs, Quantity};
 use crate::report::charts::NamedCase;
 use crate::report::charts::{PATTERN, Picture, find, pictures};
 use crate::report::compare::{ComparedCase, Comparison};
@@ -307,18 +307,10 @@ impl PageCase<'_> {
     }
 }
 
-/// The codes of notes on the settings of the program, not on the gears.
-const SETTINGS: [&str; 4] =
-    ["method-taken", "deflection-given", "base-pitch-not-used", "grade-not-used"];
-
 /// The notes on the gears, without advice for the user of the program.
 fn notes(report: &Report) -> Vec<String> {
-    let notes = case_notes(&report.notes).filter(|note| !SETTINGS.contains(&note.code));
-    let fix = report.solution.withheld.map(|refusal| format!("; {}", refusal.fix()));
-    let fix = fix.unwrap_or_default();
-    notes
-        .map(|note| with_labels(note.message.strip_suffix(&fix).unwrap_or(&note.message)))
-        .collect()
+    let notes = report.notes.iter().filter(|note| note.about == About::Case);
+    notes.map(|note| with_labels(&note.message)).collect()
 }
 
 /// A sentence with the labels of fields in place of their keys.

@@ -17,7 +17,7 @@ use crate::case::units::{self, named};
 use crate::case::{Case, FIELDS, Field, changes};
 use crate::model::inputs::Method;
 use crate::model::quantities::Need;
-use crate::model::{QUANTITIES, Quantity, Solution, Stage, Stages};
+use crate::model::{About, QUANTITIES, Quantity, Solution, Stage, Stages};
 use crate::report::compare::difference;
 use crate::report::trade::duration;
 use crate::report::verdict::{Standing, Verdict, verdict, verdicts};
@@ -32,8 +32,6 @@ use crate::tui::text::{self, symbol};
 /// Number of quantities that stay visible below the sentences, and below a long verdict or fault.
 const USUAL_ROWS: usize = 12;
 const LEAST_ROWS: usize = 4;
-/// Notes that only the page has, besides those that say the same for almost every case.
-const USUAL_NOTES: [&str; 2] = ["deflection-given", "deflection-ignored"];
 
 /// The state of the pane, separate for each open case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -296,9 +294,8 @@ fn sentences(app: &App) -> Vec<Sentence> {
         add(format!("Variant {name}: {inputs}{refused}."), fresh(theme.note), place);
     }
     for note in &answer.notes {
-        let is_usual = report::is_general(note) || USUAL_NOTES.contains(&note.code);
-        let place = if is_usual { Place::Page } else { Place::Room };
-        add(format!("Note: {}.", note.message), fresh(theme.note), place);
+        let place = if note.about == About::Case { Place::Room } else { Place::Page };
+        add(format!("Note: {note}."), fresh(theme.note), place);
     }
     all
 }
