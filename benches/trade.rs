@@ -208,11 +208,12 @@ fn picture(series: Vec<Series>) -> String {
         let points = series.iter().flat_map(|series| series.pieces.iter().flatten());
         Axis::logarithmic(name, points.map(of), label)
     };
-    svg::draw(&Chart {
+    let chart = Chart {
         title: "Error against time: medians over 18 spur and 10 helical pairs".to_owned(),
         across: axis("time of a whole solve", |point| point.0, power_of_time),
         up: axis("greatest error", |point| point.1, |error| format!("{} %", percent(error))),
         series,
         ..Chart::default()
-    })
+    };
+    svg::draw(&chart, "")
 }

@@ -8,8 +8,6 @@ pub type Point = (f64, f64);
 pub struct Chart {
     /// The title of a picture.
     pub title: String,
-    /// The pair of a picture that stands alone; empty on a page, whose title names the pair.
-    pub caption: String,
     /// The horizontal axis.
     pub across: Axis,
     /// The vertical axis.

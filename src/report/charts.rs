@@ -132,7 +132,7 @@ impl Picture {
                 return Ok(svg::teeth(&report.inputs, &report.solution, caption));
             }
         };
-        Ok(svg::draw(&Chart { caption: caption.to_owned(), ..chart }))
+        Ok(svg::draw(&chart, caption))
     }
 
     /// Solves a case and draws it. `go_on` receives the number of computed parts and their total,
@@ -688,7 +688,6 @@ impl<'a> Pattern<'a> {
             title: format!("Contact pattern: line load of the tooth {state}"),
             across: Axis::new("driver roll angle after E in each plane", "deg"),
             up: Axis::new("z", unit),
-            caption: String::new(),
             series: [lines(false), lines(true), peaks].into_iter().filter(is_drawn).collect(),
             marks: vec![(0.0, "E"), (degrees(self.length), "B")],
             map: Some(Map {

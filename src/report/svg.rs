@@ -26,14 +26,14 @@ const SYMBOL: f64 = 52.0;
 /// Greatest number of letters of a name in the legend.
 const MOST_LETTERS: usize = 43;
 
-/// Draws the chart.
-pub fn draw(chart: &Chart) -> String {
+/// Draws the chart. The caption names the pair; it is empty on a page, whose title names the pair.
+pub fn draw(chart: &Chart, caption: &str) -> String {
     let legend = legend(chart);
     let places = places(legend.iter().map(|(_, name)| name.as_str()));
     let end = places.last().map_or(LEGEND, |(_, y)| y + LINE);
     let spans = chart.spans();
-    let mut text = frame(chart, end + caption_height(&chart.caption));
-    text += &caption(&chart.caption, FIELD.0, end);
+    let mut text = frame(chart, end + caption_height(caption));
+    text += &caption_line(caption, FIELD.0, end);
     if let Some(map) = &chart.map {
         draw_map(&mut text, map, spans);
     }
@@ -61,7 +61,7 @@ fn caption_height(caption: &str) -> f64 {
 }
 
 /// The name of the pair in a line of its own.
-fn caption(caption: &str, left: f64, y: f64) -> String {
+fn caption_line(caption: &str, left: f64, y: f64) -> String {
     if caption.is_empty() {
         return String::new();
     }
@@ -484,7 +484,7 @@ pub fn teeth(inputs: &Inputs, solution: &Solution, pair: &str) -> String {
     let (dots, base) = (length * scale, HEIGHT - 14.0);
     let (first, bar, above) = (base - 21.0, WIDTH - left - dots, base - 8.0);
     let middle = bar + dots / 2.0;
-    let caption = caption(pair, left, HEIGHT + 6.0);
+    let caption = caption_line(pair, left, HEIGHT + 6.0);
     text + &format!(
         "</svg>\n<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" class=\"axis\"/>\n\
          <text x=\"{left}\" y=\"{first}\">Driver left, driven gear right; E to B: path of contact.</text>\n\
@@ -513,14 +513,15 @@ mod tests {
     use super::*;
 
     fn drawn(points: Vec<Point>, kind: Kind) -> String {
-        draw(&Chart {
+        let chart = Chart {
             title: "a < b".to_owned(),
             across: Axis::new("x", "deg"),
             up: Axis::new("y", "N"),
             series: vec![Series { name: "exact & <co>".to_owned(), pieces: vec![points], kind }],
             marks: vec![(0.0, "E"), (0.001, "D")],
-            ..Chart::default()
-        })
+            map: None,
+        };
+        draw(&chart, "")
     }
 
     #[test]

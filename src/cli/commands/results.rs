@@ -17,7 +17,6 @@ use crate::cli::{
 };
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stage, Stages};
-use crate::report::chart::Chart;
 use crate::report::charts::{NoPicture, Picture, find, pictures};
 use crate::report::compare::ComparedCase;
 use crate::report::digest::{Digest, STAGES, sentence};
@@ -331,7 +330,7 @@ impl Plot {
             let caption = Named { name: &name, title: "" }.caption();
             let drawn = studies::drawn(&String::from_utf8_lossy(&bytes), &only);
             let drawn = drawn.map_err(|reason| Failure::of_case(&name, &reason))?;
-            svg::draw(&Chart { caption, ..drawn })
+            svg::draw(&drawn, &caption)
         } else {
             let opened = cli::open(source, &self.changes.edits(), &[], streams)?;
             let source = opened.unsolved();

@@ -9,7 +9,6 @@ use crate::cli::questions::{NoAnswer, Question, within};
 use crate::cli::{Done, Exit, Failure, Opened, Streams, check_out, follow, write_text, write_to};
 use crate::model::Quantity;
 use crate::model::inputs::Method;
-use crate::report::chart::Chart;
 use crate::report::page::is_picture;
 use crate::report::studies::{self, Take};
 use crate::report::svg::draw;
@@ -262,7 +261,7 @@ fn write_study(
             let drawn = studies::drawn(&String::from_utf8_lossy(&text), &study.quantities);
             let drawn = drawn.map_err(|reason| Failure::of_case(name, &reason))?;
             let caption = Named { name, title: study.case.title() }.caption();
-            text = draw(&Chart { caption, ..drawn }).into_bytes();
+            text = draw(&drawn, &caption).into_bytes();
         }
         write_to(out, streams, |sink| sink.write_all(&text))?;
     }
@@ -309,8 +308,7 @@ impl<Q: Args + Question> Asked<Q> {
         let out = destination.out.as_deref();
         if let Some(chart) = found.picture(inputs).filter(|_| format.is_none()) {
             let chart = chart.map_err(|reason| opened.failed(&reason))?;
-            let caption = opened.named().caption();
-            write_text(out, streams, &draw(&Chart { caption, ..chart }))?;
+            write_text(out, streams, &draw(&chart, &opened.named().caption()))?;
             return opened.write(&*found, Format::Text, None, streams);
         }
         opened.write(&*found, format.unwrap_or(Format::Text), out, streams)?;

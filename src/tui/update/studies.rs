@@ -14,6 +14,7 @@ use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
 use crate::report::page::{format_of, is_picture};
 use crate::report::studies::{Take, write};
 use crate::report::svg;
+use crate::report::table::Named;
 use crate::report::tolerance::ToleranceReport;
 use crate::report::trade::conclusion;
 use crate::study::axis::Grid;
@@ -330,10 +331,9 @@ pub(super) fn take(app: &mut App) {
 pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
     if is_picture(path) {
         let chart = study::picture(app).ok_or("there is no curve to draw")?;
-        return Ok((
-            " the picture of the study".to_owned(),
-            Box::new(move |_| Ok(svg::draw(&chart))),
-        ));
+        let caption = Named { name: &app.tab.name(), title: app.tab.case.title() }.caption();
+        let draw = move |_: &Running<'_>| Ok(svg::draw(&chart, &caption));
+        return Ok((" the picture of the study".to_owned(), Box::new(draw)));
     }
     let (request, command) = repeated(app, format_of(path).unwrap_or(Format::Csv))?;
     let content = move |running: &Running<'_>| {

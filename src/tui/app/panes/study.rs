@@ -19,7 +19,7 @@ use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity};
 use crate::report::chart::{Axis, Cell as MapCell, Chart, Kind, Labels, Map, Point, Series, Span};
 use crate::report::charts::pieces;
-use crate::report::table::{Cell, Column, Named, Table};
+use crate::report::table::{Cell, Column, Table};
 use crate::report::{self, common_unit, shown_in, shown_with};
 use crate::study::axis::Axis as StudyAxis;
 use crate::study::batch::{PointOutcome, Refusals, Refused};
@@ -584,7 +584,6 @@ pub(crate) fn picture(app: &App) -> Option<Chart> {
     let (label, is_map) = (known.label.trim(), chart.map.is_some());
     let second = if is_map { format!(" and {}", chart.up.name) } else { String::new() };
     chart.title = format!("{label} over {}{second}", chart.across.name);
-    chart.caption = Named { name: &app.tab.name(), title: app.tab.case.title() }.caption();
     if !is_map {
         chart.up.name = format!("{label} {}", known.symbol);
         chart.series.retain(|series| series.kind == Kind::Curve && !series.pieces.is_empty());
