@@ -74,11 +74,15 @@ pub fn compared(name: String, case: Case, selection: &Selection) -> ComparedCase
     ComparedCase { name, file: String::new(), variant: None, case, found, alone: None }
 }
 
-/// The comparison of solved cases. If `auto` chose several methods, its cases are solved by the most
-/// detailed one of all cases, so that their columns have the same quantities.
+/// The method of the columns of a comparison that `auto` solves: the most detailed one of all
+/// columns, so that they have the same quantities by the same definitions.
+pub(crate) fn common_method(methods: impl Iterator<Item = Method>) -> Method {
+    methods.max_by_key(|method| *method as u8).unwrap_or(Method::Auto)
+}
+
+/// The comparison of solved cases, those of `auto` by one method.
 pub fn comparison(mut cases: Vec<ComparedCase>, selection: Selection) -> Comparison {
-    let methods = cases.iter().filter_map(|case| Some(case.solution()?.method));
-    let most = methods.max_by_key(|method| *method as u8).unwrap_or(Method::Auto);
+    let most = common_method(cases.iter().filter_map(|case| Some(case.solution()?.method)));
     for case in &mut cases {
         let Ok(report) = &case.found else { continue };
         if report.solution.choice.is_none() || report.solution.method == most {

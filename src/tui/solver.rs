@@ -161,6 +161,8 @@ pub struct Baseline {
 pub(crate) struct Variants {
     /// The serial of the request.
     pub(crate) serial: u64,
+    /// The case by the method of the variants, if `auto` chose another method for the case alone.
+    pub(crate) case: Option<Answer>,
     /// The name of each variant, and its results or the reason of their absence.
     pub(crate) columns: Vec<(String, Result<Solution, String>)>,
 }

@@ -260,22 +260,22 @@ fn a_result_that_auto_lacks_is_one_curve_with_the_present_value() {
     desk.assert_shows("● now");
 }
 
-/// `auto` would choose `static` for the variant alone, without a value of the motion.
+/// `auto` chooses `dynamic` for the fast pair alone, and `static` for the slow one.
 #[test]
-fn variants_are_compared_by_the_method_that_auto_chose_for_the_case() {
+fn auto_solves_the_case_and_its_variants_by_one_method() {
     let text = TABLE_1.replace("method = \"exact\"", "method = \"auto\"");
-    let text = format!("{text}\n[variants.slow]\n\"operation.speed\" = \"100 rpm\"\n");
-    let mut desk = Desk::on(SMALL, "case.toml", &text);
-    desk.keys(&["Esc", "2", "v"]);
-    // Twelve rows, the first of which has the input that differs.
-    desk.assert_shows("Results 1-11/");
-    desk.assert(desk.line_with(" n1 ").contains("2000 rpm       100"));
-    desk.assert_shows("by dynamic");
-    desk.assert(desk.line_with(" slow").contains("case"));
-    desk.assert(!desk.line_with("F_d,max").contains('–'));
-    desk.assert_shows("Case ");
-    desk.keys(&["n"]);
-    desk.assert_shows("Variant slow: speed: 2000 rpm -> 100 rpm.");
+    for (own, other) in [("2000", "100"), ("100", "2000")] {
+        let text = text.replace("2000 rpm", &format!("{own} rpm"));
+        let text = format!("{text}\n[variants.other]\n\"operation.speed\" = \"{other} rpm\"\n");
+        let mut desk = Desk::on(SMALL, "case.toml", &text);
+        desk.keys(&["Esc", "2", "v"]);
+        desk.assert(desk.line_with(" n1 ").contains(&format!("{own} rpm{other:>10}")));
+        desk.assert_shows("by dynamic");
+        desk.assert(!desk.line_with("F_d,max").contains('–'));
+        desk.assert_shows("Case ");
+        desk.keys(&["n"]);
+        desk.assert_shows(&format!("Variant other: speed: {own} rpm -> {other} rpm."));
+    }
 }
 
 #[test]

@@ -10,8 +10,9 @@ use crate::case::fields::FIELDS;
 use crate::case::fields::index_of;
 use crate::case::{Evaluator, Problem, Variant};
 use crate::model::inputs::Method;
-use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
+use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Solution};
 use crate::report::page::{format_of, is_picture};
+use crate::report::solve::common_method;
 use crate::report::studies::{Take, write};
 use crate::report::svg;
 use crate::report::table::Named;
@@ -38,7 +39,7 @@ use crate::tui::app::panes::trade::{Traded, nearest, stepped};
 use crate::tui::layout::{Pane, is_too_small};
 use crate::tui::rows::{self, Row};
 use crate::tui::session::age;
-use crate::tui::solver::{Baseline, Variants};
+use crate::tui::solver::{self, Answer, Baseline, Request as CaseRequest, Variants, Wanted};
 use crate::tui::text::Line;
 
 /// The title and the instruction of the dialog for a range.
@@ -685,26 +686,44 @@ pub(super) fn request_variants(app: &mut App) {
     if !is_wanted || is_known || runs || waits {
         return;
     }
-    let (case, chosen) = (tab.case.clone(), tab.chosen);
+    let (case, inputs, chosen) = (tab.case.clone(), tab.inputs_so_far.clone(), tab.chosen);
     app.comparing = Some(serial);
     let solve = move |running: &Running<'_>| {
-        let solved = |variant: &Variant| {
-            let found = match case.with(variant).inputs() {
+        let stages = Pane::Results.needs();
+        let go_on = |_| running.is_wanted();
+        let solved = |variant: &Variant, by_auto: Method| {
+            let inputs = case.with(variant).inputs();
+            let found = inputs.map(|inputs| {
+                let is_auto = inputs.method == Method::Auto;
+                let method = if is_auto { by_auto } else { inputs.method };
+                Evaluator::default().solve(&inputs, method, stages, &go_on)
+            });
+            Some(match found {
                 Err(problems) => Err(problems.first().map(Problem::to_string).unwrap_or_default()),
-                Ok(inputs) => {
-                    let stages = Pane::Results.needs();
-                    let chosen = chosen.filter(|_| inputs.method == Method::Auto);
-                    let method = chosen.unwrap_or(inputs.method);
-                    let go_on = |_| running.is_wanted();
-                    match Evaluator::default().solve(&inputs, method, stages, &go_on) {
-                        Err(Refusal::Stopped) => return None,
-                        found => found.map_err(|refusal| format!("{refusal}: {}", refusal.fix())),
-                    }
-                }
-            };
-            Some((variant.name.clone(), found))
+                Ok(Err(Refusal::Stopped)) => return None,
+                Ok(found) => found.map_err(|refusal| format!("{refusal}: {}", refusal.fix())),
+            })
         };
-        Some(Variants { serial, columns: case.variants.iter().map(solved).collect::<Option<_>>()? })
+        let all = case.variants.iter().map(|variant| solved(variant, Method::Auto));
+        let mut all = all.collect::<Option<Vec<_>>>()?;
+        let own = chosen.or(Some(inputs.method).filter(|own| *own != Method::Auto));
+        let methods = all.iter().flatten().map(|solution| solution.method);
+        let method = common_method(methods.chain(own));
+        for (found, variant) in all.iter_mut().zip(&case.variants) {
+            let is_other = |own: &Solution| own.choice.is_some() && own.method != method;
+            if found.as_ref().is_ok_and(is_other) {
+                *found = solved(variant, method)?;
+            }
+        }
+        let wanted = Wanted { stages, ..Wanted::NOTHING };
+        let request = CaseRequest { serial, inputs: Inputs { method, ..inputs }, wanted };
+        let mut again = None;
+        if chosen.is_some_and(|chosen| chosen != method) {
+            let keep = &mut |answer: &Answer| again = Some(answer.clone());
+            solver::solve(&mut Evaluator::default(), &request, keep, &go_on)?;
+        }
+        let names = case.variants.iter().map(|variant| variant.name.clone());
+        Some(Variants { serial, case: again, columns: names.zip(all).collect() })
     };
     app.start(Work::new(Slot::Variants, solve, move |app, found| {
         if let Some(tab) = app.tab_with(id) {

@@ -47,7 +47,7 @@ impl App {
     /// The quantities in their order.
     pub fn listed_results(&self) -> Vec<&'static Quantity> {
         let order = |answer| order(answer, self.shows_every_method);
-        self.tab.answer.as_ref().map_or_else(Vec::new, order)
+        self.shown_answer().map_or_else(Vec::new, order)
     }
 
     /// The selected line among the quantities.
@@ -114,6 +114,12 @@ impl App {
     fn shown_variants(&self) -> Option<(&Variants, usize)> {
         self.tab.variants.as_ref().zip(self.first_variant)
     }
+
+    /// The results of the case: beside variants, by their method.
+    fn shown_answer(&self) -> Option<&Answer> {
+        let beside = self.shown_variants().and_then(|(variants, _)| variants.case.as_ref());
+        beside.or(self.tab.answer.as_ref())
+    }
 }
 
 pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
@@ -124,10 +130,11 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
     // The first column has the mark of the selected row.
     let [_, above] = above.layout(&Layout::horizontal([Length(1), Fill(1)]));
     Text::from(head).render(above, buffer);
-    let Some(answer) = &app.tab.answer else { return };
+    let Some(answer) = app.shown_answer() else { return };
     let theme = app.look.theme;
+    let now = app.tab.answer.as_ref().map(|answer| answer.serial);
     let is_outdated =
-        app.shown_variants().is_some_and(|(variants, _)| variants.serial != answer.serial);
+        app.shown_variants().is_some_and(|(variants, _)| Some(variants.serial) != now);
     let base = if app.tab.is_stale() || is_outdated { theme.faint } else { Style::new() };
     let row = app.result_row().checked_sub(app.tab.results.top).filter(|row| *row < rows);
     let row = row.map(|row| row + inputs(app).len());
@@ -352,11 +359,8 @@ fn title(app: &App, count: usize, rows: usize) -> String {
     let cost = app.tab.answer.as_ref().filter(|_| app.shows_cost).map(|answer| answer.cost);
     let cost = cost
         .map(|cost| format!(", {} stages in {}", cost.stages, duration(cost.micros as f64 / 1e6)));
-    let method = app
-        .tab
-        .answer
-        .as_ref()
-        .filter(|_| !app.has_result_header() || app.shown_variants().is_some());
+    let method =
+        app.shown_answer().filter(|_| !app.has_result_header() || app.shown_variants().is_some());
     let method = method.map(|answer| format!(" by {}", answer.active.name()));
     let parts = [position, method, base, pending, cost].into_iter().flatten();
     name.to_owned() + &parts.collect::<String>()
@@ -482,9 +486,7 @@ pub(crate) fn label(quantity: &Quantity, active: Method) -> Cow<'static, str> {
 /// The number of variants that fit side by side.
 pub(crate) fn variants_page(app: &App) -> usize {
     let shown = app
-        .tab
-        .answer
-        .as_ref()
+        .shown_answer()
         .map(|answer| fitting(app, answer, &app.listed_results(), app.results_page()));
     let is_variant = |column: &&Column| !column.heading.is_empty() && column.rank != OF_CASE;
     shown.map_or(1, |shown| shown.iter().filter(is_variant).count().max(1))
@@ -493,7 +495,7 @@ pub(crate) fn variants_page(app: &App) -> usize {
 /// The value of the quantity, and of every variant or of the baseline, with the method of the
 /// baseline if it differs.
 pub(crate) fn compared(app: &App, quantity: &'static Quantity) -> Option<String> {
-    let answer = app.tab.answer.as_ref()?;
+    let answer = app.shown_answer()?;
     if app.shown_variants().is_some() {
         let columns = columns(app, answer, &[quantity], &[quantity]);
         let cell = |column: &Column| column.cells.last().cloned().unwrap_or_default();
