@@ -99,6 +99,8 @@ const LABEL: usize = 3;
 /// Least width of this column in text beside several cases, and beside one with long values.
 const SHORT: usize = 18;
 const SHORTEST: usize = 12;
+/// Greatest width of values and differences in text; those with several words are wrapped.
+const LONGEST: usize = 12;
 
 impl Comparison {
     fn columns(&self) -> Vec<Column> {
@@ -222,7 +224,8 @@ impl Comparison {
             return Ok(());
         }
         let others: Vec<usize> = (1..self.cases.len()).collect();
-        let widths = widths(&tables);
+        let wrap = |label| tables.iter().map(|table| wrapped(table, label)).collect::<Vec<_>>();
+        let widths = widths(&wrap(usize::MAX));
         let room = |columns: &[usize]| -> usize {
             columns.iter().map(|&at| widths[at] + tables[0].columns[at].gap).sum()
         };
@@ -231,7 +234,7 @@ impl Comparison {
         let widest = others.iter().map(|&at| room(&self.pair(at))).max().unwrap_or(1);
         let in_a_line = (free.saturating_sub(SHORT) / widest).clamp(1, others.len().max(1));
         let width = free.saturating_sub(in_a_line * widest).max(SHORTEST);
-        let tables: Vec<Table> = tables.iter().map(|table| wrapped(table, width)).collect();
+        let tables = wrap(width);
         for others in others.chunks(in_a_line) {
             let further = others.iter().flat_map(|&at| self.pair(at));
             let columns: Vec<usize> = [2, LABEL, 4, NAMES].into_iter().chain(further).collect();
@@ -352,20 +355,23 @@ impl Comparison {
     }
 }
 
-/// The table with further rows for the labels that are longer than a width.
-fn wrapped(table: &Table, width: usize) -> Table {
+/// The table with further rows for labels longer than a width, and for long values and differences.
+fn wrapped(table: &Table, label: usize) -> Table {
+    let lines = |(at, cell): (usize, &Cell)| match at {
+        LABEL => flow(cell.text().split_whitespace(), label),
+        NAMES.. => flow(cell.text().split_whitespace(), LONGEST),
+        _ => vec![cell.text().to_owned()],
+    };
     let rows = table.rows.iter().flat_map(|row| {
-        let mut lines = flow(row[LABEL].text().split_whitespace(), width).into_iter();
-        let first = with_label(row.clone(), lines.next().unwrap_or_default());
-        let blank = vec![Cell::from(""); row.len()];
-        [first].into_iter().chain(lines.map(move |line| with_label(blank.clone(), line)))
+        let cells: Vec<Vec<String>> = row.iter().enumerate().map(lines).collect();
+        let count = cells.iter().map(Vec::len).max().unwrap_or(0);
+        let line = |at| {
+            let texts = cells.iter().map(move |lines| lines.get(at).cloned().unwrap_or_default());
+            texts.map(Cell::Text).collect()
+        };
+        (0..count).map(line).collect::<Vec<_>>()
     });
     Table { rows: rows.collect(), ..table.clone() }
-}
-
-fn with_label(mut row: Vec<Cell>, label: String) -> Vec<Cell> {
-    row[LABEL] = label.into();
-    row
 }
 
 /// The symbol of an input: of the field, or of the subject of a limit or a distribution.

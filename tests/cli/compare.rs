@@ -84,6 +84,8 @@ fn a_refused_variant_keeps_its_column_and_names_the_reason() {
     assert!(errors.starts_with(&format!("{case}:66:19: {reason}")), "{errors}");
     assert!(errors.ends_with("(with --variant far)\n"), "{errors}");
     has(&text, &["Refused: pair.centre_distance"]);
+    let pairs = ["cases/zhou-chen-2014.toml", "cases/tip-relief-enough.toml"];
+    let text = text + &run(&[&["compare"], &pairs[..]].concat()).1;
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     let (code, text, _) = run(&["compare", &case, "--variant", "far", "--format", "csv"]);
     assert_eq!(code, 0);
