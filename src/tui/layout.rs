@@ -267,6 +267,8 @@ impl Place {
     pub(crate) const OWN_CHART: Place = Place(32768);
     /// The contact pattern, a chart over roll angle and face width.
     pub(crate) const PATTERN: Place = Place(131_072);
+    /// The contact pattern of a case that has none.
+    pub(crate) const MISSING_CHART: Place = Place(262_144);
     /// The tolerance, which replaces the study.
     pub(crate) const TOLERANCE: Place = Place(65536);
     /// A field that takes text or a name.
@@ -279,13 +281,14 @@ impl Place {
         .or(Place::STUDY)
         .or(Place::TOLERANCE)
         .or(Place::OWN_CHART)
-        .or(Place::PATTERN);
+        .or(Place::PATTERN)
+        .or(Place::MISSING_CHART);
     /// Every place except prompts.
     pub(crate) const WORK: Place = Place::FORM.or(Place::OUTSIDE);
     /// The places where `/` and `:` are commands.
     pub(crate) const COMMANDED: Place = Place::OUTSIDE.or(Place::CHOICE).or(Place::FRESH);
     /// Every chart.
-    pub(crate) const CHARTS: Place = Place::CHART.or(Place::OWN_CHART);
+    pub(crate) const CHARTS: Place = Place::CHART.or(Place::OWN_CHART).or(Place::MISSING_CHART);
     /// The panes with the cursor of the roll angle.
     pub(crate) const CURSOR: Place = Place::CHART.or(Place::TEETH);
     pub(crate) const PAGE: Place = Place::READ.or(Place::EXPLAIN);

@@ -191,6 +191,7 @@ fn about_limit(app: &App, limit: &Limit) -> String {
     let solution = app.tab.present().filter(|_| !limit.text.is_empty());
     let verdicts = solution.map_or_else(Vec::new, |solution| verdicts(&app.tab.case, solution));
     let verdict = verdicts.iter().find(|verdict| verdict.limit.quantity == limit.quantity);
+    let verdict = verdict.filter(|verdict| !app.tab.awaits(verdict));
     let sentence = verdict.map(|verdict| {
         format!("{} {}. ", verdict.standing.word(), verdict.sentence(app.settings.units))
     });

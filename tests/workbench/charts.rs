@@ -628,7 +628,7 @@ fn a_pair_without_slices_has_no_contact_pattern() {
     let mut desk = at_method(SMALL, "static");
     desk.keys(&["k"]).assert_shows("Dynamic factor");
     desk.keys(&[":", "chart: contact pattern", "Enter", "3"]);
-    desk.assert_shows("No chart: a spur pair without misalignment");
+    desk.lacks(&["slice", "zoom"]).assert_shows("No chart: a spur pair without misalignment");
     desk.keys(&["j"]);
     assert_title(&desk, &GRAPHS[0]);
     let mut desk = pattern(SMALL, &[]);

@@ -12,7 +12,8 @@ use super::panes::study::Study;
 use super::panes::trade::Traded;
 use crate::case::{Case, Document, FIELDS, Limit, Problem, Spread, Variant, fields};
 use crate::model::inputs::Method;
-use crate::model::{Inputs, Refusal, Solution, Stage};
+use crate::model::{Inputs, Quantity, Refusal, Solution, Stage};
+use crate::report::verdict::{Standing, Verdict};
 use crate::tui::rows;
 use crate::tui::session::{Access, OpenCase};
 use crate::tui::settings::Theme;
@@ -137,6 +138,14 @@ impl Tab {
     pub fn lacks(&self, stage: Stage) -> bool {
         let lacks = |answer: &Answer| !answer.stages.has(stage);
         self.requested.stages.has(stage) && self.answer.as_ref().is_some_and(lacks)
+    }
+
+    /// Whether the work that may decide on a limit is not finished.
+    pub(crate) fn awaits(&self, verdict: &Verdict<'_>) -> bool {
+        let is_pending = self.answer.as_ref().is_some_and(|answer| answer.pending.is_some());
+        let lacks = |quantity: &Quantity| self.lacks(quantity.stage);
+        verdict.standing == Standing::Unknown
+            && (is_pending || verdict.limit.quantities().any(lacks))
     }
 
     /// The inputs, if the form is valid.

@@ -251,6 +251,9 @@ fn draw_line(app: &App, index: usize, line: Rect, buffer: &mut Buffer) -> Option
 fn verdict_on(app: &App, limit: &Limit) -> Option<(String, Style)> {
     let solution = app.tab.present().filter(|_| !limit.text.is_empty())?;
     let verdict = verdict(limit, solution);
+    if app.tab.awaits(&verdict) {
+        return Some(("pending".to_owned(), app.look.theme.faint));
+    }
     let is_above_beside = verdict.is_exceeded_beside();
     let is_met = verdict.standing.holds() && !is_above_beside;
     let word = if verdict.standing == Standing::Exceeded { "!" } else { verdict.standing.word() };

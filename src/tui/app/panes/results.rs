@@ -260,12 +260,8 @@ fn sentences(app: &App) -> Vec<Sentence> {
     if let Some(solution) = answer.of(answer.active) {
         let verdicts =
             if app.tab.is_stale() { Vec::new() } else { verdicts(&app.tab.case, solution) };
-        // A pending method may compute what the shown one lacks.
-        let is_open = |verdict: &Verdict<'_>| {
-            answer.pending.is_some() && verdict.standing == Standing::Unknown
-        };
         let written = verdicts.iter().filter(|verdict| !verdict.limit.text.is_empty());
-        let written = written.filter(|verdict| !is_open(verdict));
+        let written = written.filter(|verdict| !app.tab.awaits(verdict));
         let (met, unmet): (Vec<_>, Vec<_>) = written.partition(|verdict| is_met(verdict));
         let limit = |verdict: &Verdict<'_>| {
             format!("Limit {}: {}.", verdict.standing.word(), verdict.sentence(app.settings.units))
