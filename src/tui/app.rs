@@ -207,9 +207,7 @@ impl App {
 
     fn place_of_pane(&self) -> Place {
         match self.layout.focus {
-            Pane::Chart if self.chart.is_pattern() && self.charts().pattern().is_none() => {
-                Place::MISSING_CHART
-            }
+            Pane::Chart if self.charts().lacks_pattern() => Place::MISSING_CHART,
             Pane::Chart if self.chart.is_pattern() => Place::CHART.or(Place::PATTERN),
             Pane::Chart if self.chart.own_axes().is_some() => Place::OWN_CHART,
             Pane::Study if self.study.is_tolerance => Place::TOLERANCE,

@@ -19,7 +19,9 @@ use crate::tui::text::Line;
 
 /// The label of the input line.
 const LABEL: &str = "Loads, tolerances, te|peak|entry: ";
-/// Rows above the list: input, state, blank, headers.
+/// The meaning of the columns of the list.
+const COLUMNS: &str = "TE: transmission error without deviations; worst: within the tolerances";
+/// Rows above the list: input, state, meaning of the columns, headers.
 const HEAD: u16 = 4;
 
 /// The search and its result.
@@ -189,9 +191,10 @@ impl Dialog for ReliefDialog {
         let has_list = u16::from(count > 0);
         let heights = [1, 1, 1, has_list, count as u16, has_list].map(Constraint::Length);
         let rows = Layout::vertical(heights.into_iter().chain([Constraint::Fill(1)]));
-        let [line, state, _, head, list, _, below] = rows.areas(inner);
+        let [line, state, columns, head, list, _, below] = rows.areas(inner);
         if let Some(found) = self.found() {
             let rows = found.gains().lines();
+            Span::styled(COLUMNS, theme.faint).render(columns, buffer);
             Span::raw(format!("  {}", rows[0])).render(head, buffer);
             let row = |at: usize| rows[at + 1].clone();
             Window { count, selected: Some(self.selected), area: list }.draw(row, theme, buffer);

@@ -272,7 +272,12 @@ impl<'a> Charts<'a> {
         Pattern::of(&self.answer()?.inputs, self.solution()?)
     }
 
-    /// The same while the contact pattern is selected.
+    /// Whether the contact pattern is selected and the case has none.
+    pub(crate) fn lacks_pattern(self) -> bool {
+        self.0.chart.is_pattern() && self.pattern().is_none()
+    }
+
+    /// The line load while the contact pattern is selected.
     fn shown_pattern(self) -> Option<Pattern<'a>> {
         self.pattern().filter(|_| self.0.chart.is_pattern())
     }
@@ -325,7 +330,8 @@ impl<'a> Charts<'a> {
             return self.pattern_readout(&pattern, cursor);
         }
         let Some((chart, place)) = self.own_chart().zip(self.0.chart.place) else {
-            return self.0.chart.own_axes().map_or("", |chart| chart.words()[2]).to_owned();
+            let chart = self.0.chart.own_axes().filter(|_| !self.lacks_pattern());
+            return chart.map_or("", |chart| chart.words()[2]).to_owned();
         };
         let value = |value: f64, unit: &str| {
             let unit = unit.split(';').next().unwrap_or_default();
