@@ -78,7 +78,7 @@ impl Digest {
             method,
             outcome,
             limits: limits.collect(),
-            notes: case_notes(&notes).map(|note| note.to_string()).collect(),
+            notes: case_notes(&notes).map(ToString::to_string).collect(),
         }
     }
 }
