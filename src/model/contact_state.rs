@@ -275,7 +275,8 @@ impl Interpolated {
     pub fn at(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Interpolated> {
         let exact = |station| Interpolated { station, is_between: false };
         if solution.has_slices() {
-            return over_face(solution.shared_stations()?, roll_angle);
+            let between = |from: &Station, to: &Station, part| Some(from.towards(to, part));
+            return interpolated(solution.shared_stations()?, roll_angle, between);
         }
         match (&solution.dynamic, &solution.static_load) {
             (Some(dynamic), _) => moving(solution.mesh.as_deref()?, &dynamic.stations, roll_angle),
@@ -299,8 +300,13 @@ fn struck(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Stati
     station.force.is_finite().then_some(station)
 }
 
-/// The results of a pair in slices, between its stations.
-fn over_face(stations: &[Station], roll_angle: f64) -> Option<Interpolated> {
+/// The station at an angle; otherwise `between` of its neighbours and the part of the way from the
+/// first to the second.
+fn interpolated(
+    stations: &[Station],
+    roll_angle: f64,
+    between: impl FnOnce(&Station, &Station, f64) -> Option<Station>,
+) -> Option<Interpolated> {
     let next = stations.partition_point(|station| station.roll_angle_driver > roll_angle);
     let to = stations.get(next)?;
     if (to.roll_angle_driver..=to.roll_angle_driver).contains(&roll_angle) {
@@ -308,7 +314,7 @@ fn over_face(stations: &[Station], roll_angle: f64) -> Option<Interpolated> {
     }
     let from = stations.get(next.checked_sub(1)?)?;
     let way = from.roll_angle_driver - to.roll_angle_driver;
-    let station = from.towards(to, (from.roll_angle_driver - roll_angle) / way);
+    let station = between(from, to, (from.roll_angle_driver - roll_angle) / way)?;
     Some(Interpolated { station, is_between: true })
 }
 
@@ -322,23 +328,16 @@ fn at_rest(mesh: &Mesh, stations: &[Station], roll_angle: f64) -> Option<Station
 
 /// The motion from the first contact to the last.
 fn moving(mesh: &Mesh, stations: &[Station], roll_angle: f64) -> Option<Interpolated> {
-    let next = stations.partition_point(|station| station.roll_angle_driver > roll_angle);
-    let to = stations.get(next)?;
-    if (to.roll_angle_driver..=to.roll_angle_driver).contains(&roll_angle) {
-        return Some(Interpolated { station: *to, is_between: false });
-    }
-    let from = stations.get(next.checked_sub(1)?)?;
-    let part =
-        (from.roll_angle_driver - roll_angle) / (from.roll_angle_driver - to.roll_angle_driver);
-    let (displacement, time) = cubic(from, to, part)?;
-    let s = 0.0 - roll_angle * mesh.base_radii.0;
-    let pairs = mesh.pair_set(s, s);
-    let forces = pairs.forces(displacement);
-    let total = forces.iter().sum();
-    let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0);
-    let force = incoming.map_or(0.0, |incoming| forces[incoming]);
-    let station = Station::at(mesh, s, force, total, displacement, Some((time, None)));
-    Some(Interpolated { station, is_between: true })
+    interpolated(stations, roll_angle, |from, to, part| {
+        let (displacement, time) = cubic(from, to, part)?;
+        let s = 0.0 - roll_angle * mesh.base_radii.0;
+        let pairs = mesh.pair_set(s, s);
+        let forces = pairs.forces(displacement);
+        let total = forces.iter().sum();
+        let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0);
+        let force = incoming.map_or(0.0, |incoming| forces[incoming]);
+        Some(Station::at(mesh, s, force, total, displacement, Some((time, None))))
+    })
 }
 
 /// Displacement and time between two stations, by the cubic through value and slope at both
