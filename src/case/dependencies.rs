@@ -105,7 +105,8 @@ impl<'a> Base<'a> {
     /// The value of the quantity with other inputs, if it has one.
     fn solved(&self, inputs: &Inputs) -> Result<Option<f64>, Refusal> {
         let solution = self.solution.as_ref().ok();
-        let earlier = solution.map(|solution| Earlier { inputs: &self.inputs, solution });
+        let earlier =
+            solution.map(|solution| Earlier { inputs: &self.inputs, solution, gears: None });
         let wanted = Stages::of(self.quantity.stage);
         let solution = solve_after(inputs, wanted, earlier, &|_| true)?;
         Ok(finite(self.quantity, &solution))

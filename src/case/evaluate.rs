@@ -1,22 +1,30 @@
 //! Solves pairs one after the other and reuses the results of the previous pair.
 
 use crate::model::inputs::Method;
-use crate::model::solve::{Earlier, solve_after};
+use crate::model::solve::{Earlier, Lazy, solve_after};
 use crate::model::{Inputs, Refusal, Solution, Stages};
 
 /// The last solve by each method.
 #[derive(Debug, Clone, Default)]
 pub struct Evaluator {
     solved: Vec<Solved>,
+    /// Whether all pairs differ only in load and deviations.
+    has_same_gears: bool,
 }
 
 #[derive(Debug, Clone)]
 struct Solved {
     inputs: Inputs,
     solution: Solution,
+    gears: Lazy,
 }
 
 impl Evaluator {
+    /// An evaluator of pairs that differ, if `has_same_gears`, only in load and deviations.
+    pub fn new(has_same_gears: bool) -> Evaluator {
+        Evaluator { has_same_gears, solved: Vec::new() }
+    }
+
     /// Solves a pair by the given method, whatever the inputs name. Runs only the wanted stages
     /// whose inputs differ from the last solve by this method; [`Solution::ran`] lists these
     /// stages.
@@ -55,14 +63,15 @@ impl Evaluator {
         let Some(at) = self.solved.iter().position(by) else {
             let solution = solve_after(inputs, wanted, None, go_on)?;
             let at = self.solved.len();
-            self.solved.push(Solved { inputs: inputs.clone(), solution });
+            self.solved.push(Solved { inputs: inputs.clone(), solution, gears: Lazy::default() });
             return Ok(&self.solved[at].solution);
         };
-        let solved = &mut self.solved[at];
-        let earlier = Earlier { inputs: &solved.inputs, solution: &solved.solution };
-        solved.solution = solve_after(inputs, wanted, Some(earlier), go_on)?;
-        solved.inputs.clone_from(inputs);
-        Ok(&solved.solution)
+        let Solved { inputs: before, solution, gears } = &mut self.solved[at];
+        let gears = self.has_same_gears.then_some(&*gears);
+        let earlier = Earlier { inputs: before, solution, gears };
+        *solution = solve_after(inputs, wanted, Some(earlier), go_on)?;
+        before.clone_from(inputs);
+        Ok(solution)
     }
 }
 

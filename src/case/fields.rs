@@ -271,6 +271,23 @@ pub fn index_of(key: &str) -> Option<usize> {
     FIELDS.iter().position(|field| field.key == key)
 }
 
+/// Whether a field gives a load or deviation, which changes neither the geometry and the masses of the
+/// gears nor the compliance of their teeth.
+pub fn is_of_load_or_deviation(field: usize) -> bool {
+    const KEYS: [&str; 9] = [
+        "driver.root_relief",
+        "driver.base_pitch",
+        "driven.tip_relief",
+        "driven.base_pitch",
+        "deviations.base_pitch",
+        "deviations.backlash",
+        "operation.power",
+        "operation.torque",
+        "model.deflection",
+    ];
+    KEYS.contains(&FIELDS[field].key)
+}
+
 /// The key of a member of the inputs, of one gear or of the pair.
 pub fn key_of((gear, name): Member) -> &'static str {
     let table = gear.map(|gear| if gear == GearSide::Driver { "driver" } else { "driven" });

@@ -203,8 +203,8 @@ fn line(inputs: &Inputs, solution: &Solution, state: ContactState) -> ContactSta
 /// half a turn.
 fn run_out(inputs: &Inputs, last: f64, state: ContactState) -> Option<ContactState> {
     let swapped = Inputs {
-        driver: inputs.driven.clone(),
-        driven: inputs.driver.clone(),
+        driver: inputs.driven,
+        driven: inputs.driver,
         speed: inputs.driven_speed(),
         ..inputs.clone()
     };

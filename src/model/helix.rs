@@ -43,9 +43,12 @@ impl Inputs {
     /// # Source
     /// ISO 21771:2007.
     pub fn helix(&self, geometry: &Geometry, mesh_force: f64) -> Option<Helix> {
-        let (angle, base_helix_angle) = (self.helix_angle, self.base_helix_angle());
-        let axial_pitch = PI * self.module / angle.sin();
-        (angle > 0.0).then(|| Helix {
+        if self.helix_angle == 0.0 {
+            return None;
+        }
+        let base_helix_angle = self.base_helix_angle();
+        let axial_pitch = PI * self.module / self.helix_angle.sin();
+        Some(Helix {
             transverse_module: self.transverse_module(),
             transverse_pressure_angle: self.transverse_pressure_angle(),
             base_helix_angle,

@@ -39,7 +39,7 @@ impl Hand {
 }
 
 /// Inputs of one gear.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gear {
     /// Number of teeth z.
     pub teeth: u32,
@@ -474,6 +474,9 @@ impl Inputs {
 
     /// Base helix angle, sin β_b = sin β cos α_n, in rad.
     pub fn base_helix_angle(&self) -> f64 {
+        if self.helix_angle == 0.0 {
+            return 0.0;
+        }
         (self.helix_angle.sin() * self.pressure_angle.cos()).asin()
     }
 }

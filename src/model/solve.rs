@@ -88,6 +88,8 @@ pub struct Earlier<'a> {
     pub inputs: &'a Inputs,
     /// Its results.
     pub solution: &'a Solution,
+    /// What the solves of its gears share, if the inputs differ only in load and deviations.
+    pub gears: Option<&'a Lazy>,
 }
 
 /// Solves by the method of the inputs, which is not `auto`. Ignores an earlier solve by another
@@ -115,8 +117,9 @@ pub(crate) fn solve_by_method(
         done: Stages::NONE,
         ran: Stages::NONE,
     };
-    let lazy = Lazy::default();
-    let (geometry, mesh_force, kept) = run.begin(&lazy)?;
+    let own = Lazy::default();
+    let lazy = run.earlier.and_then(|earlier| earlier.gears).unwrap_or(&own);
+    let (geometry, mesh_force, kept) = run.begin(lazy)?;
     let mut solution = Solution::new(inputs.method, geometry, mesh_force, kept);
     solution.helix = inputs.helix(&geometry, mesh_force);
     let figures = || {
@@ -124,7 +127,7 @@ pub(crate) fn solve_by_method(
         Ok(Figures::of(inputs, geometry, *mesh_force, *reduced_mass))
     };
     solution.figures = run.stage(Stage::Figures, |s| s.figures, figures)?;
-    run.locate(&lazy, &mut solution)?;
+    run.locate(lazy, &mut solution)?;
     run.share(&mut solution)?;
     solution.clearing =
         run.stage(Stage::Clearing, |s| s.clearing, || clearing(inputs, &solution, go_on))?;
@@ -152,10 +155,13 @@ impl<'a> Run<'a> {
     /// The earlier solution if its result of this stage is still valid: the stage has the same
     /// inputs from the case and from other stages.
     fn kept(&self, stage: Stage) -> Option<&'a Solution> {
-        let Earlier { inputs, solution } = self.earlier?;
+        /// The stages that read neither load nor deviations.
+        const OF_GEARS: Stages = Stages::of(Stage::Geometry).with(Stage::Masses);
+        let Earlier { inputs, solution, gears } = self.earlier?;
         let is_valid = solution.stages.has(stage)
             && stage.depends_on().within(self.changed) == Stages::NONE
-            && stage.has_equal_inputs(self.inputs, inputs);
+            && (gears.is_some() && OF_GEARS.has(stage)
+                || stage.has_equal_inputs(self.inputs, inputs));
         is_valid.then_some(solution)
     }
 
@@ -215,8 +221,10 @@ impl<'a> Run<'a> {
             Some(face) => deflected_over_face(face, &geometry, teeth()?, mesh_force),
             None => deflected(inputs.method, &geometry, teeth, mesh_force),
         };
-        let deviation = || deviation(inputs, by_load);
-        let deviation = self.result(Stage::Deviation, |s| Some(s.kept.deviation), deviation)?;
+        let deviation = || deviation(inputs, by_load).map(|found| (found.rounded(), found));
+        // The rounded one first: double-double numbers are slow to compare.
+        let of = |s: &Solution| Some((s.deviation, s.kept.deviation));
+        let (_, deviation) = self.result(Stage::Deviation, of, deviation)?;
         Ok((geometry, mesh_force, Kept { masses, deviation, hertz: Hertz::of(inputs) }))
     }
 
@@ -398,10 +406,10 @@ fn force(inputs: &Inputs) -> Option<f64> {
     Some(solution.impact?.force)
 }
 
-/// Values that several stages of a solve need, each computed once. The caller passes the geometry of
-/// the pair.
-#[derive(Debug, Default)]
-struct Lazy {
+/// Values that several stages need, each computed once for a pair of gears. The caller passes the
+/// geometry of the pair.
+#[derive(Debug, Clone, Default)]
+pub struct Lazy {
     /// Geometry in double-double arithmetic if it is needed.
     precise: OnceCell<Option<Geometry<TwoFloat>>>,
     teeth: OnceCell<Result<Teeth, Refusal>>,
@@ -478,7 +486,7 @@ impl Auto<'_> {
         } else {
             wanted
         };
-        let earlier = known.map(|solution| Earlier { inputs: &inputs, solution });
+        let earlier = known.map(|solution| Earlier { inputs: &inputs, solution, gears: None });
         let found = solve_by_method(&inputs, wanted, earlier, self.go_on)?;
         let ran = known.map_or(Stages::NONE, |known| known.ran);
         Ok(Solution { ran: found.ran.and(ran), ..found })
@@ -652,6 +660,7 @@ mod tests {
         for method in Method::CLOSED_FORM {
             let mut inputs = Inputs { method, ..pair.clone() };
             let mut before = (inputs.clone(), solve(&inputs, Stages::CLOSED_FORM).unwrap());
+            let gears = Lazy::default();
             for edit in edits {
                 edit(&mut inputs);
                 for stage in Stages::CLOSED_FORM.iter() {
@@ -659,8 +668,11 @@ mod tests {
                     let is_equal = stage.has_equal_inputs(&before.0, &inputs);
                     assert!(is_own || is_equal, "{} reads {inputs:?}", stage.name());
                 }
-                for wanted in [Stages::of(Stage::Impact), Stages::CLOSED_FORM] {
-                    let earlier = Earlier { inputs: &before.0, solution: &before.1 };
+                let impact = Stages::of(Stage::Impact);
+                for (wanted, gears) in
+                    [(impact, None), (Stages::CLOSED_FORM, None), (impact, Some(&gears))]
+                {
+                    let earlier = Earlier { inputs: &before.0, solution: &before.1, gears };
                     let after = solve_after(&inputs, wanted, Some(earlier), &|_| true).unwrap();
                     let plain = solve(&inputs, wanted).unwrap();
                     assert_eq!(Solution { ran: after.ran, ..plain }, after, "{inputs:?}");

@@ -1,6 +1,8 @@
 //! Varied fields with their values in the user's unit and in SI, and the grid of a sweep over them.
 
-use crate::case::fields::{AUTO, FIELDS, Field, Kind, Range, Value, index_of};
+use crate::case::fields::{
+    AUTO, FIELDS, Field, Kind, Range, Value, index_of, is_of_load_or_deviation,
+};
 use crate::case::units::{self, Dimension};
 use crate::case::{Case, Problem, field_value, unknown_key};
 use crate::model::Inputs;
@@ -430,6 +432,10 @@ impl Points for Grid {
             vec![text; 1 + axis.also.len()]
         };
         self.places(index).flat_map(of).collect()
+    }
+
+    fn have_same_gears(&self) -> bool {
+        self.axes.iter().flat_map(Axis::fields).all(is_of_load_or_deviation)
     }
 
     fn writer(&self) -> Writer<'_> {

@@ -11,6 +11,7 @@ use crate::case::{Evaluator, Problem, violated_rule};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity, Stages};
 use serde::{Deserialize, Serialize};
+use smallvec::{SmallVec, smallvec};
 
 /// How often the progress is reported.
 const TICK: Duration = Duration::from_millis(50);
@@ -49,6 +50,11 @@ pub trait Points: Sync {
     /// The cells of a point in these columns.
     fn cells(&self, _index: usize) -> Vec<String> {
         Vec::new()
+    }
+
+    /// Whether the points differ only in load and deviations.
+    fn have_same_gears(&self) -> bool {
+        false
     }
 
     /// A function that writes the values of a point into inputs of the case or of another point. It
@@ -118,6 +124,9 @@ impl PointOutcome {
     }
 }
 
+/// The quantities of a point; one or two are stored in place.
+pub type RowValues = SmallVec<[Option<f64>; 2]>;
+
 /// The results of a point.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
@@ -129,7 +138,7 @@ pub struct Row {
     #[serde(with = "SolvedMethod")]
     pub method: Method,
     /// The quantities in SI, in their order; none of a refused point has a value.
-    pub values: Vec<Option<f64>>,
+    pub values: RowValues,
     /// Why the point is refused.
     pub refusal: Option<Box<Problem>>,
 }
@@ -214,18 +223,21 @@ struct PointSolver<'a> {
     write: Writer<'a>,
     inputs: Inputs,
     evaluator: Evaluator,
+    has_same_gears: bool,
     wanted: Stages,
 }
 
 impl<'a> PointSolver<'a> {
     fn new(batch: &'a Batch<'a>) -> PointSolver<'a> {
         let stages = batch.quantities.iter().map(|quantity| Stages::of(quantity.stage));
+        let has_same_gears = batch.points.have_same_gears();
         PointSolver {
             batch,
             write: batch.points.writer(),
             // No quantity reads the stations.
             inputs: Inputs { stations: Some(1), ..batch.inputs.clone() },
-            evaluator: Evaluator::default(),
+            evaluator: Evaluator::new(has_same_gears),
+            has_same_gears,
             wanted: stages.fold(Stages::NONE, Stages::and),
         }
     }
@@ -238,7 +250,7 @@ impl<'a> PointSolver<'a> {
                 outcome: PointOutcome::Refused,
                 exit_outcome: None,
                 method: self.inputs.method,
-                values: vec![None; self.batch.quantities.len()],
+                values: smallvec![None; self.batch.quantities.len()],
                 refusal: Some(Box::new(problem.at_given_diameter(&self.inputs))),
             }),
         }
@@ -250,13 +262,16 @@ impl<'a> PointSolver<'a> {
         let (quantities, inputs) = (self.batch.quantities, &mut self.inputs);
         (self.write)(index, inputs)?;
         inputs.stations = Some(1);
-        if let Some(problem) = violated_rule(inputs) {
+        // The rules are of the gears, and the case does not violate them.
+        if !self.has_same_gears
+            && let Some(problem) = violated_rule(inputs)
+        {
             return Err(problem);
         }
         let wanted = self.wanted.and(inputs.method.deciding_stages());
         let solved = self.evaluator.solve_kept(inputs, inputs.method, wanted, &|_| goes_on());
         let solved = solved.map_err(|refusal| Problem::from(&refusal))?;
-        let values: Vec<_> =
+        let values: RowValues =
             quantities.iter().map(|quantity| quantity.finite_value(solved)).collect();
         match solved.withheld.filter(|_| values.contains(&None)) {
             Some(refusal) => Err(Problem::from(&refusal)),

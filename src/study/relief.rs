@@ -192,7 +192,7 @@ impl TipReliefs {
         let gear = |gear: &Gear, at: usize| Gear {
             tip_relief: self.amounts[at],
             tip_relief_length: Some(self.lengths[at]),
-            ..gear.clone()
+            ..*gear
         };
         Inputs {
             driver: Gear { crowning: self.crowning, ..gear(&inputs.driver, 0) },

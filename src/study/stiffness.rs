@@ -139,7 +139,7 @@ pub fn compare_flanks(inputs: &Inputs, points: usize) -> Result<Flanks, Refusal>
         let radii: Vec<f64> = if form < tip { inner.chain([tip]).collect() } else { Vec::new() };
         let (mut columns, mut gaps) = (Vec::new(), Vec::new());
         // The validity range is a property of each gear: that of a pair of two such gears.
-        let pair = Inputs { driver: gear.clone(), driven: gear.clone(), ..inputs.clone() };
+        let pair = Inputs { driver: *gear, driven: *gear, ..inputs.clone() };
         for &model in &models {
             let tooth = if (model.model().covers)(&pair) {
                 Tooth::of(model, elastic, circles).map_err(|refusal| refusal.to_string())

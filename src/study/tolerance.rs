@@ -1,6 +1,6 @@
 //! Tolerance studies: samples of distributed fields by seed and index, and the results of a case over them.
 
-use crate::case::fields::{FIELDS, Kind, Value, index_of};
+use crate::case::fields::{FIELDS, Kind, Value, index_of, is_of_load_or_deviation};
 use crate::case::spread::Shape;
 use crate::case::{Case, Limit, Problem, Spread, field_range, units};
 use crate::model::deviation::Origin;
@@ -399,6 +399,10 @@ impl Points for Design {
         [number.to_string(), set].into_iter().chain(values).collect()
     }
 
+    fn have_same_gears(&self) -> bool {
+        self.distributions.iter().all(|drawn| is_of_load_or_deviation(drawn.field))
+    }
+
     fn writer(&self) -> Writer<'_> {
         let (mut streams, is_known) = (self.streams(), self.draws_known_deviations());
         Box::new(move |index, inputs| {
@@ -568,7 +572,7 @@ pub fn centre(field: usize, case: &Case, inputs: &Inputs) -> Option<f64> {
 fn allowed_deviation(spread: &Spread, inputs: &Inputs) -> f64 {
     let allowed = |gear: &Gear| {
         let grade = Some(spread.width as u32);
-        let bare = Gear { base_pitch: None, sampled_pitch: None, grade, ..gear.clone() };
+        let bare = Gear { base_pitch: None, sampled_pitch: None, grade, ..*gear };
         inputs.base_pitch_of(&bare).0
     };
     match spread.field {

@@ -41,8 +41,7 @@ fn solved(inputs: &Inputs) -> Option<Solution> {
 
 /// Whether the tooth strikes by the method with another tip relief of the driven gear.
 fn strikes(inputs: &Inputs, tip_relief: f64) -> bool {
-    let relieved =
-        Inputs { driven: Gear { tip_relief, ..inputs.driven.clone() }, ..inputs.clone() };
+    let relieved = Inputs { driven: Gear { tip_relief, ..inputs.driven }, ..inputs.clone() };
     let stages = inputs
         .method
         .stages()
@@ -81,7 +80,7 @@ fn the_required_relief_prevents_contact_and_less_does_not_for_any_shape_and_leng
             for (shape, length) in
                 ReliefShape::ALL.into_iter().flat_map(|shape| lengths.map(|length| (shape, length)))
             {
-                let driven = Gear { tip_relief_length: length, ..inputs.driven.clone() };
+                let driven = Gear { tip_relief_length: length, ..inputs.driven };
                 let inputs = Inputs { method, relief_shape: shape, driven, ..inputs.clone() };
                 let solution = solved(&inputs).expect("a solution");
                 let name = format!("{name}, {}, {shape:?} over {length:?}", method.name());

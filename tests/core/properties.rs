@@ -166,11 +166,7 @@ fn quantities_scale_with_the_units() {
 #[test]
 fn swapped_gears_mirror_the_path_of_contact() {
     some(5_000, |inputs| {
-        let swapped = Inputs {
-            driver: inputs.driven.clone(),
-            driven: inputs.driver.clone(),
-            ..inputs.clone()
-        };
+        let swapped = Inputs { driver: inputs.driven, driven: inputs.driver, ..inputs.clone() };
         let here = geometry::geometry::<f64>(&inputs.shape()).ok()?;
         let there = geometry::geometry::<f64>(&swapped.shape()).ok()?;
         let close =

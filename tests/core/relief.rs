@@ -33,7 +33,7 @@ fn with(inputs: &Inputs, reliefs: &TipReliefs, off: [f64; 4], load: f64) -> Inpu
     let gear = |gear: &Gear, at: usize| Gear {
         tip_relief: (reliefs.amounts[at] + off[at]).max(0.0),
         tip_relief_length: Some(reliefs.lengths[at] + off[2 + at]),
-        ..gear.clone()
+        ..*gear
     };
     Inputs {
         driver: gear(&inputs.driver, 0),

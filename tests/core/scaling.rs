@@ -29,7 +29,7 @@ pub(crate) fn scaled(inputs: &Inputs, length: f64, time: f64) -> Inputs {
         tip_radius: gear.tip_radius.map(|radius| radius * length),
         base_pitch: gear.base_pitch.map(|deviation| deviation * length),
         inertia: gear.inertia.map(|inertia| inertia * length.powi(3) * time.powi(2)),
-        ..gear.clone()
+        ..*gear
     };
     Inputs {
         module: inputs.module * length,

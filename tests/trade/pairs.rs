@@ -41,5 +41,5 @@ fn gear(random: &mut Random, built: &Gear, module: f64) -> Gear {
     let profile_shift = if random.chance(0.5) { 0.0 } else { random.even(-0.3, 0.5) };
     let face_width = module * random.even(4.0, 16.0);
     let tip_relief = if random.chance(0.3) { module * random.even(0.0, 8e-3) } else { 0.0 };
-    Gear { teeth, profile_shift, face_width, tip_relief, bore_radius: 0.0, ..built.clone() }
+    Gear { teeth, profile_shift, face_width, tip_relief, bore_radius: 0.0, ..*built }
 }

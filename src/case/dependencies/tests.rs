@@ -121,7 +121,8 @@ fn solve(inputs: &Inputs) -> Result<Solution, Refusal> {
 
 /// The solution after another solve, with reuse of its results.
 fn resolved(before: &Solved, inputs: &Inputs) -> Solution {
-    let earlier = Earlier { inputs: &few_stations(&before.inputs), solution: &before.solution };
+    let inputs_before = &few_stations(&before.inputs);
+    let earlier = Earlier { inputs: inputs_before, solution: &before.solution, gears: None };
     solve_after(&few_stations(inputs), wanted(inputs), Some(earlier), &|_| true).unwrap()
 }
 

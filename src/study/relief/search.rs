@@ -439,7 +439,7 @@ impl<'a> Bench<'a> {
         let [driver, driven] = grid.most_amounts;
         let own = inputs.driver.tip_relief + inputs.driven.tip_relief;
         let most = own.max(AMOUNT_STEP * f64::from(driver + driven)) + 2.0 * demand.tolerance;
-        let bare = |gear: &Gear| Gear { tip_relief: 0.0, ..gear.clone() };
+        let bare = |gear: &Gear| Gear { tip_relief: 0.0, ..*gear };
         let (driver, driven) = (bare(&inputs.driver), bare(&inputs.driven));
         let inputs = Inputs { driver, driven, ..inputs.clone() };
         let shape = inputs.shape();

@@ -11,7 +11,7 @@ const REACH: f64 = 4e-4;
 
 /// The mesh of a pair with additional tip relief of the driven gear, in m.
 fn mesh(inputs: &Inputs, solution: &Solution, relief: f64) -> Option<Mesh> {
-    let driven = Gear { tip_relief: inputs.driven.tip_relief + relief, ..inputs.driven.clone() };
+    let driven = Gear { tip_relief: inputs.driven.tip_relief + relief, ..inputs.driven };
     let inputs = Inputs { driven, ..inputs.clone() };
     let (force, error) = (solution.mesh_force, solution.deviation.equivalent_error);
     let mesh = Mesh::new(&inputs.mesh(), &solution.geometry, (force, error), REACH, None);

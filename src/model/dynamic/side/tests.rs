@@ -63,8 +63,8 @@ fn of_case(couples: bool, backlash: f64, adjust: Adjust<'_>) -> Rattling {
     let (inputs, solution) = at_rest(adjust);
     let error = solution.deviation.equivalent_error;
     let swapped = Inputs {
-        driver: inputs.driven.clone(),
-        driven: inputs.driver.clone(),
+        driver: inputs.driven,
+        driven: inputs.driver,
         speed: inputs.driven_speed(),
         ..inputs.clone()
     };
