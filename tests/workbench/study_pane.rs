@@ -272,9 +272,7 @@ fn auto_solves_the_case_and_its_variants_by_one_method() {
         desk.assert(desk.line_with(" n1 ").contains(&format!("{own} rpm{other:>10}")));
         desk.assert_shows("by dynamic");
         desk.assert(!desk.line_with("F_d,max").contains('–'));
-        desk.assert_shows("Case ");
-        desk.keys(&["n"]);
-        desk.assert_shows(&format!("Variant other: speed: {own} rpm -> {other} rpm."));
+        desk.keys(&["n"]).assert_shows(&format!("Variant other: speed: {own} rpm -> {other} rpm."));
     }
 }
 
