@@ -84,6 +84,7 @@ pub fn parse(
     }
     let parsed = matches.and_then(|matches| Arguments::from_arg_matches(&matches));
     if let Ok(Arguments { case: Some(case), .. }) = &parsed
+        && case.as_os_str() != "-"
         && !case.exists()
     {
         streams.say(&format!(

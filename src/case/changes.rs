@@ -310,7 +310,7 @@ mod tests {
             assert_eq!(case, to);
         }
         let mut begun = varied();
-        begun.write_spread("pair.module", "");
+        begun.write_spread("pair.pressure_angle", "");
         assert_eq!(between(&varied(), &begun), []);
     }
 

@@ -321,7 +321,7 @@ mod tests {
         let verdict = |text: &[(&str, &str)]| digest(text).outcome;
         assert_eq!(
             verdict(&[]),
-            "Corner contact 1.366 deg before E: impact force 2191.0 N (1.44 times the mesh force); \
+            "Corner contact 1.366 deg before E: free impact 2191.0 N (1.44 times the mesh force); \
                 47.4 um of tip relief on the driven gear prevents it."
         );
         assert!(verdict(&[("model.method", "static")]).starts_with(

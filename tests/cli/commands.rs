@@ -42,7 +42,7 @@ fn pages_for_a_person() {
         // A selected quantity without a value gives the reason.
         (
             "solve TABLE_1 --only F_d,max,F_S",
-            &["impact force 2191.0 N", "dynamic_peak_force has no value: method exact does not"],
+            &["free impact 2191.0 N", "dynamic_peak_force has no value: method exact does not"],
         ),
         (
             "solve TABLE_1 --only F_S --set 'driven.tip_relief=80 um'",
@@ -384,7 +384,7 @@ fn a_new_case_starts_from_an_example_in_every_folder_and_overwrites_nothing() {
         assert_eq!(elsewhere(&["new", "--from", example.name]).1, text, "the very file");
         assert!(listed.contains(example.name));
     }
-    has(&listed, &["impact force 2191.0 N", "ok impact force F_S"]);
+    has(&listed, &["free impact 2191.0 N", "ok impact force F_S"]);
     assert_eq!(elsewhere(&["new", "--from", "fzg-type-c", path]).0, 0);
     for (arguments, exit, says) in [
         (&["new", "--from", "zhou-chen-2014", path][..], 5, "the file exists"),

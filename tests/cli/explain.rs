@@ -215,7 +215,7 @@ fn every_value_with_a_formula_is_shown_with_its_numbers() {
 fn every_quantity_is_explained_in_all_its_parts() {
     every_page(&WHOLE, |name, page| {
         let key = page.quantity.key;
-        let parts = [page.meaning.as_str(), page.source, page.assumptions];
+        let parts = [page.meaning.as_str(), page.source, page.assumptions.as_str()];
         assert!(parts.iter().all(|part| part.ends_with('.')), "{key}");
         assert_eq!(page.derivation.first().map(|work| work.symbol), Some(page.symbol), "{key}");
         assert_eq!(page.value.is_some(), page.missing.is_none(), "{name}, {key}");
@@ -234,7 +234,7 @@ fn every_equation_that_is_cited_is_one() {
     every_page(&DERIVED, |_, page| {
         cited_errors.extend(page.corrections.iter().map(|row| row.equation));
         let equation = page.quantity.equation;
-        let cited = [page.source, &page.meaning, page.assumptions];
+        let cited = [page.source, &page.meaning, &page.assumptions];
         let named = if let [number] = equations(equation)[..] {
             equations(page.source).contains(&number)
         } else {

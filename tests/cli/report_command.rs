@@ -150,7 +150,7 @@ fn a_page_needs_no_other_file_and_has_every_part() {
             "Force F<tspan dy=\"4\" font-size=\"11\">S</tspan><tspan dy=\"-4\">, N</tspan>",
             "Teeth at the first contact D",
             "<h1>Zhou &#38; Chen 2014, Table 1</h1>",
-            "impact force 2191.0 N",
+            "free impact 2191.0 N",
             concat!("tipstrike ", env!("CARGO_PKG_VERSION")),
             "<td class=\"label\">power</td><td class=\"symbol\">P</td><td class=\"number\">15 kW</td>",
             "<td class=\"label\">tip diameter</td><td class=\"symbol\">da<sub>1</sub> / da<sub>2</sub></td><td class=\"number soft\">110 mm</td>",

@@ -207,10 +207,10 @@ fn no_corner_contact_by_both_is_agreement() {
     let exact = of(&trade, &Setting::usual(Method::Exact, &table_1()));
     assert_eq!(exact.found.as_ref().unwrap().total[Subject::FirstContact as usize], Some(0.0));
     assert!(trade.qualifies(exact), "{:?}", exact.total());
-    let says = "No method finds corner contact: no setting is recommended.\n";
+    let says = "There is no corner contact: no setting is recommended.\n";
     assert!(text(&trade).ends_with(says), "{}", text(&trade));
     assert!(trade.recommended().is_none() && json(&trade).get("recommended").is_none());
-    assert!(!text(traded_table_1()).contains("No method finds"));
+    assert!(!text(traded_table_1()).contains("no setting is recommended"));
 }
 
 #[test]

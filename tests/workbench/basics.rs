@@ -346,7 +346,7 @@ fn the_results_have_a_cursor_a_page_and_are_copied() {
     let copied = desk.copied.clone().unwrap_or_default();
     for part in [
         "# Zhou & Chen 2014, Table 1",
-        "Corner contact 1.366 deg before E: impact force 2191.0 N (1.44",
+        "Corner contact 1.366 deg before E: free impact 2191.0 N (1.44",
         "| power | P | 15 kW |",
         "| impact force | F_S | 2191.0 | N |",
     ] {

@@ -61,7 +61,7 @@ fn the_case_under_the_cursor_shows_its_verdict() {
     for (file, expected) in [
         ("a-str", &["Zhou & Chen 2014, Table 1", "z 20/20, m 5 mm, α 20 deg, b 8 mm"][..]),
         ("a-str", &["15 kW at 2000 rpm", "method exact", "ok impact force F_S 2191.0 N <= 2500 N"]),
-        ("a-str", &["Corner contact 1.366 deg before E: impact force 2191.0 N"]),
+        ("a-str", &["Corner contact 1.366 deg before E: free impact 2191.0 N"]),
         ("b-exc", &["EXCEEDED impact force F_S 2191.0 N > 2000 N (110 %)"]),
         (
             "c-rel",
@@ -252,7 +252,7 @@ fn keys_work_during_the_reading_of_a_folder_and_a_late_result_is_dropped() {
 fn a_new_case_begins_with_an_example_and_has_no_file() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Alt-N"]);
-    desk.has(&["New case from an example", "▸ zhou-chen-2014", "impact force 2191.0 N"]);
+    desk.has(&["New case from an example", "▸ zhou-chen-2014", "free impact 2191.0 N"]);
     let said = preview(desk.keys(&["Down"]));
     assert!(said.contains("FZG type C test gears") && said.contains("impact force 3718.8 N"));
     desk.keys(&["relief", "Enter"]);

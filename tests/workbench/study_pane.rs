@@ -371,7 +371,7 @@ fn the_number_of_refused_points_is_that_of_the_marks() {
     let shown = desk.app.tab.study.shown.as_ref().expect("a study");
     let refused = shown.layers[0].values.iter().filter(|value| value.is_none());
     let count = refused.count();
-    desk.assert_at(count, count > 1 && desk.shows(&format!(" {count} points refused")));
+    desk.assert_at(count, count > 1 && desk.shows(&format!("{count} points refused")));
 }
 
 /// One request is enough until another case with the same pane replaces the work.

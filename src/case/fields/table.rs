@@ -463,7 +463,7 @@ macro_rules! gear {
             number!(
                 concat!($table, ".base_pitch"),
                 concat!("f_pb", $i),
-                "own base pitch deviation",
+                "own base pitch dev.",
                 Length,
                 -5000.0,
                 5000.0,
