@@ -185,14 +185,16 @@ impl<'a> Run<'a> {
         Ok(found)
     }
 
-    /// The result of a stage if it is wanted.
+    /// The result of a stage if it is wanted, or if it is late and the earlier result is valid.
     fn stage<T: PartialEq>(
         &mut self,
         stage: Stage,
         of: impl Fn(&Solution) -> Option<T>,
         new: impl FnOnce() -> Result<T, Refusal>,
     ) -> Result<Option<T>, Refusal> {
-        self.wanted.has(stage).then(|| self.result(stage, of, new)).transpose()
+        let is_had =
+            self.wanted.has(stage) || Stages::LATE.has(stage) && self.kept(stage).is_some();
+        is_had.then(|| self.result(stage, of, new)).transpose()
     }
 
     /// Geometry, load, masses and deviation.

@@ -200,6 +200,11 @@ pub(super) fn solve(
         let found = unless_stopped(evaluator.solve(&request.inputs, method, stages, &go_on))?;
         // If the program chose the method, the chosen method is active.
         let active = found.as_ref().map_or(method, |solution| solution.method);
+        // The edit did not change the late stages that are present.
+        let present = found.as_ref().map_or(Stages::NONE, |solution| {
+            solution.stages.and(wanted.stages.except(active.stages()))
+        });
+        let stages = stages.and(present.within(wanted.stages));
         answer = Answer { active, pending: None, stages, ..answer };
         answer.methods.retain(|(known, _)| *known != active);
         if active == Method::Dynamic {
@@ -313,9 +318,16 @@ mod tests {
 
     /// Every shown answer.
     fn shown(request: &Request, go_on: &dyn Fn(f64) -> bool) -> Vec<Answer> {
+        shown_by(&mut Evaluator::default(), request, go_on)
+    }
+
+    fn shown_by(
+        evaluator: &mut Evaluator,
+        request: &Request,
+        go_on: &dyn Fn(f64) -> bool,
+    ) -> Vec<Answer> {
         let mut shown = Vec::new();
-        let show = &mut |answer: &Answer| shown.push(answer.clone());
-        solve(&mut Evaluator::default(), request, show, go_on);
+        solve(evaluator, request, &mut |answer| shown.push(answer.clone()), go_on);
         shown
     }
 
@@ -365,10 +377,15 @@ mod tests {
 
     #[test]
     fn the_relief_at_rest_is_present_during_the_search_in_motion() {
-        let shown = shown(&request(Method::Dynamic), &|_| true);
+        let (asked, mut evaluator) = (request(Method::Dynamic), Evaluator::default());
+        let shown = shown_by(&mut evaluator, &asked, &|_| true);
         let answer = shown.iter().find(|answer| answer.pending.is_none()).expect("an answer");
         let relief = |method| answer.of(method).and_then(|solution| solution.clearing);
         assert!(!answer.stages.has(Stage::Clearing) && relief(Method::Dynamic).is_none());
         assert!(relief(Method::Static).is_some_and(|clearing| clearing.relief.is_some()));
+        let again = shown_by(&mut evaluator, &asked, &|_| true);
+        assert_eq!(again.len(), 1);
+        let [found, again] = [&shown[shown.len() - 1], &again[0]].map(|it| it.of(Method::Dynamic));
+        assert_eq!(found.and_then(|found| found.clearing), again.and_then(|found| found.clearing));
     }
 }
