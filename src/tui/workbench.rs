@@ -200,7 +200,8 @@ impl Workbench {
             let Some(action) = input::take_action(&mut events, self.app.place()) else {
                 continue;
             };
-            has_changed = true;
+            // Its results are shown, and its end is not.
+            has_changed |= !matches!(action, Action::WorkEnded(Slot::Solve, _));
             if self.act(action)? {
                 return Ok(Err(End::Left));
             }
