@@ -178,11 +178,16 @@ impl<'a> Page<'a> {
             (if self.is_single() { "" } else { case.title.as_str() }, subject)
         });
         let cases: Vec<NamedCase> = cases.collect();
-        // A picture of one case is drawn once for each.
+        // A picture of one case is drawn once for each, with its title.
         let drawn = |picture: Picture| -> Vec<String> {
             let sets: Vec<&[NamedCase]> =
                 if picture.is_of_one_case { cases.chunks(1).collect() } else { vec![&cases[..]] };
-            sets.into_iter().filter_map(|cases| picture.draw(cases, "").ok()).collect()
+            let title = |cases: &[NamedCase]| match cases {
+                [(title, _)] => (*title).to_owned(),
+                _ => String::new(),
+            };
+            let draw = |cases: &[NamedCase]| picture.draw(cases, &title(cases)).ok();
+            sets.into_iter().filter_map(draw).collect()
         };
         let is_main = |picture: &Picture| MAIN_PICTURES.contains(&picture.key);
         let mut charts: Vec<String> =

@@ -254,7 +254,7 @@ fn a_new_case_begins_with_an_example_and_has_no_file() {
     desk.keys(&["Alt-N"]);
     desk.has(&["New case from an example", "▸ zhou-chen-2014", "free impact 2191.0 N"]);
     let said = preview(desk.keys(&["Down"]));
-    assert!(said.contains("FZG type C test gears") && said.contains("impact force 3718.8 N"));
+    assert!(said.contains("FZG type C test gears") && said.contains("free impact 3718.8 N"));
     desk.keys(&["relief", "Enter"]);
     desk.has(&["2 new case from tip-reli", "No corner contact"]);
     let tab = &desk.app.tab;
