@@ -71,7 +71,7 @@ pub fn refuse_workbench(streams: &mut Streams) -> Exit {
 /// Parses the command line.
 ///
 /// # Errors
-/// The exit code if there is nothing to run: after help, or for wrong usage.
+/// The exit code if there is nothing to run: after help, for wrong usage, or without the named case.
 pub fn parse(
     arguments: impl IntoIterator<Item = OsString>,
     streams: &mut Streams,
@@ -85,7 +85,7 @@ pub fn parse(
     let parsed = matches.and_then(|matches| Arguments::from_arg_matches(&matches));
     if let Ok(Arguments { case: Some(case), .. }) = &parsed
         && case.as_os_str() != "-"
-        && !case.exists()
+        && matches!(case.try_exists(), Ok(false))
     {
         streams.say(&format!(
             "error: {0}: there is no such case: `tipstrike new {0}` writes one, `tipstrike help` \

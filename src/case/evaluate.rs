@@ -79,7 +79,7 @@ impl Evaluator {
 mod tests {
     use super::*;
     use crate::case::Case;
-    use crate::case::fields::index_of;
+    use crate::case::fields::{FIELDS, index_of, keeps_gears};
     use crate::model::inputs::Drive;
     use crate::model::{QUANTITIES, Stage, solve};
 
@@ -98,16 +98,16 @@ mod tests {
         };
         assert_eq!(run(&before).ran, run_fresh(method, &before).ran);
         let (kept, fresh) = (run(&after), run_fresh(method, &after));
+        assert_equal(&kept, &fresh, key);
+        kept.ran
+    }
+
+    fn assert_equal(kept: &Solution, fresh: &Solution, key: &str) {
         assert_eq!(kept.stages, fresh.stages);
         for quantity in QUANTITIES {
-            assert_eq!(
-                (quantity.value)(&kept),
-                (quantity.value)(&fresh),
-                "{} after {key} = {text}",
-                quantity.key
-            );
+            let [kept, fresh] = [kept, fresh].map(quantity.value);
+            assert_eq!(kept, fresh, "{} after an edit of {key}", quantity.key);
         }
-        kept.ran
     }
 
     fn run_fresh(method: Method, case: &Case) -> Solution {
@@ -136,6 +136,27 @@ mod tests {
         );
         let stations = ran(Method::Exact, "model.stations", "32");
         assert_eq!(stations, Stages::NONE.with(Stage::Stations));
+    }
+
+    #[test]
+    fn a_load_or_deviation_keeps_the_gears() {
+        let fields = (0..FIELDS.len()).filter(|field| keeps_gears(*field));
+        for (field, method) in fields.flat_map(|field| Method::CLOSED_FORM.map(|by| (field, by))) {
+            let mut evaluator = Evaluator::new(true);
+            let mut after = edited("operation.power", "");
+            after.write(index_of("operation.torque").unwrap(), "60 N m");
+            let before = after.inputs().unwrap();
+            after.write(field, FIELDS[field].example());
+            if FIELDS[field].key == "operation.power" {
+                after.write(index_of("operation.torque").unwrap(), "");
+            }
+            let mut run = |inputs: &Inputs| {
+                evaluator.solve(inputs, method, Stages::EVERY, &|_| true).unwrap()
+            };
+            run(&before);
+            let kept = run(&after.inputs().unwrap());
+            assert_equal(&kept, &run_fresh(method, &after), FIELDS[field].key);
+        }
     }
 
     /// The first solve stores the load sharing of the pairs in the mesh.

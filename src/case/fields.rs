@@ -273,7 +273,7 @@ pub fn index_of(key: &str) -> Option<usize> {
 
 /// Whether a field gives a load or deviation, which changes neither the geometry and the masses of the
 /// gears nor the compliance of their teeth.
-pub fn is_of_load_or_deviation(field: usize) -> bool {
+pub fn keeps_gears(field: usize) -> bool {
     const KEYS: [&str; 9] = [
         "driver.root_relief",
         "driver.base_pitch",

@@ -35,7 +35,7 @@ pub enum About {
     Case,
     /// Almost every case by a closed form: JSON has the note; elsewhere it is a finding of `explain`.
     General,
-    /// A setting of the program that changes no gear: pages for others do not have it.
+    /// A choice of the case or of `auto` on how to compute: pages for others do not have it.
     Setting,
 }
 

@@ -164,7 +164,7 @@ impl Quantity {
 
 /// The plane of the results of a helical pair.
 pub const PLANE: &str = "Lengths, angles, forces and velocities are in the transverse plane, unless \
-            the name says otherwise.";
+            name or meaning say otherwise.";
 
 /// Texts of a quantity in some cases: the end of the meaning, and other assumptions.
 #[derive(Debug, Clone, Copy)]

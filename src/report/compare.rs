@@ -359,7 +359,10 @@ impl Comparison {
 fn wrapped(table: &Table, label: usize) -> Table {
     let lines = |(at, cell): (usize, &Cell)| match at {
         LABEL => flow(cell.text().split_whitespace(), label),
-        NAMES.. => flow(cell.text().split_whitespace(), LONGEST),
+        NAMES.. => {
+            let widest = cell.text().split_whitespace().map(|word| word.chars().count()).max();
+            flow(cell.text().split_whitespace(), LONGEST.max(widest.unwrap_or(0)))
+        }
         _ => vec![cell.text().to_owned()],
     };
     let rows = table.rows.iter().flat_map(|row| {

@@ -140,11 +140,12 @@ fn at_exit(solution: &Solution, system: System) -> Option<String> {
     let required = relief.map(|(given, more)| required(more, given, "driver", system));
     if solution.outcome == Outcome::CornerContact {
         let is_larger = most > LARGER * of("static_force_at_start", solution).unwrap_or(0.0);
-        let required =
-            required.filter(|_| is_larger).map(|required| format!(", {required}; each alone"));
+        let required = required
+            .filter(|_| is_larger)
+            .map(|required| format!(", {required} (for both: relief)"));
         return Some(format!("; at the exit {force}{}", required.unwrap_or_default()));
     }
-    let required = required.unwrap_or("tip relief on the driver prevents it".to_owned());
+    let required = required.unwrap_or("a larger tip relief of the driver prevents it".to_owned());
     let at_rest = if solution.method == Method::Dynamic { " at rest" } else { "" };
     Some(format!(
         "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's tip; \

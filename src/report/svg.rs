@@ -26,7 +26,7 @@ const SYMBOL: f64 = 52.0;
 /// Greatest number of letters of a name in the legend.
 const MOST_LETTERS: usize = 43;
 
-/// Draws the chart. The caption names the pair; it is empty on a page, whose title names the pair.
+/// Draws the chart. The caption names the pair; it is empty where the page names it.
 pub fn draw(chart: &Chart, caption: &str) -> String {
     let legend = legend(chart);
     let places = places(legend.iter().map(|(_, name)| name.as_str()));

@@ -1,8 +1,6 @@
 //! Varied fields with their values in the user's unit and in SI, and the grid of a sweep over them.
 
-use crate::case::fields::{
-    AUTO, FIELDS, Field, Kind, Range, Value, index_of, is_of_load_or_deviation,
-};
+use crate::case::fields::{AUTO, FIELDS, Field, Kind, Range, Value, index_of, keeps_gears};
 use crate::case::units::{self, Dimension};
 use crate::case::{Case, Problem, field_value, unknown_key};
 use crate::model::Inputs;
@@ -435,7 +433,7 @@ impl Points for Grid {
     }
 
     fn have_same_gears(&self) -> bool {
-        self.axes.iter().flat_map(Axis::fields).all(is_of_load_or_deviation)
+        self.axes.iter().flat_map(Axis::fields).all(keeps_gears)
     }
 
     fn writer(&self) -> Writer<'_> {

@@ -1,6 +1,6 @@
 //! Tolerance studies: samples of distributed fields by seed and index, and the results of a case over them.
 
-use crate::case::fields::{FIELDS, Kind, Value, index_of, is_of_load_or_deviation};
+use crate::case::fields::{FIELDS, Kind, Value, index_of, keeps_gears};
 use crate::case::spread::Shape;
 use crate::case::{Case, Limit, Problem, Spread, field_range, units};
 use crate::model::deviation::Origin;
@@ -400,7 +400,7 @@ impl Points for Design {
     }
 
     fn have_same_gears(&self) -> bool {
-        self.distributions.iter().all(|drawn| is_of_load_or_deviation(drawn.field))
+        self.distributions.iter().all(|drawn| keeps_gears(drawn.field))
     }
 
     fn writer(&self) -> Writer<'_> {

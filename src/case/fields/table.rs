@@ -786,11 +786,11 @@ const MODEL: &[Field] = &[
         "",
         Default("1e-3"),
         |inputs, value| inputs.station_tolerance = value,
-        "Permitted distance of the curve from the lines between stations, over its peak; used with stations = \"auto\"."
+        "Permitted distance of the curve from the lines between stations, over its peak; used with stations = \"auto\", and for pictures."
     ).read_when(|inputs| inputs.stations.is_none()).reasons(&[
         Idle(
             |inputs| inputs.stations.is_some(),
-            "the case gives the number of stations",
+            "the number of stations is fixed",
         ),
         Partly(always, CURVE),
     ]),

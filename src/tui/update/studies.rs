@@ -672,7 +672,7 @@ pub(super) fn next_variants(app: &mut App) {
 }
 
 /// Solves the visible variants, unless they are solved already; where the method is `auto`, by the
-/// method that `auto` chose for the case, so that the columns are comparable.
+/// most detailed method of all columns, as `compare` does.
 pub(super) fn request_variants(app: &mut App) {
     let is_shown = app.layout.plan().shows(Pane::Results);
     app.first_variant = app.first_variant.filter(|first| *first < app.tab.case.variants.len());
@@ -686,7 +686,8 @@ pub(super) fn request_variants(app: &mut App) {
     if !is_wanted || is_known || runs || waits {
         return;
     }
-    let (case, inputs, chosen) = (tab.case.clone(), tab.inputs_so_far.clone(), tab.chosen);
+    let (case, inputs) = (tab.case.clone(), tab.inputs_so_far.clone());
+    let chosen = tab.chosen.filter(|_| inputs.method == Method::Auto);
     app.comparing = Some(serial);
     let solve = move |running: &Running<'_>| {
         let stages = Pane::Results.needs();

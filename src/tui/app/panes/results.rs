@@ -117,7 +117,8 @@ impl App {
 
     /// The results of the case: beside variants, by their method.
     fn shown_answer(&self) -> Option<&Answer> {
-        let beside = self.shown_variants().and_then(|(variants, _)| variants.case.as_ref());
+        let shown = self.shown_variants().filter(|(found, _)| found.serial == self.tab.serial);
+        let beside = shown.and_then(|(variants, _)| variants.case.as_ref());
         beside.or(self.tab.answer.as_ref())
     }
 }
