@@ -9,7 +9,7 @@ use crate::model::{Inputs, Refusal, Solution, Stages};
 pub struct Evaluator {
     solved: Vec<Solved>,
     /// Whether all pairs differ only in load and deviations.
-    has_same_gears: bool,
+    pub(crate) has_same_gears: bool,
 }
 
 #[derive(Debug, Clone)]

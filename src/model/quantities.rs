@@ -221,7 +221,7 @@ impl Quantity {
     /// The assumptions of the formula in a case with these inputs.
     pub fn assumptions_in(&self, inputs: &Inputs) -> String {
         let own = self.variant(inputs).and_then(|variant| variant.assumptions);
-        let plane = if inputs.helix_angle == 0.0 { "" } else { PLANE };
+        let plane = if conditions::helical(inputs) { PLANE } else { "" };
         [own.unwrap_or(self.assumptions), plane].join(" ").trim().to_owned()
     }
 

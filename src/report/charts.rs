@@ -6,6 +6,7 @@ use crate::case::units::System;
 use crate::model::compliance::model_of;
 use crate::model::face::FaceInputs;
 use crate::model::inputs::{Method, ToothCompliance};
+use crate::model::quantities::conditions::helical;
 use crate::model::slices::load::LinePeak;
 use crate::model::speeds::{AtSpeed, SpeedCurve};
 use crate::model::static_load::Spectrum;
@@ -263,7 +264,7 @@ fn stiffness(column: &Column, cases: &[NamedCase]) -> Result<Vec<Series>, String
                 continue;
             }
             let is_own = if model == own { " (case)" } else { "" };
-            let section = if report.inputs.helix_angle > 0.0 { ", transverse section" } else { "" };
+            let section = if helical(&report.inputs) { ", transverse section" } else { "" };
             let name = match *case {
                 "" => format!("{}{is_own}{section}", model.name()),
                 case => of(case, model.name()) + section,

@@ -360,8 +360,9 @@ fn wrapped(table: &Table, label: usize) -> Table {
     let lines = |(at, cell): (usize, &Cell)| match at {
         LABEL => flow(cell.text().split_whitespace(), label),
         NAMES.. => {
-            let widest = cell.text().split_whitespace().map(|word| word.chars().count()).max();
-            flow(cell.text().split_whitespace(), LONGEST.max(widest.unwrap_or(0)))
+            let words = cell.text().split_whitespace();
+            let widest = words.clone().map(|word| word.chars().count()).max();
+            flow(words, LONGEST.max(widest.unwrap_or(0)))
         }
         _ => vec![cell.text().to_owned()],
     };

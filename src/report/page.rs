@@ -9,6 +9,7 @@ use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
 use crate::case::{Case, FIELDS, units};
 use crate::model::explanation::tidy;
+use crate::model::quantities::conditions::helical;
 use crate::model::{About, Inputs, Quantity};
 use crate::report::charts::NamedCase;
 use crate::report::charts::{PATTERN, Picture, find, pictures};
@@ -221,7 +222,7 @@ impl<'a> Page<'a> {
     }
 
     fn is_helical(&self) -> bool {
-        self.cases.iter().any(|case| case.report.inputs.helix_angle != 0.0)
+        self.cases.iter().any(|case| helical(&case.report.inputs))
     }
 
     fn has_notes(&self) -> bool {

@@ -223,21 +223,18 @@ struct PointSolver<'a> {
     write: Writer<'a>,
     inputs: Inputs,
     evaluator: Evaluator,
-    has_same_gears: bool,
     wanted: Stages,
 }
 
 impl<'a> PointSolver<'a> {
     fn new(batch: &'a Batch<'a>) -> PointSolver<'a> {
         let stages = batch.quantities.iter().map(|quantity| Stages::of(quantity.stage));
-        let has_same_gears = batch.points.have_same_gears();
         PointSolver {
             batch,
             write: batch.points.writer(),
             // No quantity reads the stations.
             inputs: Inputs { stations: Some(1), ..batch.inputs.clone() },
-            evaluator: Evaluator::new(has_same_gears),
-            has_same_gears,
+            evaluator: Evaluator::new(batch.points.have_same_gears()),
             wanted: stages.fold(Stages::NONE, Stages::and),
         }
     }
@@ -263,7 +260,7 @@ impl<'a> PointSolver<'a> {
         (self.write)(index, inputs)?;
         inputs.stations = Some(1);
         // The rules are of the gears, and the case does not violate them.
-        if !self.has_same_gears
+        if !self.evaluator.has_same_gears
             && let Some(problem) = violated_rule(inputs)
         {
             return Err(problem);
