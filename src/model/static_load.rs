@@ -515,10 +515,13 @@ impl Fourier {
             for (node, weight) in quadrature::nodes() {
                 let part = (f64::from(piece) + node) / count;
                 let height = weight * (to - from) / count * value(part);
-                let phase = TAU * (from + part * (to - from));
-                for (order, sum) in (1..).zip(&mut self.sums) {
-                    let (sine, cosine) = (f64::from(order) * phase).sin_cos();
-                    *sum = [sum[0] + height * cosine, sum[1] + height * sine];
+                let (sine, cosine) = (TAU * (from + part * (to - from))).sin_cos();
+                // Cosine and sine of each order are the last ones turned by the phase.
+                let mut turned = [height, 0.0];
+                for sum in &mut self.sums {
+                    let [x, y] = turned;
+                    turned = [x * cosine - y * sine, x * sine + y * cosine];
+                    *sum = [sum[0] + turned[0], sum[1] + turned[1]];
                 }
             }
         }
