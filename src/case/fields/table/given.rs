@@ -1,8 +1,9 @@
 //! The fields of a given compliance.
 
+use super::number;
 use crate::case::fields::Absent::Without;
-use crate::case::fields::{Field, Kind, NO_TABLE, Range};
-use crate::case::units::Dimension;
+use crate::case::fields::{Field, Kind, NO_TABLE};
+use crate::case::units::Dimension::{Compliance, Length, Number};
 use crate::model::Inputs;
 use crate::model::given::{COEFFICIENTS, GivenCompliance};
 
@@ -15,17 +16,12 @@ fn given(inputs: &mut Inputs) -> &mut GivenCompliance {
 macro_rules! curve {
     ($name:ident, $symbol:literal, [$label:literal, $coefficients:literal], $help:literal) => {
         [
-            number!(
-                concat!("compliance.", stringify!($name)),
-                $symbol,
-                $label,
-                Compliance,
-                1e-6,
-                1e6,
-                "um mm/N",
+            number(
+                [concat!("compliance.", stringify!($name)), $symbol, $label],
+                (Compliance, 1e-6, 1e6, "um mm/N"),
                 Without("not given"),
                 |inputs, value| given(inputs).$name.middle = value,
-                $help
+                $help,
             )
             .with_example("0.03 um mm/N")
             .reasons(&NO_TABLE),
@@ -72,73 +68,48 @@ pub(super) const COMPLIANCE: &[Field] = &[
     CURVES[1][1],
     CURVES[2][0],
     CURVES[2][1],
-    number!(
-        "compliance.cross",
-        "q_x",
-        "next pair",
-        Number,
-        0.0,
-        0.45,
-        "",
+    number(
+        ["compliance.cross", "q_x", "next pair"],
+        (Number, 0.0, 0.45, ""),
         Without("0"),
         |inputs, value| given(inputs).cross = value,
-        "Displacement of the next pair over that of the loaded pair, without the contact."
+        "Displacement of the next pair over that of the loaded pair, without the contact.",
     )
     .with_example("0.2")
     .reasons(&NO_TABLE),
-    number!(
-        "compliance.coupling_length",
-        "L",
-        "coupling length",
-        Length,
-        0.001,
-        1000.0,
-        "mm",
+    number(
+        ["compliance.coupling_length", "L", "coupling length"],
+        (Length, 0.001, 1000.0, "mm"),
         Without("independent slices"),
         |inputs, value| given(inputs).coupling_length = Some(value),
-        "Length along the face over which a force displaces the slices beside it."
+        "Length along the face over which a force displaces the slices beside it.",
     )
     .with_example("3.9 mm")
     .reasons(&NO_TABLE),
-    number!(
-        "compliance.end_acute",
-        "c_a",
-        "acute end",
-        Number,
-        0.0,
-        10.0,
-        "",
+    number(
+        ["compliance.end_acute", "c_a", "acute end"],
+        (Number, 0.0, 10.0, ""),
         Without("0"),
         |inputs, value| given(inputs).end_acute = value,
-        "Softening of the acute end of a tooth, times its compliance."
+        "Softening of the acute end of a tooth, times its compliance.",
     )
     .with_example("0.87")
     .reasons(&NO_TABLE),
-    number!(
-        "compliance.end_obtuse",
-        "c_o",
-        "obtuse end",
-        Number,
-        0.0,
-        0.9,
-        "",
+    number(
+        ["compliance.end_obtuse", "c_o", "obtuse end"],
+        (Number, 0.0, 0.9, ""),
         Without("0"),
         |inputs, value| given(inputs).end_obtuse = value,
-        "Stiffening of the obtuse end of a tooth, times its compliance."
+        "Stiffening of the obtuse end of a tooth, times its compliance.",
     )
     .with_example("0.19")
     .reasons(&NO_TABLE),
-    number!(
-        "compliance.end_decay",
-        "",
-        "decay of the ends",
-        Length,
-        0.001,
-        1000.0,
-        "mm",
+    number(
+        ["compliance.end_decay", "", "decay of the ends"],
+        (Length, 0.001, 1000.0, "mm"),
         Without("0.58 of the depth"),
         |inputs, value| given(inputs).end_decay = Some(value),
-        "Length over which the effect of an end decays."
+        "Length over which the effect of an end decays.",
     )
     .with_example("3.9 mm")
     .reasons(&NO_TABLE),
