@@ -175,9 +175,4 @@ impl Face {
             line: (0.0, 0.0),
         }
     }
-
-    /// z of each slice, in m.
-    pub fn places(&self) -> impl Iterator<Item = f64> {
-        self.slices.iter().map(|slice| slice.z)
-    }
 }

@@ -406,7 +406,7 @@ fn peak_between((from, to): (f64, f64), value: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// The borders of the pieces with the same touching pairs, between two borders of the mesh.
-fn pieces(mesh: &Mesh, (from, to): (f64, f64), inside: f64) -> Vec<f64> {
+pub(crate) fn pieces(mesh: &Mesh, (from, to): (f64, f64), inside: f64) -> Vec<f64> {
     let touching = |s: f64| {
         let pairs = mesh.pair_set(s, inside);
         let (_, forces) = pairs.shared(mesh.force);

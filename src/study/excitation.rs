@@ -10,9 +10,10 @@ use crate::model::inputs::{GearSide, Method};
 use crate::model::masses::Inertia;
 use crate::model::pair_forces::Touching;
 use crate::model::slices::Face;
-use crate::model::slices::balance::{Loads, Until};
+use crate::model::slices::balance::Until;
+use crate::model::static_load::pieces;
 use crate::model::{Geometry, Inputs, Mesh, Refusal, Solution, Stage, Stages, solve};
-use crate::numeric::{quadrature, root};
+use crate::numeric::quadrature;
 
 /// Number of values of a [`Sample`].
 pub const VALUES: usize = 6;
@@ -188,22 +189,13 @@ struct At {
     mesh: Arc<Mesh>,
     /// The mesh of equal pairs.
     equal: Mesh,
-    /// The face width in slices, with the width of each slice.
-    face: Option<(Face, Vec<f64>)>,
+    /// The face width in slices.
+    face: Option<Face>,
 }
 
 impl At {
     fn of(inputs: &Inputs, geometry: &Geometry, mesh: Arc<Mesh>) -> Result<At, Refusal> {
         let face = inputs.face().map(|face| Face::new(&face, geometry, &mesh)).transpose()?;
-        let face = face.map(|face| {
-            let places: Vec<f64> = face.places().collect();
-            let width = |at: usize| {
-                let after = places.get(at + 1).unwrap_or(&places[at]);
-                0.5 * (after - places[at.saturating_sub(1)])
-            };
-            let widths = (0..places.len()).map(width).collect();
-            (face, widths)
-        });
         Ok(At { equal: mesh.without_error(), mesh, face })
     }
 
@@ -217,7 +209,7 @@ impl At {
     fn at(&self, s: f64, deviates: bool) -> Result<[f64; VALUES], Refusal> {
         let mesh = if deviates { &self.mesh } else { &self.equal };
         let mut values = match &self.face {
-            Some((face, widths)) => over_face(face, widths, mesh, s)?,
+            Some(face) => over_face(face, mesh, s)?,
             None => in_plane(mesh, s, self.beside(s)),
         };
         values[DISPLACEMENT] = values[ERROR] - mesh.force / values[STIFFNESS];
@@ -266,21 +258,11 @@ impl At {
         if self.face.is_some() {
             return (0..=LOOKS).map(|step| pitch * step as f64 / LOOKS as f64).collect();
         }
-        let mut cuts = Vec::new();
-        for ends in mesh.borders(0.0, pitch).windows(2) {
-            let (inside, length) = (f64::midpoint(ends[0], ends[1]), ends[1] - ends[0]);
-            let carrying = |s: f64| mesh.pair_set(s, inside).balance(mesh.force).carrying;
-            let place = |step: usize| ends[0] + length * step as f64 / LOOKS as f64;
-            cuts.push(ends[0]);
-            for step in 0..LOOKS {
-                let (from, to) = (place(step), place(step + 1));
-                let first = carrying(from);
-                if carrying(to) != first {
-                    cuts.push(root::last_where(from, to, |s| carrying(s) == first));
-                }
-            }
-        }
-        cuts.push(pitch);
+        let borders = mesh.borders(0.0, pitch);
+        let between =
+            |ends: &[f64]| pieces(mesh, (ends[0], ends[1]), f64::midpoint(ends[0], ends[1]));
+        let mut cuts: Vec<f64> = borders.windows(2).flat_map(between).collect();
+        cuts.dedup();
         cuts
     }
 
@@ -370,21 +352,18 @@ fn springs(mesh: &Mesh, s: f64, inside: f64, most: f64) -> Vec<(i32, Spring)> {
 }
 
 /// The values of a pair in slices.
-fn over_face(face: &Face, widths: &[f64], mesh: &Mesh, s: f64) -> Result<[f64; VALUES], Refusal> {
+fn over_face(face: &Face, mesh: &Mesh, s: f64) -> Result<[f64; VALUES], Refusal> {
     /// Of the displacement.
     const STEP: f64 = 1e-5;
     let loads = face.loads(s, mesh.error, Until::Force(mesh.force))?;
-    let force = |loads: &Loads, ahead: i32| -> f64 {
-        widths.iter().enumerate().map(|(slice, width)| width * loads.mean_at(ahead, slice)).sum()
-    };
     let x = loads.displacement;
     let further = face.loads(s, mesh.error, Until::Displacement(x * (1.0 + STEP)))?;
-    let tooth = force(&loads, 0);
+    let tooth = face.pair_force(&loads, 0);
     let mut values = [0.0; VALUES];
     values[STIFFNESS] = loads.stiffness;
     values[ERROR] = x;
-    values[FORCE] = loads.pairs().map(|ahead| force(&loads, ahead)).sum();
-    values[TOOTH_STIFFNESS] = (force(&further, 0) - tooth) / (x * STEP);
+    values[FORCE] = loads.pairs().map(|ahead| face.pair_force(&loads, ahead)).sum();
+    values[TOOTH_STIFFNESS] = (face.pair_force(&further, 0) - tooth) / (x * STEP);
     values[TOOTH_FORCE] = tooth;
     Ok(values)
 }

@@ -113,7 +113,7 @@ impl Shares {
         self.functions.iter().map(Series::bytes).sum()
     }
 
-    /// End of the functions that are valid from a place of the rearmost pair on.
+    /// The line of the sum or of a pair from a place of the rearmost pair, over `length`.
     pub fn along(&self, of: Of, place: (f64, f64), length: f64) -> Line<Polynomial<TERMS>> {
         let [slope, offset] = self.functions[of.index()].local(0, place, length);
         Line {
@@ -126,7 +126,7 @@ impl Shares {
         }
     }
 
-    /// All functions from a place of the rearmost pair over `length`.
+    /// The line of the sum or of a pair at a place of the rearmost pair.
     pub fn at(&self, of: Of, at: f64) -> Line<f64> {
         let [slope, offset] = self.functions[of.index()].at(at);
         Line {
@@ -136,7 +136,7 @@ impl Shares {
         }
     }
 
-    /// The row of a pair among all functions, with one function for each touching pair.
+    /// Bounds of the line of the sum or of a pair in the piece at a place of the rearmost pair.
     pub fn bounds(&self, of: Of, place: (f64, f64)) -> Line<(f64, f64)> {
         let functions = &self.functions[of.index()];
         Line {

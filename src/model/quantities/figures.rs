@@ -431,33 +431,13 @@ fn factor_at(k: &Context, ratio: f64) -> Option<f64> {
     Some(crate::model::figures::dynamic_factor(contact_ratio(k), ratio, resonance_begin, terms))
 }
 
-/// The compliance q' with the numbers of the gear with fewer teeth and of the other.
-macro_rules! give {
-    ($one:literal, $two:literal) => {
-        Text(concat!(
-            "(0.04723 + 0.15551/z_n",
-            $one,
-            " + 0.25791/z_n",
-            $two,
-            " - 0.00635 x",
-            $one,
-            " - 0.11654 x",
-            $one,
-            "/z_n",
-            $one,
-            " - 0.00193 x",
-            $two,
-            " - 0.24188 x",
-            $two,
-            "/z_n",
-            $two,
-            " + 0.00529 x",
-            $one,
-            "² + 0.00182 x",
-            $two,
-            "²) [um mm/N]"
-        ))
-    };
+/// The compliance q' by the gear with fewer teeth, `one`, and the other.
+fn compliance(k: &Context) -> String {
+    let [one, two] = if driver_larger(k.inputs) { [2, 1] } else { [1, 2] };
+    format!(
+        "(0.04723 + 0.15551/z_n{one} + 0.25791/z_n{two} - 0.00635 x{one} - 0.11654 x{one}/z_n{one} \
+         - 0.00193 x{two} - 0.24188 x{two}/z_n{two} + 0.00529 x{one}² + 0.00182 x{two}²) [um mm/N]"
+    )
 }
 
 /// The angle at the tip and the root radius of a gear.
@@ -514,13 +494,9 @@ pub(super) const STEPS: &[Step] = &[
     step("c'_th", "theoretical single stiffness", "N/(mm um)", Text("1/q'"), |k| {
         Some(k.solution.figures?.stiffness.theoretical)
     }),
-    step(
-        "q'",
-        "compliance of a pair of steel discs",
-        "um mm/N",
-        Cases(&[(driver_larger, give!("2", "1")), (always, give!("1", "2"))]),
-        |k| Some(1.0 / k.solution.figures?.stiffness.theoretical),
-    ),
+    step("q'", "compliance of a pair of steel discs", "um mm/N", Made(compliance), |k| {
+        Some(1.0 / k.solution.figures?.stiffness.theoretical)
+    }),
     step(
         "C_B",
         "factor of the basic racks",

@@ -196,8 +196,7 @@ impl Face {
     /// border and to the end of the contact, which are between two slices.
     fn force(&self, loads: &Loads, ahead: i32, part: Part) -> f64 {
         let Some(border) = part.border(self.mesh.length) else {
-            let slices = self.slices.iter().enumerate();
-            return slices.map(|(number, slice)| loads.mean_at(ahead, number) * slice.width).sum();
+            return self.pair_force(loads, ahead);
         };
         let is_here = |number: &usize| part.has(self.path(loads, ahead, *number), self.mesh.length);
         let at_slices = (0..self.slices.len()).filter(is_here).map(|number| {
@@ -336,9 +335,15 @@ impl Face {
         self.greatest_lead(None, at_exit)
     }
 
+    /// The force of a pair in a balance, in N.
+    pub fn pair_force(&self, loads: &Loads, ahead: i32) -> f64 {
+        let slices = self.slices.iter().enumerate();
+        slices.map(|(number, slice)| loads.mean_at(ahead, number) * slice.width).sum()
+    }
+
     /// The greatest force of a tooth, in N.
     pub(super) fn tooth_force(&self, loads: &Loads) -> f64 {
-        loads.pairs().map(|ahead| self.force(loads, ahead, Part::All)).fold(0.0, f64::max)
+        loads.pairs().map(|ahead| self.pair_force(loads, ahead)).fold(0.0, f64::max)
     }
 
     /// The station of the incoming tooth. Gap, compliance and velocities are those at the z with the least
@@ -351,7 +356,7 @@ impl Face {
         let least = gaps.iter().enumerate().min_by(|one, other| one.1.total_cmp(other.1));
         let nearest = Slice::at(&self.inputs, self.bottom(&gaps, least.map_or(0, |(at, _)| at)));
         let (place, slope) = at(&nearest);
-        let force = self.force(loads, 0, Part::All);
+        let force = self.pair_force(loads, 0);
         let total: f64 = self.over_face(&loads.of_all(), |_| 1.0);
         Station {
             roll_angle_driver: 0.0 - loads.s / mesh.base_radii.0,
@@ -407,23 +412,11 @@ impl Face {
         let Some(passed) = passage.run(spacing)? else {
             return Ok((StaticLoad::default(), None));
         };
-        let Passed { stations, rough, ends, face, .. } = &passed;
-        let load = StaticLoad {
-            first_contact_angle: ends.0,
-            last_contact_angle: ends.1,
-            force_at_end: passed.force_at_end,
-            force_at_start: passed.force_at_start,
-            peak_force: passed.peak_force,
-            transmission_error: passed.transmission_error,
-            pitch_jump: None,
-            stations: stations.clone(),
-            rough: *rough,
-        };
-        let least_gap = match ends.0 {
+        let least_gap = match passed.load.first_contact_angle {
             Some(_) => None,
             None => Some(-self.lead_at_rest(false)?),
         };
-        Ok((load, Some(Arc::new(FaceLoad { least_gap, ..face.clone() }))))
+        Ok((passed.load, Some(Arc::new(FaceLoad { least_gap, ..passed.face }))))
     }
 }
 
@@ -454,15 +447,9 @@ pub(super) struct Passage<'a> {
 
 /// The load of the incoming tooth in a passage.
 pub(super) struct Passed {
-    /// Driven gear's angle before E at the first contact and driver's angle after B at the last one,
-    /// in rad; `None` on the path of contact.
-    pub ends: (Option<f64>, Option<f64>),
-    pub force_at_start: f64,
-    pub force_at_end: f64,
-    pub peak_force: f64,
-    pub transmission_error: f64,
-    pub stations: Vec<Station>,
-    pub rough: Option<Refusal>,
+    /// Its forces and angles; without the change at the pitch point.
+    pub load: StaticLoad,
+    /// The same over the face; without the least gap.
     pub face: FaceLoad,
     /// The loads at places from the first to the last contact.
     pub samples: Vec<Rc<Loads>>,
@@ -602,7 +589,7 @@ impl<'a> Passage<'a> {
             });
             best.get().filter(|peak| peak.line_load > 0.0)
         };
-        let peak_force = extreme(&|loads| face.force(loads, 0, Part::All));
+        let peak_force = extreme(&|loads| face.pair_force(loads, 0));
         let failed = Cell::new(None);
         let (stations, rough) = Station::through_start(first, last, |from, to| {
             spacing.stations(&[from, to], peak_force, STATIONS, |s| {
@@ -630,18 +617,20 @@ impl<'a> Passage<'a> {
         let is_apart = |angle: &f64| *angle > 0.0;
         let at_slices =
             |loads: &Rc<Loads>| (0..face.slices.len()).map(|at| loads.at(0, at)).collect();
-        Ok(Some(Passed {
-            ends: (
-                Some(ahead(&first_place)).filter(is_apart).or_else(first_strike),
-                Some(behind(&last_place)).filter(is_apart).or_else(last_strike),
-            ),
+        let load = StaticLoad {
+            first_contact_angle: Some(ahead(&first_place)).filter(is_apart).or_else(first_strike),
+            last_contact_angle: Some(behind(&last_place)).filter(is_apart).or_else(last_strike),
             force_at_start: extreme(&|loads| face.force(loads, 0, Part::BeforeStart)),
             force_at_end: extreme(&|loads| face.force(loads, 0, Part::AfterEnd)),
             peak_force,
             transmission_error: extreme(&|loads| loads.displacement)
                 + extreme(&|loads| -loads.displacement),
+            pitch_jump: None,
             stations,
             rough,
+        };
+        Ok(Some(Passed {
+            load,
             face: FaceLoad {
                 first: first_place,
                 last: last_place,
@@ -659,7 +648,7 @@ impl<'a> Passage<'a> {
     /// The time from the first contact to the first minimum of the force after its first peak, or to the
     /// last contact, in s. `None` at rest.
     pub(super) fn first_minimum(&self, samples: &[Rc<Loads>]) -> Option<f64> {
-        let of = |loads: &Loads| self.face.force(loads, 0, Part::All);
+        let of = |loads: &Loads| self.face.pair_force(loads, 0);
         let force: Vec<f64> = samples.iter().map(|loads| of(loads)).collect();
         let peak = (1..force.len()).find(|&at| force[at] < force[at - 1])?;
         let rises = |at: &usize| force.get(at + 1).is_none_or(|next| *next > force[*at]);

@@ -349,8 +349,8 @@ pub(in crate::model) fn dynamic(
     let course = motion.passage(settings, mesh.ends().1 + face.reach, go_on)?;
     let passage = Passage::new(face, Some(&course), Incoming::Deviates(mesh.error));
     let passed = passage.run(settings.spacing)?.ok_or(Refusal::BeyondReach)?;
-    let Passed { ends, stations, rough, samples, .. } = passed;
-    let strikes = ends.0.is_some();
+    let Passed { load, face: over_face, samples } = passed;
+    let strikes = load.first_contact_angle.is_some();
     let least_gap = if strikes { None } else { Some(-face.greatest_lead(Some(&course), false)?) };
     let last = samples.last().map_or(mesh.length, |loads| loads.s);
     let time = |pair: &[Rc<Loads>]| (pair[1].s - pair[0].s) / mesh.speed;
@@ -360,22 +360,22 @@ pub(in crate::model) fn dynamic(
     };
     let work = || samples.windows(2).map(power).sum();
     let found = Dynamic {
-        first_contact_angle: ends.0,
-        last_contact_angle: ends.1,
-        peak_approach_force: passed.force_at_start,
-        peak_force: passed.peak_force,
+        first_contact_angle: load.first_contact_angle,
+        last_contact_angle: load.last_contact_angle,
+        peak_approach_force: load.force_at_start,
+        peak_force: load.peak_force,
         impact_duration: strikes.then(|| passage.first_minimum(&samples)).flatten(),
         least_gap,
         contact_lost: course.loses_contact(-mesh.base_pitch - face.reach, last),
         rattle: None,
         friction_work: (mesh.friction() > 0.0).then(work),
         approach: Vec::new(),
-        stations,
-        rough,
+        stations: load.stations,
+        rough: load.rough,
         evaluations: springs.solves.get(),
         work: springs.solves.get(),
     };
-    Ok((found, Some(Arc::new(passed.face))))
+    Ok((found, Some(Arc::new(over_face))))
 }
 
 /// The approach of the incoming tooth to E in the motion without its contact.
