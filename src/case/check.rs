@@ -611,13 +611,11 @@ pub(super) fn unknown_quantity(field: &str, written: &str) -> Problem {
     let words =
         if near.is_some_and(|near| is_misprint(&near)) { Vec::new() } else { by_words(name) };
     let meant = if words.is_empty() { near.into_iter().collect() } else { words };
-    unknown(match &meant[..] {
-        _ if let Some(known) = Quantity::find(&name.replace(' ', "_")) => {
-            format!("did you mean {}?", known.key)
-        }
+    unknown(match (Quantity::find(&name.replace(' ', "_")), &meant[..]) {
+        (Some(known), _) => format!("did you mean {}?", known.key),
         _ if name.contains(' ') => "put commas between names".to_owned(),
-        [] => "`tipstrike fields --results` lists every quantity".to_owned(),
-        meant => format!("did you mean {}?", meant.join(" or ")),
+        (None, []) => "`tipstrike fields --results` lists every quantity".to_owned(),
+        (None, meant) => format!("did you mean {}?", meant.join(" or ")),
     })
 }
 

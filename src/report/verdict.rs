@@ -313,34 +313,34 @@ impl Absence {
             _ => false,
         };
         let has_friction = || solution.mesh.as_ref().is_some_and(|mesh| mesh.friction() > 0.0);
-        match (stage, quantity.needs) {
-            (_, Need::Slices) if solution.helix.is_none() && !solution.has_slices() => {
+        match (stage, quantity.needs, refused, solution.withheld) {
+            (_, Need::Slices, ..) if solution.helix.is_none() && !solution.has_slices() => {
                 Absence::Because("only a helical, misaligned or crowned pair has this quantity")
             }
             _ if quantity.is_at_exit => Absence::NoExit,
             _ if is_without && !solution.method.shares_load() => no_contact,
-            (_, Need::Friction) if is_shared && !has_friction() => {
+            (_, Need::Friction, ..) if is_shared && !has_friction() => {
                 Absence::Because("the case has no operation.friction_coefficient")
             }
-            (_, Need::TipRadius)
+            (_, Need::TipRadius, ..)
                 if (is_shared || stage == Stage::Impact) && solution.has_sharp_tips() =>
             {
                 Absence::Because(
                     "the tip is sharp, and no pressure at an edge is finite; give driven.tip_radius",
                 )
             }
-            (_, Need::Backlash) if has_motion => Absence::Because(
+            (_, Need::Backlash, ..) if has_motion => Absence::Because(
                 "the case has no deviations.backlash; without it the back flanks are far away",
             ),
             _ if is_shared && is_without => no_contact,
-            _ if let Some(refusal) = refused => Absence::Withheld(*refusal),
-            (Stage::SteadyMotion | Stage::SpeedRun, _) => Absence::Because(NO_EVENT),
+            (_, _, Some(refusal), _) => Absence::Withheld(*refusal),
+            (Stage::SteadyMotion | Stage::SpeedRun, ..) => Absence::Because(NO_EVENT),
             _ if is_shared => Absence::Because(NO_EVENT),
-            (Stage::Clearing, _) if !is_without => {
+            (Stage::Clearing, ..) if !is_without => {
                 let withheld = solution.clearing.and_then(|clearing| clearing.withheld);
                 withheld.map_or(Absence::Because(NO_EVENT), Absence::Withheld)
             }
-            _ if let Some(refusal) = solution.withheld => Absence::Withheld(refusal),
+            (.., Some(refusal)) => Absence::Withheld(refusal),
             _ if is_without => no_contact,
             _ if solution.position.is_none() => {
                 Absence::Because("the closed form finds no first contact at D")
