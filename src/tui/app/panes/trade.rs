@@ -40,18 +40,14 @@ pub struct Traded {
 impl Traded {
     /// Whether the case has changed since the benchmark, apart from its setting.
     pub(crate) fn is_stale(&self, inputs: &Inputs) -> bool {
-        let with_setting = Inputs {
-            method: inputs.method,
-            tooth_compliance: inputs.tooth_compliance,
-            contact_compliance: inputs.contact_compliance,
-            tolerance: inputs.tolerance,
-            within: inputs.within,
-            stations: inputs.stations,
-            station_tolerance: inputs.station_tolerance,
-            accurate: inputs.accurate,
-            ..self.inputs.clone()
+        let then = &self.inputs;
+        let alike = |inputs: &Inputs| Inputs {
+            tolerance: then.tolerance,
+            within: then.within,
+            station_tolerance: then.station_tolerance,
+            ..Setting::of(then).inputs(inputs)
         };
-        with_setting != *inputs
+        alike(inputs) != alike(then)
     }
 }
 
