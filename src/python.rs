@@ -29,7 +29,7 @@ use crate::cli::questions::{Excitation, Misuse, NoAnswer, Question, Seek, Stiffn
 use crate::cli::{self, Arguments, Streams};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Refusal, Solution, Stages};
-use crate::report::charts::{NoPicture, Pattern, find, pictures};
+use crate::report::charts::{Pattern, find, pictures};
 use crate::report::compare::ComparedCase;
 use crate::report::data::{self, stations, write_json};
 use crate::report::page::{format_of, render};
@@ -508,10 +508,8 @@ impl Case {
         })?;
         let source = self.unsolved()?;
         let drawn = run(py, progress, |go_on| picture.of_case(source, go_on))?;
-        drawn.map_err(|reason| match reason {
-            NoPicture::Refused(refusal) => self.refused(&refusal),
-            NoPicture::Absent(reason) => self.failed(&reason),
-        })
+        let drawn = drawn.map_err(|refusal| self.refused(&refusal))?;
+        drawn.map_err(|reason| self.failed(&reason))
     }
 
     fn __repr__(&self) -> String {

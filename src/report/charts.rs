@@ -93,15 +93,6 @@ fn pattern(cases: &[NamedCase]) -> Result<Chart, String> {
     pattern_chart(&report.inputs, &solutions.collect::<Vec<_>>())
 }
 
-/// Why there is no picture.
-#[derive(Debug, Clone, PartialEq)]
-pub enum NoPicture {
-    /// The model refuses the case, or the computation is stopped.
-    Refused(Refusal),
-    /// The case has no values for the picture.
-    Absent(String),
-}
-
 /// Every picture: the charts of the stations, the charts with their own axes, the teeth.
 pub fn pictures() -> impl Iterator<Item = Picture> + Clone {
     let graph = |graph: &'static Graph| Picture {
@@ -140,16 +131,16 @@ impl Picture {
     /// and stops the computation by returning false.
     ///
     /// # Errors
-    /// The refusal of the model, or the reason why the case has no such picture.
+    /// The refusal of the model; inside, the reason why the case has no such picture.
     pub fn of_case(
         self,
         source: Unsolved<'_>,
         go_on: &dyn Fn(usize, usize) -> bool,
-    ) -> Result<String, NoPicture> {
+    ) -> Result<Result<String, String>, Refusal> {
         let fix = if self.part == Part::Speeds { "" } else { ": choose another chart" };
         let pair = Named { name: source.name, title: source.case.title() }.caption();
-        self.draw(&[("", &source.part(self.part, go_on)?)], &pair)
-            .map_err(|reason| NoPicture::Absent(format!("{self} has no curve: {reason}{fix}")))
+        let drawn = self.draw(&[("", &source.part(self.part, go_on)?)], &pair);
+        Ok(drawn.map_err(|reason| format!("{self} has no curve: {reason}{fix}")))
     }
 }
 
@@ -160,20 +151,6 @@ impl fmt::Display for Picture {
             TEETH => f.write_str("the teeth"),
             key => write!(f, "the chart {key}"),
         }
-    }
-}
-
-impl PartialEq for Picture {
-    fn eq(&self, other: &Picture) -> bool {
-        self.key == other.key
-    }
-}
-
-impl Eq for Picture {}
-
-impl From<Refusal> for NoPicture {
-    fn from(refusal: Refusal) -> NoPicture {
-        NoPicture::Refused(refusal)
     }
 }
 

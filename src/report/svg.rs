@@ -107,7 +107,7 @@ fn legend(chart: &Chart) -> Vec<(String, String)> {
             (shades(0..NO_CONTACT), ends),
             (line("bound"), limit),
             (shades(NO_CONTACT..REFUSED), has(Cell::NoContact, "no contact")),
-            (shades(REFUSED..SHADES.len()), has(Cell::Refused, "refused")),
+            (shades(REFUSED..SHADES), has(Cell::Refused, "refused")),
         ];
         legend.extend(parts.into_iter().filter_map(|(symbol, name)| Some((symbol, name?))));
     }
@@ -145,7 +145,7 @@ fn draw_map(text: &mut String, map: &Map, (across, up): (Span, Span)) {
         Cell::NoContact => Some(NO_CONTACT),
         Cell::Refused => Some(REFUSED),
     };
-    let mut areas = vec![String::new(); SHADES.len()];
+    let mut areas = vec![String::new(); SHADES];
     let mut contour = String::new();
     let rows: Vec<&[Cell]> = map.cells.chunks(map.places[0].len().max(1)).collect();
     for (row, cells) in rows.iter().enumerate() {
@@ -216,7 +216,7 @@ fn frame(chart: &Chart, height: f64) -> String {
 
 /// The root element, the styles and the background of a picture; the title must be escaped.
 fn opening(title: &str, width: f64, height: f64) -> String {
-    let style = style();
+    let style: String = STYLE.lines().map(str::trim).collect();
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
          class=\"tipstrike\">\n<title>{title}</title>\n<style>{style}</style>\n\
@@ -349,66 +349,14 @@ const LOOKS: [&str; 6] = [
     "M-1.5-5h3v3.5h3.5v3h-3.5v3.5h-3v-3.5h-3.5v-3h3.5Z",
 ];
 
-/// Light and dark colour of each series, and the dashes of its line.
-const COLOURS: [(&str, &str, &str); LOOKS.len()] = [
-    ("#0b6e99", "#62c3ee", "none"),
-    ("#b3261e", "#ff8a80", "9 3"),
-    ("#2b7a3d", "#84d394", "3 2"),
-    ("#8a4b08", "#e8a862", "9 3 2 3"),
-    ("#6a3fa0", "#c5a4f2", "14 4"),
-    ("#555", "#bbb", "2 4"),
-];
+/// The style sheet, one rule per line: `s` and `f` with a number are line and area of a series, `m` a
+/// shade of a map. Its rules apply only to pictures, so that a page may contain several.
+const STYLE: &str = include_str!("../../assets/picture.css");
 
-/// The colours of the shades of a map, then of no contact and of a refused point.
-const SHADES: [&str; 10] = [
-    "#fff0b3", "#fedd86", "#fec458", "#fda637", "#f58220", "#df5f14", "#b9420a", "#7d2a05",
-    "#9aa4ad", "#444c55",
-];
-const NO_CONTACT: usize = SHADES.len() - 2;
-const REFUSED: usize = SHADES.len() - 1;
-
-/// The rules of the style sheet of every picture: the class, its style, and its style in the dark.
-const RULES: [(&str, &str, &str); 13] = [
-    ("", "font:15px 'DejaVu Sans',Helvetica,Arial,sans-serif;fill:#222", "fill:#ddd"),
-    (" .title", "font-size:17px;font-weight:bold", ""),
-    (" .ground", "fill:#fff", "fill:#16181b"),
-    (" .grid", "stroke:#ddd;fill:none", "stroke:#33373c"),
-    (" .axis", "stroke:#333;fill:none", "stroke:#aaa"),
-    (" .mark", "stroke:#888;fill:none;stroke-dasharray:2 3", ""),
-    (" .curve", "fill:none;stroke-width:2;stroke-linejoin:round", ""),
-    (" .bound", "fill:none;stroke:#777;stroke-dasharray:1 3;stroke-width:1.5", "stroke:#999"),
-    (" .thin", "fill:none;stroke-opacity:.6;stroke-dasharray:none", ""),
-    (" .body1", "fill:#d7e9f2;stroke:#0b6e99;stroke-width:1.5", "fill:#1d3642;stroke:#62c3ee"),
-    (" .body2", "fill:#f6e3d0;stroke:#8a4b08;stroke-width:1.5", "fill:#3f2d1a;stroke:#e8a862"),
-    (" .path", "fill:none;stroke:#2b7a3d;stroke-width:2.5", "stroke:#84d394"),
-    (
-        " .halo",
-        "paint-order:stroke;stroke:#fff;stroke-width:4px;stroke-linejoin:round",
-        "stroke:#16181b",
-    ),
-];
-
-/// The style sheet. Its rules apply only to pictures, so that a page may contain several.
-fn style() -> String {
-    let (mut light, mut dark) = (String::new(), String::new());
-    for (at, (own, own_dark, dashes)) in COLOURS.into_iter().enumerate() {
-        let _ = write!(light, ".tipstrike .s{at}{{stroke:{own};stroke-dasharray:{dashes}}}");
-        for (sheet, colour) in [(&mut light, own), (&mut dark, own_dark)] {
-            let _ = write!(sheet, ".tipstrike .f{at}{{fill:{colour}}}");
-        }
-        let _ = write!(dark, ".tipstrike .s{at}{{stroke:{own_dark}}}");
-    }
-    for (at, colour) in SHADES.into_iter().enumerate() {
-        let _ = write!(light, ".tipstrike .m{at}{{fill:{colour}}}");
-    }
-    for (class, own, own_dark) in RULES {
-        let _ = write!(light, ".tipstrike{class}{{{own}}}");
-        if !own_dark.is_empty() {
-            let _ = write!(dark, ".tipstrike{class}{{{own_dark}}}");
-        }
-    }
-    format!("{light}@media screen and (prefers-color-scheme:dark){{{dark}}}")
-}
+/// The number of shades of a map; the last two are of no contact and of a refused point.
+const SHADES: usize = 10;
+const NO_CONTACT: usize = SHADES - 2;
+const REFUSED: usize = SHADES - 1;
 
 const HEIGHT: f64 = 388.0;
 /// Left, top, width and height of the window.

@@ -17,7 +17,7 @@ use crate::cli::{
 };
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stage, Stages};
-use crate::report::charts::{NoPicture, Picture, find, pictures};
+use crate::report::charts::{Picture, find, pictures};
 use crate::report::compare::ComparedCase;
 use crate::report::digest::{Digest, STAGES, sentence};
 use crate::report::explain::{explain, render, write_json};
@@ -335,10 +335,8 @@ impl Plot {
             let opened = cli::open(source, &self.changes.edits(), &[], streams)?;
             let source = opened.unsolved();
             let drawn = follow("parts", |go_on| chart.of_case(source, go_on))?;
-            drawn.map_err(|reason| match reason {
-                NoPicture::Refused(refusal) => opened.refused(&refusal),
-                NoPicture::Absent(reason) => opened.failed(&reason),
-            })?
+            let drawn = drawn.map_err(|refusal| opened.refused(&refusal))?;
+            drawn.map_err(|reason| opened.failed(&reason))?
         };
         write_text(out, streams, &text)
     }

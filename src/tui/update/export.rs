@@ -6,7 +6,7 @@ use super::{key_of, studies};
 use crate::case::Document;
 use crate::case::file::{self, SaveError};
 use crate::model::Refusal;
-use crate::report::charts::{NoPicture, Picture, find};
+use crate::report::charts::{Picture, find};
 use crate::report::page as exports;
 use crate::report::page::{Page, Settings};
 use crate::report::solve::{Subject, Unsolved};
@@ -113,10 +113,9 @@ fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
         let source = Unsolved { name: &name, case: &document.case, inputs: &inputs };
         let go_on = |_, _| running.is_wanted();
         match picture {
-            Some(picture) => picture.of_case(source, &go_on).map_err(|reason| match reason {
-                NoPicture::Refused(refusal) => refused(&refusal),
-                NoPicture::Absent(reason) => reason,
-            }),
+            Some(picture) => {
+                picture.of_case(source, &go_on).map_err(|refusal| refused(&refusal)).flatten()
+            }
             None => report_text(source, &document, running.path, &go_on),
         }
     };
