@@ -87,8 +87,10 @@ const SIGNALLED: i32 = 128;
 /// The blocked signals, which a dedicated thread reads.
 #[derive(Clone, Copy)]
 pub(crate) struct BlockedSignals {
-    deadly: SigSet,
-    passing: SigSet,
+    /// Those that end the process.
+    pub(crate) deadly: SigSet,
+    /// Those after which the workbench continues.
+    pub(crate) passing: SigSet,
 }
 
 /// Blocks the signals in this thread and in all threads that it starts later.
@@ -108,25 +110,6 @@ fn deadly() -> SigSet {
     deadly
 }
 
-impl BlockedSignals {
-    /// Runs `act` for each signal that ends the process, in a thread, until it returns false.
-    pub(crate) fn for_each_deadly(
-        self,
-        act: impl Fn(i32) -> bool + Send + 'static,
-    ) -> io::Result<()> {
-        for_each("signals", self.deadly, act)
-    }
-
-    /// Runs `act` for each signal after which the workbench continues, in a thread, until it
-    /// returns false.
-    pub(crate) fn for_each_passing(
-        self,
-        act: impl Fn(i32) -> bool + Send + 'static,
-    ) -> io::Result<()> {
-        for_each("stops", self.passing, act)
-    }
-}
-
 /// Stops this process until the shell continues it.
 pub(crate) fn stop() -> io::Result<()> {
     emulate_default_handler(SIGTSTP)
@@ -143,8 +126,9 @@ pub(crate) fn die_of(signal: i32) -> ! {
     process::exit(SIGNALLED + signal)
 }
 
+/// Runs `act` for each of the blocked signals, in a thread of this name, until it returns false.
 #[cfg(target_os = "linux")]
-fn for_each(
+pub(crate) fn for_each(
     name: &str,
     signals: SigSet,
     act: impl Fn(i32) -> bool + Send + 'static,
@@ -165,8 +149,9 @@ fn for_each(
     Ok(())
 }
 
+/// Runs `act` for each of the blocked signals, in a thread of this name, until it returns false.
 #[cfg(not(target_os = "linux"))]
-fn for_each(
+pub(crate) fn for_each(
     name: &str,
     signals: SigSet,
     act: impl Fn(i32) -> bool + Send + 'static,

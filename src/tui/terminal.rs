@@ -29,7 +29,7 @@ use super::app::App;
 use super::input::Event;
 use super::view;
 use crate::system::terminal::{
-    BlockedSignals, die_of, is_in_foreground, stop, wait_for_hang_up, write_if_ready,
+    BlockedSignals, die_of, for_each, is_in_foreground, stop, wait_for_hang_up, write_if_ready,
 };
 
 /// Large enough for one write per frame; the standard buffer would make ten.
@@ -233,10 +233,10 @@ pub(super) fn listen(
 ) -> io::Result<()> {
     let last_words: LastWords = Arc::new(last_words);
     let (words, to_end) = (Arc::clone(&last_words), sender.clone());
-    signals.for_each_deadly(move |signal| end(&words, &to_end, Some(signal)))?;
+    for_each("signals", signals.deadly, move |signal| end(&words, &to_end, Some(signal)))?;
     let to_pass = sender.clone();
     // A separate thread, because a blocked main loop takes no events and must still end.
-    signals.for_each_passing(move |signal| to_pass.send(Event::Signal(signal)).is_ok())?;
+    for_each("stops", signals.passing, move |signal| to_pass.send(Event::Signal(signal)).is_ok())?;
     let gone = sender.clone();
     // A process outside the session of the terminal receives no signal when the terminal closes.
     thread::Builder::new().name("line".to_owned()).spawn(move || {
