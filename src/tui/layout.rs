@@ -295,6 +295,9 @@ impl Place {
     pub(crate) const LIST: Place = Place::BROWSE.or(Place::PICK);
     pub(crate) const LINE: Place = Place::TEXT.or(Place::LIST).or(Place::PATH);
     pub(crate) const PROMPT: Place = Place::LIST.or(Place::PATH).or(Place::ASK).or(Place::PAGE);
+    /// Every place except pages of text, which `F1` closes.
+    pub(crate) const HELPED: Place =
+        Place::WORK.or(Place::LIST).or(Place::PATH).or(Place::ASK).or(Place::EXPLAIN);
     pub(crate) const ALL: Place = Place::WORK.or(Place::PROMPT);
     /// The places where letters are more than commands of the table.
     pub(crate) const TYPED: Place = Place::LINE.or(Place::CHOICE).or(Place::ASK);

@@ -190,6 +190,8 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Ctrl-P units", "Enter", "", "492.56"),
     ("F1", "Enter", "", "▸ Form"),
     ("Ctrl-P", "Esc", "", "▸ Form"),
+    ("Ctrl-P", "F1", "", "In the list of files"),
+    ("X Ctrl-P", "Ctrl-Q", "", "[> Cancel <]"),
     ("", "Ctrl-C", "", "Ctrl-C again to quit"),
     // In an explanation.
     ("Esc 2 j j Enter", "Tab", "", "▸pair.module"),

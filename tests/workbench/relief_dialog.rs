@@ -41,7 +41,8 @@ fn a_search_shows_its_progress() {
     let mut sent = results(number, work);
     // Without the relief and the end of the work.
     sent.truncate(sent.len() - 2);
-    desk.take(sent);
+    desk.keys(&["F1"]).take(sent);
+    desk.keys(&["Esc"]);
     desk.assert_shows("Searching: ");
     desk.lacks(&["Searching: 0 %"]);
 }

@@ -159,12 +159,20 @@ impl App {
         }
     }
 
-    /// The topmost dialog if it is the file browser.
+    /// The open dialog of a kind; the help or a question may cover it.
+    pub(crate) fn dialog_of<'a, T>(
+        &'a mut self,
+        of: impl Fn(&'a mut Prompt) -> Option<T>,
+    ) -> Option<T> {
+        self.prompts.iter_mut().rev().find_map(of)
+    }
+
+    /// The file browser, if it is open.
     pub(crate) fn browser(&mut self) -> Option<&mut Browser> {
-        match self.prompts.last_mut() {
-            Some(Prompt::Browse(browser)) => Some(browser),
+        self.dialog_of(|prompt| match prompt {
+            Prompt::Browse(browser) => Some(&mut **browser),
             _ => None,
-        }
+        })
     }
 
     /// Goes to the parent folder in the file browser.
@@ -189,16 +197,13 @@ impl App {
         self.start_all(work);
     }
 
-    /// Closes the topmost dialog if it is a path or a question with this title.
+    /// Closes the path or question with this title, if it is open.
     pub(crate) fn close_titled(&mut self, title: &str) {
-        let is_it = match self.prompts.last() {
-            Some(Prompt::Path(dialog)) => dialog.title == title,
-            Some(Prompt::Ask(question)) => question.title == title,
-            _ => false,
-        };
-        if is_it {
-            self.prompts.pop();
-        }
+        self.prompts.retain(|prompt| match prompt {
+            Prompt::Path(dialog) => dialog.title != title,
+            Prompt::Ask(question) => question.title != title,
+            _ => true,
+        });
     }
 }
 
@@ -355,8 +360,7 @@ impl PreviewPane {
         let find =
             move |running: &Running<'_>| folder::preview(&own, units, &|_| running.is_wanted());
         let show = |app: &mut App, preview| {
-            let prompt = app.prompts.last_mut();
-            if let Some((pane, _)) = prompt.and_then(|prompt| prompt.dialog_mut().preview()) {
+            if let Some((pane, _)) = app.dialog_of(|prompt| prompt.dialog_mut().preview()) {
                 pane.preview = Some(preview);
             }
         };

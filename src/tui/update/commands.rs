@@ -35,6 +35,9 @@ const PREFIXES: [(KeyModifiers, &str); 3] = [
 
 /// A command of the status line that the palette leaves out.
 const LEAVE_FIELD: &str = "leave field";
+const SEEK: &str =
+    "in the shell: tipstrike seek CASE --vary 'KEY=FROM..TO' --until 'RESULT<=VALUE'";
+const HELP: &str = "Show this page, over a dialog at its part.";
 const UNICODE: &str = "drawn in Unicode; a locale without UTF-8 keeps it for this session only";
 
 const ABOUT_KEYS: [&str; 6] = [
@@ -71,7 +74,8 @@ const SIGNS: [&str; 6] = [
         X contacts.",
 ];
 
-const PLACES: [(&str, Place); 16] = [
+const PLACES: [(&str, Place); 17] = [
+    ("Everywhere", Place::HELPED),
     ("Outside dialogs", Place::WORK),
     ("In a field", Place::TEXT),
     ("Outside a field (Esc leaves the field)", Place::FIELD),
@@ -83,7 +87,7 @@ const PLACES: [(&str, Place); 16] = [
     ("In accuracy against run time", Place::TRADE),
     ("In the study", Place::STUDY),
     ("In the tolerance", Place::TOLERANCE),
-    ("In a list", Place::PICK),
+    ("In a list or a line of text", Place::PICK.or(Place::PATH)),
     ("In the list of files", Place::BROWSE),
     ("In a question (or its first letter)", Place::ASK),
     ("In a page like this", Place::READ),
@@ -459,7 +463,7 @@ pub static BINDINGS: &[Binding] = &[
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
             there.").shown_in(Place::OUTSIDE),
     row(Place::OUTSIDE, "q", "quit", files::quit, "Quit; asks if there are unsaved edits.").shown().unseen(),
-    row(Place::OUTSIDE.or(Place::CHOICE), "?", "help", help_page, "Show this page.")
+    row(Place::OUTSIDE.or(Place::CHOICE), "?", "help", help_page, HELP)
         .shown_in(Place::OUTSIDE),
     row(Place::OUTSIDE, "Tab", "next pane", |app| panes::step(app, 1),
         "Go to the next pane.").shown(),
@@ -490,7 +494,8 @@ pub static BINDINGS: &[Binding] = &[
         "Go to the next or previous group, or page of results."),
     pair(Place::FIELD.or(Place::RESULTS), "G/g End/Home", "", super::go_to_end, "Go to the last or first line."),
     // Everywhere.
-    row(Place::WORK, "F1 Alt-H", "help", help_page, "Show this page.").shown(),
+    row(Place::HELPED, "F1 Alt-H", "help", help_page, HELP)
+        .shown_in(Place::WORK.or(Place::PICK).or(Place::PATH).or(Place::ASK).or(Place::EXPLAIN)),
     row(Place::WORK, "Ctrl-S", "save", |app| files::save(app, Next::Stay),
         "Save the case; the file keeps its comments and order.").shown().unseen(),
     row(Place::WORK, "Ctrl-P", "commands", |app| type_command(app, ""),
@@ -498,8 +503,8 @@ pub static BINDINGS: &[Binding] = &[
             there.").shown(),
     row(Place::WORK, "Ctrl-O", "open", |app| super::browse(app, false),
         "Open another case in a tab.").shown(),
-    row(Place::WORK, "Ctrl-Q", "quit", files::quit,
-        "Quit; asks if there are unsaved edits.").shown().unseen(),
+    row(Place::ALL, "Ctrl-Q", "quit", files::quit,
+        "Quit; asks if there are unsaved edits.").shown_in(Place::WORK).unseen(),
     row(Place::FORM, "Esc", LEAVE_FIELD, super::leave,
         "Leave the field and keep its value; letters and digits are then commands.").shown(),
     row(Place::WORK, "Ctrl-T F6", "method", |app| edit::set_method(app, None),
@@ -612,9 +617,9 @@ pub static BINDINGS: &[Binding] = &[
     pair(Place::PAGE, "Space", "", super::leap, "Go to the next page."),
     row(Place::LIST.or(Place::PATH).or(Place::ASK), "Enter", "accept", App::accept,
         "Accept.").shown(),
-    row(Place::READ, "Enter q ? F1", "", super::leave, "Close the page."),
     row(Place::PROMPT, "Esc", "back", super::leave, "Close; no edit is lost.").shown(),
     row(Place::ALL, "Ctrl-C Ctrl-\\", "", super::cancel,
+    row(Place::READ, "Enter q ? F1 Alt-H", "", super::leave, "Close the page."),
         "Close a dialog or stop the running work. Otherwise press twice to quit; asks before \
             unsaved edits are discarded.").unseen(),
     // In an input line.
@@ -645,7 +650,7 @@ pub fn help() -> Vec<String> {
     // A row is listed in the first of its places.
     let home = |binding: &Binding| {
         PLACES.iter().position(|&(_, place)| match place {
-            Place::WORK => binding.places.holds(place),
+            Place::HELPED | Place::WORK => binding.places.holds(place),
             _ => binding.places.meets(place),
         })
     };
@@ -664,7 +669,14 @@ pub fn help() -> Vec<String> {
 }
 
 fn help_page(app: &mut App) {
-    app.prompts.push(Prompt::Read(Page::new("Help", Some(help()))));
+    let place = app.place();
+    let is_own = |(_, own): &&(_, Place)| own.meets(place) && *own != Place::HELPED;
+    let part = PLACES.iter().find(is_own).filter(|_| place.meets(Place::PROMPT));
+    let page = Page::new("Help", Some(help()));
+    app.prompts.push(Prompt::Read(match part {
+        Some((title, _)) => page.at(title, app),
+        None => page,
+    }));
 }
 
 fn cycle_marker(app: &mut App) {

@@ -29,6 +29,11 @@ const HOW: &str =
 
 /// Quits, or asks if there are unsaved edits.
 pub(super) fn quit(app: &mut App) {
+    app.close_titled(UNSAVED);
+    // The question may show another case than that of an open dialog.
+    if app.others.iter().any(Tab::is_unsaved) {
+        app.prompts.clear();
+    }
     let unsaved: Vec<_> = app.tabs().filter(|tab| tab.is_unsaved()).map(Tab::name).collect();
     let count = unsaved.len();
     if count < 2 {
@@ -422,6 +427,7 @@ fn leave(app: &mut App) {
     };
     let text = format!("The export to {} still runs.", path.display());
     let quit = ("Quit without the export", Choice::of(|app| app.want(Effect::Quit)));
+    app.close_titled(export::EXPORT_RUNS);
     app.ask(Question::new(export::EXPORT_RUNS, text, [("Wait", Choice::none()), quit]).on(0));
 }
 

@@ -131,7 +131,11 @@ pub(super) fn explain(app: &mut App) {
         })
     };
     app.start(Work::new(Slot::Explanation, page, |app, page| {
-        if let Some(Prompt::Explain(explanation)) = app.prompts.last_mut() {
+        let open = app.dialog_of(|prompt| match prompt {
+            Prompt::Explain(explanation) => Some(explanation),
+            _ => None,
+        });
+        if let Some(explanation) = open {
             explanation.page = Some(page);
         }
     }));

@@ -34,6 +34,13 @@ impl Page {
         Page { title: title.into(), lines, top: 0 }
     }
 
+    /// The page from a line of its text.
+    pub(crate) fn at(mut self, line: &str, app: &App) -> Page {
+        let top = self.wrapped(app).iter().position(|own| own.to_string() == line);
+        self.step(top.unwrap_or(0).cast_signed(), app);
+        self
+    }
+
     fn wrapped(&self, app: &App) -> Vec<Words<'static>> {
         let width = app.room().width;
         let lines = self.lines.clone().unwrap_or_else(|| in_full(app));

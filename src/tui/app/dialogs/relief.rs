@@ -64,6 +64,13 @@ impl ReliefDialog {
         }
     }
 
+    fn open(app: &mut App) -> Option<&mut ReliefDialog> {
+        app.dialog_of(|prompt| match prompt {
+            Prompt::Relief(dialog) => Some(&mut **dialog),
+            _ => None,
+        })
+    }
+
     /// Searches for the typed demand, as `tipstrike relief`.
     pub(crate) fn search(&mut self) -> Option<Work> {
         let demand = match Demand::parse(self.input.value()) {
@@ -82,7 +89,7 @@ impl ReliefDialog {
                 let percent = ((100.0 * part) as u8).max(shown.get());
                 if shown.replace(percent) != percent {
                     running.send(move |app| {
-                        if let Some(Prompt::Relief(dialog)) = app.prompts.last_mut() {
+                        if let Some(dialog) = ReliefDialog::open(app) {
                             dialog.percent = percent;
                         }
                     });
@@ -97,7 +104,7 @@ impl ReliefDialog {
             Some(found)
         };
         Some(Work::new(Slot::Relief, search, |app, found| {
-            if let Some(Prompt::Relief(dialog)) = app.prompts.last_mut() {
+            if let Some(dialog) = ReliefDialog::open(app) {
                 dialog.take(found);
             }
         }))
