@@ -392,21 +392,37 @@ impl Specification {
         json!({"shape": name(reliefs.shape), "driver": gear(0), "driven": gear(1)})
     }
 
-    /// A choice as values of the fields of a case, rounded as the report prints them.
+    /// A choice as values of the fields of a case, rounded as the report prints them, with the
+    /// tolerances of the demand as distributions; an empty one is none.
     pub fn settings(&self, at: usize) -> Vec<(&'static str, String)> {
         let ([amounts, lengths], reliefs) = (KEYS, &self.choices[at].reliefs);
         let mut settings = vec![("model.relief_shape", name(reliefs.shape).to_owned())];
         for at in 0..2 {
             let has_relief = reliefs.amounts[at] > 0.0;
+        let spread = |nominal: f64, tolerance: f64, unit| {
+            let width = tidy(tolerance / units::factor(unit).unwrap_or(1.0), 4);
+            let is_possible = 0.0 < tolerance && tolerance <= nominal;
+            if is_possible { format!("uniform {width} {unit}") } else { String::new() }
+        };
             let in_mm = format!("{} mm", mm(reliefs.lengths[at]));
             settings.push((amounts[at], format!("{} um", um(reliefs.amounts[at]))));
             settings.push((lengths[at], if has_relief { in_mm } else { String::new() }));
         }
         if self.is_over_face {
+            let length = if has_relief { reliefs.lengths[at] } else { 0.0 };
+            let spreads = [
+                spread(reliefs.amounts[at], self.demand.tolerance, "um"),
+                spread(length, self.tolerance_length(), "mm"),
+            ];
+            settings.extend(SPREADS.map(|keys| keys[at]).into_iter().zip(spreads));
             settings.push((CROWNING, format!("{} um", um(reliefs.crowning))));
         }
         settings
     }
+        if self.demand.misalignment > 0.0 {
+            let width = spread(f64::INFINITY, self.demand.misalignment, "um");
+            settings.push(("spread.deviations.misalignment", width));
+        }
 }
 
 impl Results for Specification {
@@ -549,6 +565,10 @@ const KEYS: [[&str; 2]; 2] = [
     ["driver.tip_relief_length", "driven.tip_relief_length"],
 ];
 const CROWNING: &str = "driver.crowning";
+];
+const SPREADS: [[&str; 2]; 2] = [
+    ["spread.driver.tip_relief", "spread.driven.tip_relief"],
+    ["spread.driver.tip_relief_length", "spread.driven.tip_relief_length"],
 const BOTH_GAPS: &str = "gap before E and after B at rest, um";
 
 type PlaceOf = fn(&Begin) -> f64;

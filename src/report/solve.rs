@@ -117,6 +117,8 @@ pub fn digest(
 const SAMPLES: usize = 10_000;
 /// Samples of a method that shares the load: a solve takes a hundred times as long.
 const FEW_SAMPLES: usize = 1000;
+/// Samples of a load over the face width: a solve can take a second.
+const FEWEST_SAMPLES: usize = 100;
 /// Seed of the command `tolerance`.
 const SEED: u64 = 1;
 /// Quantities of variants in addition to the headline quantities.
@@ -324,7 +326,11 @@ impl Unsolved<'_> {
 
     fn tolerance(&self, go_on: GoOn) -> Result<Option<(Tolerance, Samples)>, Refusal> {
         let is_slow = self.inputs.method.shares_load() || self.inputs.method == Method::Auto;
-        let samples = if is_slow { FEW_SAMPLES } else { SAMPLES };
+        let samples = match self.inputs.face() {
+            Some(_) if is_slow => FEWEST_SAMPLES,
+            _ if is_slow => FEW_SAMPLES,
+            _ => SAMPLES,
+        };
         let size = Size { samples, seed: SEED, ranked: Some(0) };
         let Ok(study) = Tolerance::of(self.case, self.inputs, &[], size) else { return Ok(None) };
         let samples = study.run(self.inputs, &Control { jobs: None, go_on });

@@ -9,12 +9,11 @@ fn the_relief_to_specify_is_written_into_the_case_as_one_edit() {
     desk.keys(&["Esc", ":", "relief", "Enter"]);
     insta::assert_snapshot!("relief_140x45", desk.screen());
     desk.keys(&["Enter"]);
-    let amounts = [desk.text("driver.tip_relief"), desk.text("driven.tip_relief")];
-    assert!(
-        amounts.iter().all(|amount| *amount != "0 um" && amount.ends_with(" um")),
-        "{amounts:?}"
-    );
+    let amounts = ["driver.tip_relief", "driven.tip_relief"].map(|key| desk.text(key));
+    desk.assert(amounts.iter().all(|amount| *amount != "0 um" && amount.ends_with(" um")));
     assert!(desk.text("driven.tip_relief_length").ends_with(" mm"));
+    let spread = desk.app.tab.case.spread.iter().map(|own| own.text.as_str());
+    assert!(spread.eq(["uniform 5 um", "uniform 0.1 mm", "uniform 5 um", "uniform 0.1 mm"]));
     desk.assert_shows("Ctrl-Z undoes");
     desk.keys(&["Ctrl-Z"]);
     assert!(!desk.app.tab.is_unsaved(), "one edit");

@@ -377,15 +377,15 @@ pub(super) fn ask_relief(app: &mut App) {
     app.prompts.push(Prompt::Relief(Box::new(dialog)));
 }
 
-/// Writes the relief into the form as one edit.
+/// Writes the relief and its tolerances into the form as one edit.
 fn take_relief(app: &mut App, values: &[(&'static str, String)]) {
     app.prompts.pop();
-    let words = values.iter().map(|(key, text)| {
-        let Field { symbol, label, .. } = index_of(key).map_or(FIELDS[0], |field| FIELDS[field]);
+    let words = values.iter().filter_map(|(key, text)| {
+        let Field { symbol, label, .. } = FIELDS[index_of(key)?];
         let name = if symbol.is_empty() { label } else { symbol };
         format!("{} {text}", text::symbol(name, app.look.ascii))
     });
-    let words: Vec<String> = words.collect();
+    let words: Vec<String> = words.chain(["tolerances in [spread]".to_owned()]).collect();
     set_values(app, values, &words.join(", "));
 }
 
