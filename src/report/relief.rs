@@ -19,9 +19,9 @@ use crate::study::relief::{
 };
 
 impl Specification {
-    /// The specification with one of its choices: rows of tables of at most 80 columns, and
-    /// unwrapped sentences.
-    pub fn of_choice(&self, at: usize) -> Vec<String> {
+    /// The specification with one of its choices, without its gains if these are shown elsewhere:
+    /// rows of tables of at most 80 columns, and unwrapped sentences.
+    pub fn of_choice(&self, at: usize, has_gains: bool) -> Vec<String> {
         let is_moving = self.method == Method::Dynamic;
         let (figure, greatest) = (self.figure(), percent(self.demand.greatest_load()));
         let within = match self.demand.minimise.worth() {
@@ -36,6 +36,7 @@ impl Specification {
         let costs = costs.chain(is_moving.then_some("dynamic_factor"));
         let costs: Vec<&str> = costs.chain(["margin", "greatest_load"]).collect();
         let force = if is_moving { "in motion" } else { "at rest" };
+        const GAINS: usize = 1;
         let tables = [
             (
                 format!("Before and after, forces {force} at {greatest} % of the load"),
@@ -75,7 +76,8 @@ impl Specification {
         lines.extend(self.drawing(at).lines());
         lines.push(String::new());
         lines.extend(self.sentences(at));
-        for (title, table) in tables {
+        let is_shown = |(at, _): &(usize, _)| has_gains || *at != GAINS;
+        for (_, (title, table)) in tables.into_iter().enumerate().filter(is_shown) {
             lines.extend([String::new(), title]);
             lines.extend(table.lines());
         }
@@ -397,32 +399,32 @@ impl Specification {
     pub fn settings(&self, at: usize) -> Vec<(&'static str, String)> {
         let ([amounts, lengths], reliefs) = (KEYS, &self.choices[at].reliefs);
         let mut settings = vec![("model.relief_shape", name(reliefs.shape).to_owned())];
-        for at in 0..2 {
-            let has_relief = reliefs.amounts[at] > 0.0;
         let spread = |nominal: f64, tolerance: f64, unit| {
             let width = tidy(tolerance / units::factor(unit).unwrap_or(1.0), 4);
             let is_possible = 0.0 < tolerance && tolerance <= nominal;
             if is_possible { format!("uniform {width} {unit}") } else { String::new() }
         };
+        for at in 0..2 {
+            let has_relief = reliefs.amounts[at] > 0.0;
             let in_mm = format!("{} mm", mm(reliefs.lengths[at]));
             settings.push((amounts[at], format!("{} um", um(reliefs.amounts[at]))));
             settings.push((lengths[at], if has_relief { in_mm } else { String::new() }));
-        }
-        if self.is_over_face {
             let length = if has_relief { reliefs.lengths[at] } else { 0.0 };
             let spreads = [
                 spread(reliefs.amounts[at], self.demand.tolerance, "um"),
                 spread(length, self.tolerance_length(), "mm"),
             ];
             settings.extend(SPREADS.map(|keys| keys[at]).into_iter().zip(spreads));
+        }
+        if self.is_over_face {
             settings.push((CROWNING, format!("{} um", um(reliefs.crowning))));
         }
-        settings
-    }
         if self.demand.misalignment > 0.0 {
             let width = spread(f64::INFINITY, self.demand.misalignment, "um");
             settings.push(("spread.deviations.misalignment", width));
         }
+        settings
+    }
 }
 
 impl Results for Specification {
@@ -436,7 +438,7 @@ impl Results for Specification {
     fn lines(&self, case: Named) -> Vec<String> {
         // Rows of tables fit; only sentences are wrapped.
         let is_short = |line: &String| line.chars().count() <= WIDTH;
-        let lines = self.of_choice(self.best).into_iter();
+        let lines = self.of_choice(self.best, true).into_iter();
         let lines =
             lines.flat_map(|line| if is_short(&line) { vec![line] } else { item("", &line) });
         std::iter::once(case.heading()).chain(lines).collect()
@@ -564,11 +566,11 @@ const KEYS: [[&str; 2]; 2] = [
     ["driver.tip_relief", "driven.tip_relief"],
     ["driver.tip_relief_length", "driven.tip_relief_length"],
 ];
-const CROWNING: &str = "driver.crowning";
-];
 const SPREADS: [[&str; 2]; 2] = [
     ["spread.driver.tip_relief", "spread.driven.tip_relief"],
     ["spread.driver.tip_relief_length", "spread.driven.tip_relief_length"],
+];
+const CROWNING: &str = "driver.crowning";
 const BOTH_GAPS: &str = "gap before E and after B at rest, um";
 
 type PlaceOf = fn(&Begin) -> f64;

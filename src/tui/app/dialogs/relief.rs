@@ -141,7 +141,7 @@ impl ReliefDialog {
     fn lines(&self, app: &App) -> Vec<Words<'static>> {
         let width = app.room().width;
         let lines = match (self.found(), &self.answer) {
-            (Some(found), _) => found.of_choice(self.selected),
+            (Some(found), _) => found.of_choice(self.selected, false),
             (None, Some(Err(reason))) => vec![reason.clone()],
             _ => Vec::new(),
         };
