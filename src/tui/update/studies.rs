@@ -336,15 +336,50 @@ pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), Strin
         let draw = move |_: &Running<'_>| Ok(svg::draw(&chart, &caption));
         return Ok((" the picture of the study".to_owned(), Box::new(draw)));
     }
-    let (request, command) = repeated(app, format_of(path).unwrap_or(Format::Csv))?;
+    let format = format_of(path).unwrap_or(Format::Csv);
+    let (request, command) = repeated(app, format)?;
+    let shown = app.tab.study.request.as_ref().map(|request| &request.parameters);
+    let (axes, layers) = match shown {
+        Some(StudyParameters::Grid(grid)) if format == Format::Csv => {
+            (grid.axes.len(), grid.layers.get(1..).unwrap_or_default().to_vec())
+        }
+        _ => (0, Vec::new()),
+    };
+    let beside = if layers.is_empty() { "" } else { " with the other curves" };
     let content = move |running: &Running<'_>| {
         let refused = |problem: Problem| format!("{}: {}", problem.cause, problem.fix);
-        let mut study = Study::restore(&request).map_err(refused)?;
-        let needed: Vec<_> = study.quantities.iter().map(|quantity| quantity.stage).collect();
-        study.inputs = study.inputs.needing(needed);
-        text_of(&study, running).map_err(|error| error.to_string())
+        let text = |layer: Option<&Layer>| {
+            let mut study = Study::restore(&request).map_err(refused)?;
+            if let Some(layer) = layer {
+                study.inputs = layer.inputs.clone();
+                study.quantities = layer.quantity().into_iter().collect();
+            }
+            let needed: Vec<_> = study.quantities.iter().map(|quantity| quantity.stage).collect();
+            study.inputs = study.inputs.needing(needed);
+            text_of(&study, running).map_err(|error| error.to_string())
+        };
+        let mut all = text(None)?;
+        for (at, layer) in layers.iter().enumerate() {
+            all = with_column(&all, axes + at, &text(Some(layer))?, axes, layer.name());
+        }
+        Ok(all)
     };
-    Ok((format!(" the study, as `{command}`,"), Box::new(content)))
+    Ok((format!(" the study, as `{command}`{beside},"), Box::new(content)))
+}
+
+/// A table of CSV with a column of another table after one of its columns. A title that the table has
+/// already gets the name before it.
+fn with_column(table: &str, after: usize, other: &str, column: usize, name: &str) -> String {
+    let titles: Vec<&str> = table.lines().next().unwrap_or_default().split(',').collect();
+    let rows = table.lines().zip(other.lines()).enumerate().map(|(row, (line, other))| {
+        let cell = other.split(',').nth(column).unwrap_or_default();
+        let is_known = row == 0 && titles.contains(&cell);
+        let cell = if is_known { format!("{name} {cell}") } else { cell.to_owned() };
+        let mut cells: Vec<&str> = line.split(',').collect();
+        cells.insert((after + 1).min(cells.len()), &cell);
+        cells.join(",") + "\n"
+    });
+    rows.collect()
 }
 
 /// The command that repeats the shown study.
