@@ -41,6 +41,7 @@ fn the_curve_follows_every_edit_and_the_baseline_stays_behind_it() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", "6", "b"]);
     desk.fill("operation.power", "20 kW").assert_shows("+ baseline");
+    assert!(key_and_ends(&desk)[0].starts_with("pair.module"), "it keeps its field");
     for (keys, ends) in [
         (&["Esc", "6"][..], "10 kW 30 kW"),
         (&["+"], "15 kW 25 kW"),

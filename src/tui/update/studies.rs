@@ -66,6 +66,7 @@ const METHODS: [Method; 4] = [Method::Exact, Method::Paper, Method::Static, Meth
 /// Requests the visible study if it differs from the last one; stops a hidden one.
 pub(super) fn request(app: &mut App) {
     let is_visible = app.layout.plan().shows(Pane::Study);
+    app.study.opened = if is_visible { app.study.opened.or(focused(app)) } else { None };
     let Some(parameters) = is_visible.then(|| parameters(app)) else {
         app.cancel(Slot::Study);
         return;
@@ -135,13 +136,25 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
     Ok(StudyParameters::Grid(GridParameters { axes, layers }))
 }
 
-/// The chosen field, otherwise the focused field of the form.
+/// Goes to the study; from the form, of the focused field unless a field is chosen.
+pub(super) fn open(app: &mut App) {
+    if app.layout.focus == Pane::Form {
+        app.study.opened = focused(app);
+    }
+    panes::show(app, Pane::Study);
+}
+
+/// The chosen field, otherwise the focused field when the pane opened.
 fn field(app: &App) -> Option<usize> {
-    app.study.field.or(match rows::row(&app.tab.case, app.tab.form.focus) {
+    app.study.field.or(app.study.opened).or(focused(app))
+}
+
+fn focused(app: &App) -> Option<usize> {
+    match rows::row(&app.tab.case, app.tab.form.focus) {
         Row::Field(field) => Some(field),
         Row::Spread(spread) => index_of(spread.field),
         Row::Limit(_) => None,
-    })
+    }
 }
 
 /// The curves: the active method, the other methods, the baseline.
@@ -270,10 +283,10 @@ fn show_grid(app: &mut App) {
     }
 }
 
-/// Opens the list of fields for the study. Its first line follows the focused field again.
+/// Opens the list of fields for the study. Its first line is the focused field of the form.
 pub(super) fn first(app: &mut App) {
-    let follow = Choice::of(|app| app.study.field = None);
-    let about = "the study follows the focused field of the form".to_owned();
+    let follow = Choice::of(|app| (app.study.field, app.study.opened) = (None, None));
+    let about = "study the focused field of the form".to_owned();
     let picker = Picker::fields("Field of the study", false, |app, field| {
         (app.study.field, app.study.is_tolerance) = (Some(field), false);
         app.study.second = app.study.second.filter(|second| *second != field);

@@ -48,8 +48,10 @@ pub struct StudyState {
     pub(crate) is_tolerance: bool,
     /// Whether the pane shows the points as a table.
     pub(crate) is_table: bool,
-    /// The chosen field; otherwise the study follows the focused one.
+    /// The chosen field; otherwise the field that had the focus when the pane opened.
     pub(crate) field: Option<usize>,
+    /// The focused field when the pane opened.
+    pub(crate) opened: Option<usize>,
     /// The key of the chosen quantity; otherwise the study follows the selected result.
     pub(crate) quantity: Option<&'static str>,
     /// The typed ranges.
