@@ -655,7 +655,7 @@ pub enum System {
 
 /// Each shown metric unit and its inch unit. Both systems use units that are not in this list, such
 /// as deg, rpm or us.
-const PAIRS: [(&str, &str); 21] = [
+const PAIRS: [(&str, &str); 22] = [
     ("m", "ft"),
     ("mm", "in"),
     ("um", "thou"),
@@ -675,6 +675,7 @@ const PAIRS: [(&str, &str); 21] = [
     ("m/s", "ft/s"),
     ("um mm/N", "in2/lbf"),
     ("m2/N", "in2/lbf"),
+    ("N/(mm um)", "psi"),
     ("N/um", "lbf/in"),
     ("N/mm", "lbf/in"),
 ];
