@@ -35,8 +35,6 @@ pub enum About {
     Case,
     /// Almost every case by a closed form: JSON has the note; elsewhere it is a finding of `explain`.
     General,
-    /// A choice of the case or of `auto` on how to compute: pages for others do not have it.
-    Setting,
 }
 
 impl std::fmt::Display for Note {
@@ -54,10 +52,6 @@ impl Note {
 
     fn general(code: &'static str, message: String) -> Note {
         Note { about: About::General, ..Note::case(code, message) }
-    }
-
-    fn setting(code: &'static str, message: String) -> Note {
-        Note { about: About::Setting, ..Note::case(code, message) }
     }
 }
 
@@ -105,7 +99,7 @@ const ROWS: &[fn(&Context) -> Option<Note>] = &[
         let choice = k.solution.choice?;
         let model = || format!("; tooth compliance `{}`", model_of(k.inputs).name());
         let model = k.inputs.tooth_compliance.map_or_else(model, |_| String::new());
-        Some(Note::setting("method-taken", format!("{choice}{model}")))
+        Some(Note::case("method-taken", format!("{choice}{model}")))
     },
     |k| {
         let given = k.inputs.deflection.filter(|_| k.solution.method.shares_load())?;
@@ -268,7 +262,7 @@ const ROWS: &[fn(&Context) -> Option<Note>] = &[
             "the deflection of {} um is given: power and torque change only F_0, not D or the impact",
             micro(given)
         );
-        Some(Note::setting("deflection-given", message))
+        Some(Note::case("deflection-given", message))
     },
     |k| {
         let common = k.inputs.base_pitch_deviation;
