@@ -223,9 +223,12 @@ fn a_new_variant_is_appended_without_other_changes() {
 
 #[test]
 fn a_new_document_is_a_commented_text_with_every_field() {
-    let document = Document::new(Case::table_1());
-    let text = document.render();
-    assert_eq!(parsed(&text).case, Case::table_1());
+    let text = Document::new(Case::table_1()).render();
+    let mut document = parsed(&text);
+    assert_eq!(document.case, Case::table_1());
+    document.case.apply("about.drawing no.", Some("7")).unwrap();
+    assert!(document.render().contains("\n\n# Texts for the page of a report, with any keys.\n[about]\n\"drawing no.\" = \"7\"\n\n#"));
+    assert_eq!(parsed(&document.render()).case, document.case);
     for field in &FIELDS {
         let line =
             |line: &str| line.trim_start_matches("# ").starts_with(&format!("{} = ", field.name()));

@@ -144,10 +144,10 @@ fn the_dialog_names_the_file_that_a_save_would_replace() {
 #[test]
 fn a_line_for_the_reports_is_typed_and_undone() {
     let mut desk = Desk::new(LARGE);
-    let project = ("project".to_owned(), "GB 12".to_owned());
-    desk.keys(&["Esc", ":", "about project = GB 12", "Enter"]);
+    let project = ("drawing pinion".to_owned(), "GB 12".to_owned());
+    desk.keys(&["Esc", ":", "about drawing pinion = GB 12", "Enter"]);
     assert!(desk.app.tab.case.about.contains(&project) && desk.app.tab.is_unsaved());
     desk.keys(&["u"]);
     assert!(!desk.app.tab.case.about.contains(&project));
-    desk.keys(&[":", "about a b = c", "Enter"]).assert_shows("letters, digits, - and _");
+    desk.keys(&[":", "about a b c", "Enter"]).assert_shows("a name and a text with = between");
 }

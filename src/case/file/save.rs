@@ -85,6 +85,9 @@ pub(super) fn are_same(one: &Case, other: &Case) -> bool {
     sorted(one) == sorted(other)
 }
 
+/// The table `[about]` of a new case.
+const ABOUT_EXAMPLE: &str = "# [about]\n# project = \"\"\n# author = \"\"";
+
 /// A commented case, valid if the case is valid. `comments` are additional comments by key.
 pub(super) fn template(case: &Case, comments: &[(&str, String)]) -> String {
     let values = written(case);
@@ -129,7 +132,7 @@ pub(super) fn template(case: &Case, comments: &[(&str, String)]) -> String {
     }
     let about = of_table(&["about"]);
     let lines = if about.is_empty() {
-        "# [about]\n# project = \"\"\n# author = \"\"".to_owned()
+        ABOUT_EXAMPLE.to_owned()
     } else {
         format!("[about]\n{}", about.join("\n"))
     };
@@ -339,6 +342,15 @@ fn example_of(text: &str, layout: &Layout, new: &Written) -> Option<Range<usize>
     found.map(|(at, _)| at..at + comment.len())
 }
 
+/// The lines with the example of the table `[about]`, if the next entry is a header.
+fn example_of_about(text: &str, layout: &Layout) -> Option<Range<usize>> {
+    let start = text.find(&format!("\n{ABOUT_EXAMPLE}\n"))? + 1;
+    let is_inside = layout.values().any(|own| own.span.contains(&start));
+    let next = layout.entries.iter().filter(|own| own.start > start).min_by_key(|own| own.start);
+    let is_free = !is_inside && next.is_none_or(|own| own.place == Place::Header);
+    is_free.then(|| start..start + ABOUT_EXAMPLE.len())
+}
+
 /// Inserts an entry after the last entry of its table. A new table is at the end of the text.
 fn insert(text: &mut String, layout: &Layout, new: &Written) {
     let table = new.table();
@@ -393,6 +405,9 @@ fn append(text: &mut String, layout: &Layout, new: &Written) {
     let (table, end) = (new.table(), line_end(text));
     let names: Vec<String> = table.iter().map(|name| key_of(name)).collect();
     let added = format!("[{}]{end}{}{end}", names.join("."), new.line());
+    if let Some(example) = example_of_about(text, layout).filter(|_| table == ["about"]) {
+        return text.replace_range(example, added.trim_end());
+    }
     let inner = layout.headers().find(|header| header.path.starts_with(table));
     match inner.filter(|_| table.len() > 1) {
         // Above the other tables of a variant, so that the variants keep their order.

@@ -355,10 +355,9 @@ pub(super) fn set_spread(app: &mut App, text: &str) {
 /// Writes a line of `[about]`, such as `project = GB 12`; an empty text removes it.
 pub(super) fn set_about(app: &mut App, text: &str) {
     let (name, value) = text.split_once('=').unwrap_or((text, ""));
-    let (name, value) = (name.trim(), value.trim());
-    let is_key = |letter: char| letter.is_ascii_alphanumeric() || "-_".contains(letter);
-    if name.is_empty() || !name.chars().all(is_key) || !text.contains('=') {
-        return app.complain("type a name of letters, digits, - and _, then =: project = GB 12");
+    let (name, value) = (name.trim().trim_matches('"'), value.trim());
+    if name.is_empty() || !text.contains('=') {
+        return app.complain("type a name and a text with = between: drawing number = GB 12");
     }
     let mut case = app.tab.case.clone();
     if let Err(problem) = case.apply(&format!("about.{name}"), Some(value)) {
@@ -383,7 +382,7 @@ fn take_relief(app: &mut App, values: &[(&'static str, String)]) {
     let words = values.iter().filter_map(|(key, text)| {
         let Field { symbol, label, .. } = FIELDS[index_of(key)?];
         let name = if symbol.is_empty() { label } else { symbol };
-        format!("{} {text}", text::symbol(name, app.look.ascii))
+        Some(format!("{} {text}", text::symbol(name, app.look.ascii)))
     });
     let words: Vec<String> = words.chain(["tolerances in [spread]".to_owned()]).collect();
     set_values(app, values, &words.join(", "));
