@@ -205,13 +205,21 @@ impl Plot {
         }
     }
 
-    /// Draws a name on the horizontal axis, unless another one is there.
+    /// Draws a name on the horizontal axis, at or beside its place, unless other names are there.
     pub(crate) fn draw_mark(&self, x: f64, name: &str, style: Style, buffer: &mut Buffer) {
         let Some(column) = self.column(x) else { return };
         let (width, y) = (name.width() as u16, self.cells.bottom());
-        let start = column.saturating_sub(width / 2).clamp(self.cells.x, column);
-        let is_free = |x| buffer.cell((x, y)).is_some_and(|cell| AXIS.contains(cell.symbol()));
-        if (start..start + width).all(is_free) {
+        let middle = column.saturating_sub(width / 2).clamp(self.cells.x, column);
+        let left = (column + 1).saturating_sub(width).max(self.cells.x);
+        let is_word = |cell: &Cell| cell.symbol().starts_with(char::is_alphanumeric);
+        let is_free = |x| buffer.cell((x, y)).is_some_and(|cell| !is_word(cell));
+        // Between words is a gap.
+        let gap = u16::from(width > 1);
+        let has_room = |start: &u16| {
+            let end = start + width;
+            end <= self.cells.right() && (start - gap..end + gap).all(is_free)
+        };
+        if let Some(start) = [middle, column, left].into_iter().find(has_room) {
             buffer.set_string(start, y, name, style);
         }
     }
