@@ -637,7 +637,7 @@ fn a_pair_without_slices_has_no_contact_pattern() {
     // A misaligned spur pair has slices; its contact lines are parallel to the axis.
     let mut desk = at_method(SMALL, "static");
     desk.fill("deviations.misalignment", "20 um");
-    desk.keys(&["Esc", "3", "k"]).assert_shows("Line load at rest in N/mm over");
+    desk.keys(&["Esc", "3", "k"]).assert_shows("Line load at rest over roll angle, z in mm");
 }
 
 #[test]

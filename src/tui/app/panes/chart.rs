@@ -524,8 +524,12 @@ impl<'a> Charts<'a> {
             chart.iter().flat_map(|chart| chart.series.iter().enumerate().map(look)).collect();
         let is_running = self.0.runs(Slot::Chart, self.0.tab.chart_work.work);
         let running = is_running && !self.0.tab.shows_last_valid() && !is_pattern;
-        let words =
-            chart.as_ref().map_or_else(|| of.words()[0].to_owned(), |chart| chart.quantities());
+        // The legend of a map has the unit of its values; the title fits beside the hidden panes.
+        let title = |chart: &Chart| match &chart.map {
+            Some(map) => format!("{} over roll angle, {}", map.value.name, chart.up.in_unit()),
+            None => chart.quantities(),
+        };
+        let words = chart.as_deref().map_or_else(|| of.words()[0].to_owned(), title);
         let missing = || match self.answer() {
             Some(answer) if is_pattern => {
                 let solution: Vec<_> = self.solution().into_iter().collect();
