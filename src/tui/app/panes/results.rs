@@ -143,22 +143,13 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
     let cells = columns.first().map_or(0, |column| column.cells.len());
     let header = app.has_result_header().then_some(None);
     let lines = header.into_iter().chain((0..cells).map(Some)).map(|line| {
-        let unit = columns.iter().find(|column| column.is_unit);
-        // A long unit moves the numbers of its row to the left and cuts the name.
-        let over = unit
-            .zip(line)
-            .map_or(0, |(unit, line)| text::width(&unit.cells[line]).saturating_sub(unit.width()));
+        let widths = widths(&columns, line);
         let is_marked = line.is_some() && row == line && app.has_focus(Pane::Results);
         let mark = Span::styled(if is_marked { "▸" } else { " " }, theme.focus);
-        let cells = columns.iter().map(|column| {
+        let cells = columns.iter().zip(widths).map(|(column, width)| {
             let (text, style) = match line {
                 Some(line) => (&column.cells[line], column.styles[1]),
                 None => (&column.heading, column.styles[0]),
-            };
-            let width = match column.width() {
-                width if column.is_unit => width + over,
-                width if column.rank == NAMES => width - over.min(width),
-                width => width,
             };
             let gap = if column.is_number { width.saturating_sub(text::width(text)) } else { 0 };
             let text = format!("{}{} ", " ".repeat(gap), text::padded(text, width - gap));
@@ -167,6 +158,25 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
         [mark].into_iter().chain(cells).collect::<Line<'_>>().style(base)
     });
     lines.collect::<Text<'_>>().render(body, buffer);
+}
+
+/// The widths of the columns in a line. A long unit cuts the name before it, and otherwise moves the texts
+/// before it to the left.
+fn widths(columns: &[Column], line: Option<usize>) -> Vec<usize> {
+    let mut widths: Vec<usize> = columns.iter().map(Column::width).collect();
+    let unit = columns.iter().position(|column| column.is_unit);
+    let Some((unit, line)) = unit.zip(line) else { return widths };
+    let width = |at: usize| text::width(&columns[at].cells[line]);
+    let mut over = width(unit).saturating_sub(widths[unit]);
+    widths[unit] += over;
+    let mut before: Vec<usize> = (0..unit).rev().collect();
+    before.sort_by_key(|at| columns[*at].rank != NAMES);
+    for at in before {
+        let least = if columns[at].rank == NAMES { 0 } else { width(at) };
+        let part = over.min(widths[at].saturating_sub(least));
+        (widths[at], over) = (widths[at] - part, over - part);
+    }
+    widths
 }
 
 /// A sentence above the table.
