@@ -402,7 +402,7 @@ impl App {
             return None;
         }
         self.last_serial += 1;
-        (tab.serial, tab.requested) = (self.last_serial, wanted);
+        (tab.serial, tab.requested, tab.valid) = (self.last_serial, wanted, Some(case));
         (tab.is_settled, tab.solving) = (false, None);
         Some(self.tab.request())
     }

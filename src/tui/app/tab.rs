@@ -51,6 +51,8 @@ pub struct Tab {
     pub problems: Vec<(usize, Problem)>,
     /// The serial of the last request. No two tabs share a serial.
     pub serial: u64,
+    /// The valid form of that request.
+    pub(crate) valid: Option<Case>,
     /// The results of that request.
     pub(crate) requested: Wanted,
     /// Progress of a slow solve.
@@ -112,6 +114,7 @@ impl Tab {
             history: History::default(),
             problems: Vec::new(),
             serial: 0,
+            valid: None,
             requested: Wanted::NOTHING,
             solving: None,
             is_settled: false,

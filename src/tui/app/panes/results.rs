@@ -281,7 +281,7 @@ fn sentences(app: &App) -> Vec<Sentence> {
             add(format!("! {}", limit(verdict)), theme.problem, Place::Pane);
         }
         let place = if has_fault { Place::Room } else { Place::Pane };
-        let age = if app.tab.shows_last_valid() { "LAST VALID: " } else { "" };
+        let age = age(app, answer);
         let is_pending = answer.strikes() && app.tab.lacks(Stage::Clearing);
         let verdict = digest::sentence(solution, app.settings.units, is_pending);
         add(format!("{age}{verdict}"), fresh(theme.focus), place);
@@ -312,6 +312,18 @@ fn sentences(app: &App) -> Vec<Sentence> {
         add(format!("Note: {note}."), fresh(theme.note), place);
     }
     all
+}
+
+/// The beginning of the verdict of results that belong to an earlier state of the form, with the value
+/// of the faulty field in that state.
+fn age(app: &App, answer: &Answer) -> String {
+    if !app.tab.shows_last_valid() {
+        return String::new();
+    }
+    let row = app.tab.problems.iter().map(|(row, _)| *row).min();
+    let valid = app.tab.valid.as_ref().filter(|_| answer.serial == app.tab.serial);
+    let text = row.zip(valid).and_then(|(row, case)| rows::text(case, row));
+    text.map_or_else(|| "LAST VALID: ".to_owned(), |text| format!("LAST VALID ({text}): "))
 }
 
 /// Why the results belong to an earlier state of the form: the cause, then the fix.
