@@ -56,6 +56,7 @@ fn marked(desk: &Desk) -> String {
 #[test]
 fn the_case_under_the_cursor_shows_its_verdict() {
     let mut desk = desk_before_a_shelf(LARGE);
+    desk.write("sub/Cargo.toml", "[package]\n");
     desk.keys(&["Ctrl-O"]);
     assert_eq!(marked(&desk), "case.toml", "the present case, among the others");
     for (file, expected) in [

@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 use std::fs;
+use std::io::Read;
 use std::path::{self, Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -24,6 +25,8 @@ const DEEPEST: usize = 6;
 const MOST_ENTRIES: usize = 50_000;
 /// Greatest number of cases to find.
 const MOST_CASES: usize = 2_000;
+/// Bytes of a file that show whether it is a case.
+const HEAD: u64 = 1 << 16;
 /// Greatest duration of the search.
 const LONGEST: Duration = Duration::from_secs(2);
 
@@ -122,6 +125,19 @@ fn is_case(file: &Path) -> bool {
         || rexs::is_model(file)
 }
 
+/// Whether a file has a key of a case, or is a model.
+fn has_a_case(file: &Path) -> bool {
+    let mut text = Vec::new();
+    let is_read = file.is_file()
+        && fs::File::open(file).is_ok_and(|file| file.take(HEAD).read_to_end(&mut text).is_ok());
+    let is_of_case = |line: &str| {
+        let key = line.split('=').next().unwrap_or_default().trim().trim_start_matches('[');
+        let table = key.split(['.', ']']).next().unwrap_or_default();
+        matches!(table, "format" | "pair" | "driver" | "driven" | "operation")
+    };
+    rexs::is_model(file) || is_read && String::from_utf8_lossy(&text).lines().any(is_of_case)
+}
+
 /// Lists a folder; the paths of its entries begin with `shown`.
 pub fn list(shown: &Path, place: PathBuf) -> Listing {
     let folder = fs::canonicalize(&place).or_else(|_| path::absolute(&place)).unwrap_or(place);
@@ -206,8 +222,10 @@ pub(crate) fn preview(
         Target::Folder(path) => Some(match entries(&at_home(path), path) {
             Ok(entries) => {
                 let folders = entries.iter().filter(|entry| entry.is_folder()).count();
-                let [cases, folders] = [(entries.len() - folders, "case"), (folders, "folder")]
-                    .map(|(count, one)| {
+                let is_case = |entry: &&Entry| matches!(&entry.target, Target::File(path) if has_a_case(&at_home(path)));
+                let cases = entries.iter().filter(is_case).count();
+                let [cases, folders] =
+                    [(cases, "case"), (folders, "folder")].map(|(count, one)| {
                         format!("{count} {one}{}", if count == 1 { "" } else { "s" })
                     });
                 vec![(format!("A folder with {cases}, {folders}."), PLAIN)]
