@@ -70,6 +70,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("", ":about", "", "Commands"),
     ("X", ":reload", "", "[> Cancel <]"),
     ("", ":journals", "", "no ended session left unsaved edits"),
+    ("", ":seek", "", "tipstrike seek CASE --vary"),
     ("", ":relief", "", "Loads, tolerances, te|peak|entry"),
     // Chart and teeth.
     ("Esc 3", "Space", "", "[ticks]"),

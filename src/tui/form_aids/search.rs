@@ -118,10 +118,11 @@ fn fit(sought: &str, word: &str) -> Option<u32> {
     }
 }
 
-/// Whether the word becomes the query by removing letters after the first.
+/// Whether the word becomes the query by removing letters after the first, at most two of three.
 fn is_shortened(sought: &str, word: &str) -> bool {
     let mut rest = word.chars();
-    word.chars().next() == sought.chars().next()
+    word.len() <= 3 * sought.len()
+        && word.chars().next() == sought.chars().next()
         && sought.chars().all(|letter| rest.any(|other| other == letter))
 }
 

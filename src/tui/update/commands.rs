@@ -569,6 +569,8 @@ pub static BINDINGS: &[Binding] = &[
         "List the unsaved edits of ended sessions, and delete them on request."),
     row(Place::WORK, "", "sweep", studies::ask_range,
         "Study a result over one or two fields: type their ranges."),
+    row(Place::WORK, "", "seek", |app| app.say(SEEK),
+        "Find where a condition on a result changes, by the command in the shell."),
     row(Place::WORK, "", "relief", edit::ask_relief,
         "Find the tip relief to specify on both gears, and write it into the case."),
     row(Place::WORK, "", "theme", cycle_theme, "Switch the colours: quiet, contrast, mono."),
@@ -617,9 +619,9 @@ pub static BINDINGS: &[Binding] = &[
     pair(Place::PAGE, "Space", "", super::leap, "Go to the next page."),
     row(Place::LIST.or(Place::PATH).or(Place::ASK), "Enter", "accept", App::accept,
         "Accept.").shown(),
+    row(Place::READ, "Enter q ? F1 Alt-H", "", super::leave, "Close the page."),
     row(Place::PROMPT, "Esc", "back", super::leave, "Close; no edit is lost.").shown(),
     row(Place::ALL, "Ctrl-C Ctrl-\\", "", super::cancel,
-    row(Place::READ, "Enter q ? F1 Alt-H", "", super::leave, "Close the page."),
         "Close a dialog or stop the running work. Otherwise press twice to quit; asks before \
             unsaved edits are discarded.").unseen(),
     // In an input line.
