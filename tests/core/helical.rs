@@ -185,6 +185,7 @@ fn the_other_hand_and_misalignment_mirror_the_load() {
     let [one, other] = [one, other].map(|inputs| solve(&inputs, STATIC).expect("a load"));
     let [this, that] = [&one, &other].map(|solution| solution.face_load.as_ref().expect("slices"));
     assert_eq!(this.first.z.to_bits(), (-that.first.z).to_bits());
+    assert!((this.peak.place.z + that.peak.place.z).abs() < 1e-9);
     for (one, other) in values(&one).into_iter().zip(values(&other)) {
         assert!((one / other - 1.0).abs() < 1e-9, "{one:e} {other:e}");
     }
