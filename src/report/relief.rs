@@ -22,6 +22,8 @@ impl Specification {
     /// The specification with one of its choices, without its gains if these are shown elsewhere:
     /// rows of tables of at most 80 columns, and unwrapped sentences.
     pub fn of_choice(&self, at: usize, has_gains: bool) -> Vec<String> {
+        /// Of the tables.
+        const GAINS: usize = 1;
         let is_moving = self.method == Method::Dynamic;
         let (figure, greatest) = (self.figure(), percent(self.demand.greatest_load()));
         let within = match self.demand.minimise.worth() {
@@ -36,7 +38,6 @@ impl Specification {
         let costs = costs.chain(is_moving.then_some("dynamic_factor"));
         let costs: Vec<&str> = costs.chain(["margin", "greatest_load"]).collect();
         let force = if is_moving { "in motion" } else { "at rest" };
-        const GAINS: usize = 1;
         let tables = [
             (
                 format!("Before and after, forces {force} at {greatest} % of the load"),
