@@ -97,7 +97,7 @@ const ROWS: &[fn(&Context) -> Option<Note>] = &[
     },
     |k| {
         let choice = k.solution.choice?;
-        let model = || format!("; tooth compliance `{}`", model_of(k.inputs).name());
+        let model = || format!("; tooth compliance {}", model_of(k.inputs).name());
         let model = k.inputs.tooth_compliance.map_or_else(model, |_| String::new());
         Some(Note::case("method-taken", format!("{choice}{model}")))
     },
