@@ -346,8 +346,8 @@ macro_rules! gear {
                 (Length, -5000.0, 5000.0, "um"),
                 Without("common f_pb"),
                 |inputs, value| inputs.$gear.base_pitch = Some(value),
-                "Base pitch deviation of this gear, from a single pitch deviation f_pt \
-                        cos(alpha_t); else by its grade, or deviations.base_pitch.",
+                "Base pitch deviation of this gear: f_pt cos(alpha_t) for a single pitch deviation f_pt. \
+                        Else by its grade, or deviations.base_pitch.",
             )
             .with_example("12 um")
             .derived(|inputs| {
@@ -424,7 +424,7 @@ const OPERATION: &[Field] = &[
         (Length, -5000.0, 5000.0, "um"),
         Default("0 um"),
         |inputs, value| inputs.base_pitch_deviation = value,
-        "Base pitch deviation of each gear without its own; from a single pitch deviation f_pt cos(alpha_t).",
+        "Base pitch deviation of each gear without its own: f_pt cos(alpha_t) for a single pitch deviation f_pt.",
     ).reasons(&[Idle(
         always,
         "both gears have their own base pitch deviation",
