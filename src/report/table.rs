@@ -301,6 +301,9 @@ impl Table {
 
     /// The table in Markdown, without its title and notes.
     pub fn markdown(&self) -> String {
+        if self.rows.is_empty() {
+            return String::new();
+        }
         let title = |column: &Column| match &*column.title {
             "" => " |".to_owned(),
             title => format!(" {} |", plain_markdown(title)),
@@ -333,6 +336,7 @@ impl Table {
             let faint = if matches!(value, Cell::Default(_)) { " soft" } else { "" };
             cell("td", column, faint, &column.shown(value))
         };
+        let has_head = has_head && !self.rows.is_empty();
         let head = has_head.then(|| self.columns.iter().map(title).collect());
         let rows = self.rows.iter().map(|row| self.columns.iter().zip(row).map(value).collect());
         let rows = head.into_iter().chain(rows).map(|cells: String| format!("<tr>{cells}</tr>\n"));

@@ -21,7 +21,6 @@ use super::session::{Access, NEWER, OpenCase};
 use super::settings::{Look, Settings};
 use super::solver::{self, Answer, Baseline, Request, Wanted};
 use super::store::WatchedFile;
-use crate::case::fields::Kind;
 use crate::case::{Case, Document, Evaluator, Problem};
 use crate::model::{Stage, Stages};
 use crate::report::stations::GRAPHS;
@@ -200,7 +199,7 @@ impl App {
             Some(prompt) => prompt.dialog().place(),
             None if !self.has_line() => self.place_of_pane(),
             None if !rows::names(&self.tab.case, self.tab.form.focus).is_empty() => Place::CHOICE,
-            None if self.is_fresh() => Place::TEXT.or(Place::FRESH),
+            None if self.tab.form.input.kept() == 0 => Place::TEXT.or(Place::FRESH),
             None => Place::TEXT,
         }
     }
@@ -218,13 +217,6 @@ impl App {
     /// Whether typed letters go into the focused field.
     pub fn has_line(&self) -> bool {
         self.layout.focus == Pane::Form && self.is_editing
-    }
-
-    /// Whether the focused row is a value and typing would replace all of it.
-    fn is_fresh(&self) -> bool {
-        let Tab { case, form, .. } = &self.tab;
-        let field = rows::field(case, form.focus);
-        form.input.kept() == 0 && !field.is_some_and(|field| matches!(field.kind, Kind::Text))
     }
 
     /// Whether a key would be the first of an edit that replaces the text of the focused row.

@@ -32,25 +32,29 @@ impl Field {
         units::converted(typed, dimension, self.usual_unit(), system)
     }
 
-    /// The default of a field, empty without one; a measure is in the units of the system.
+    /// The default of a field in the units of the system; empty without one.
     pub(crate) fn default_in(&self, system: System) -> String {
-        let (unit, text) = match self.absent {
-            Absent::Default(text) => (self.usual_unit(), text),
-            _ => return String::new(),
-        };
+        match self.absent {
+            Absent::Default(text) => self.text_in(text, system),
+            _ => String::new(),
+        }
+    }
+
+    /// A default or an example of the field in the units of the system, as a bare number gets them.
+    pub(crate) fn text_in(&self, text: &str, system: System) -> String {
+        let unit = self.usual_unit();
         let value = match self.kind {
             Kind::Number(dimension, ..) if system.unit(unit) != unit => {
                 units::parse(text, dimension, "").ok()
             }
             _ => None,
         };
-        let shown = value.map(|value| units::shown(value, unit, RANGE_DIGITS, system));
-        shown.map_or_else(|| text.to_owned(), |(number, unit)| format!("{number} {unit}"))
+        value.map_or_else(|| text.to_owned(), |value| self.in_usual_unit(value, system))
     }
 
     /// A value in SI in the usual unit of the field, with the digits of a hint.
-    pub(crate) fn in_usual_unit(&self, value: f64) -> String {
-        let unit = self.usual_unit();
+    pub(crate) fn in_usual_unit(&self, value: f64, system: System) -> String {
+        let unit = system.unit(self.usual_unit());
         let number = tidy(value / units::factor(unit).unwrap_or(1.0), DIGITS);
         format!("{number} {unit}").trim_end().to_owned()
     }

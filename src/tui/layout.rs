@@ -258,8 +258,7 @@ impl Place {
     pub(crate) const TRADE: Place = Place(2048);
     /// The explanation of a result.
     pub(crate) const EXPLAIN: Place = Place(4096);
-    /// An empty or fully selected field of a value: characters that cannot begin a value are
-    /// commands.
+    /// An empty or fully selected field: `/` and `:` are commands.
     pub(crate) const FRESH: Place = Place(8192);
     /// The study.
     pub(crate) const STUDY: Place = Place(16384);

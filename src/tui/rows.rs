@@ -218,16 +218,17 @@ pub(crate) fn lacks(case: &Case, at: usize) -> bool {
 }
 
 /// The text of an empty field: the derived value, the default, or that a value is required.
-pub(crate) fn unwritten(case: &Case, inputs: &Inputs, field: usize) -> String {
+pub(crate) fn unwritten(case: &Case, inputs: &Inputs, field: usize, system: System) -> String {
     let known = &FIELDS[field];
     let is_derived = known.partner().is_none() || case.is_replaced(field);
     if is_derived && let Some(value) = case.derived(field, inputs) {
-        return format!("({})", known.in_usual_unit(value));
+        return format!("({})", known.in_usual_unit(value, system));
     }
     match (known.absent, known.partner()) {
         (Absent::Default(""), _) => String::new(),
         (_, Some(other)) if case.text(other).is_some() => format!("(by {})", FIELDS[other].label),
-        (Absent::Default(text) | Absent::Without(text), _) => format!("({text})"),
+        (Absent::Default(_), _) => format!("({})", known.default_in(system)),
+        (Absent::Without(text), _) => format!("({text})"),
         (Absent::Either, Some(other)) if other < field => format!("(or {})", FIELDS[other].label),
         (Absent::Refused | Absent::Either, _) => "(required)".to_owned(),
     }

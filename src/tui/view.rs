@@ -142,7 +142,8 @@ fn focused(app: &App) -> String {
 fn typed(app: &App) -> Option<String> {
     let (case, row) = (&app.tab.case, app.tab.form.focus);
     if rows::lacks(case, row) {
-        let example = rows::field(case, row).map_or("", Field::example);
+        let example = |field: &Field| field.text_in(field.example(), app.settings.units);
+        let example = rows::field(case, row).map(example).unwrap_or_default();
         return Some(format!("Required, such as {example}."));
     }
     let problem = app.tab.problems.iter().find(|(at, _)| *at == row);
@@ -206,7 +207,9 @@ fn about_spread(app: &App, spread: &Spread) -> String {
     let (case, inputs) = (&app.tab.case, &app.tab.inputs_so_far);
     let (_, name) = rows::names_of(case, app.tab.form.focus);
     let field = index_of(spread.field);
-    let centre = |field: usize| Some(FIELDS[field].in_usual_unit(centre(field, case, inputs)?));
+    let centre = |field: usize| {
+        Some(FIELDS[field].in_usual_unit(centre(field, case, inputs)?, app.settings.units))
+    };
     let value = field.and_then(centre);
     let value = value.map_or(", which has no value".to_owned(), |value| format!(" around {value}"));
     let unit = field.map_or("", |field| FIELDS[field].usual_unit());

@@ -173,6 +173,7 @@ fn an_ambiguous_unit_or_an_invalid_number_is_not_completed() {
     for (typed, dimension, usual) in [
         ("48 M", Pressure, "GPa"),
         ("48 x", Length, "um"),
+        ("300 kN", Torque, "N m"),
         ("48 m ", Length, "mm"),
         ("-", Length, "um"),
         ("", Length, "um"),

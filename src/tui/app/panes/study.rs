@@ -691,8 +691,8 @@ fn map(
         let labels = points.into_iter().map(|at| (at as f64, axis.points[at].text.clone()));
         Axis { labels: labels.collect(), ..field_axis(axis) }
     };
-    let now = range::nearest(across, &app.tab.case).zip(range::nearest(up, &app.tab.case));
-    let now = now.map(|(x, y)| vec![(x as f64, y as f64)]).into_iter().collect();
+    let now = place_of_present(app, across).zip(place_of_present(app, up));
+    let now = now.map(|place| vec![place]).into_iter().collect();
     let chart = Chart {
         across: labelled(across),
         up: labelled(up),
@@ -729,6 +729,17 @@ fn present_value(app: &App, shown: &StudyResults) -> Option<f64> {
 fn present(app: &App, axis: &StudyAxis) -> Option<f64> {
     let nearest = || range::nearest(axis, &app.tab.case).map(|at| x(axis, at));
     range::present(axis, &app.tab.case).or_else(nearest)
+}
+
+/// The index of the point at the present case, or a fraction between those around it.
+fn place_of_present(app: &App, axis: &StudyAxis) -> Option<f64> {
+    let now = present(app, axis)?;
+    let part = |at: usize| {
+        let [from, to] = [at, at + 1].map(|at| x(axis, at));
+        (now - from) / (to - from)
+    };
+    let mut pieces = (0..axis.points.len().saturating_sub(1)).map(|at| (at as f64, part(at)));
+    pieces.find(|(_, part)| (0.0..=1.0).contains(part)).map(|(at, part)| at + part)
 }
 
 /// The position of a point on the axis: its number, or the index of a choice.
