@@ -42,6 +42,8 @@ impl Traded {
     pub(crate) fn is_stale(&self, inputs: &Inputs) -> bool {
         let then = &self.inputs;
         let alike = |inputs: &Inputs| Inputs {
+            tooth_compliance: then.tooth_compliance,
+            contact_compliance: then.contact_compliance,
             tolerance: then.tolerance,
             within: then.within,
             station_tolerance: then.station_tolerance,
