@@ -22,8 +22,6 @@ impl Specification {
     /// The specification with one of its choices, without its gains if these are shown elsewhere:
     /// rows of tables of at most 80 columns, and unwrapped sentences.
     pub fn of_choice(&self, at: usize, has_gains: bool) -> Vec<String> {
-        /// Of the tables.
-        const GAINS: usize = 1;
         let is_moving = self.method == Method::Dynamic;
         let (figure, greatest) = (self.figure(), percent(self.demand.greatest_load()));
         let within = match self.demand.minimise.worth() {
@@ -38,19 +36,19 @@ impl Specification {
         let costs = costs.chain(is_moving.then_some("dynamic_factor"));
         let costs: Vec<&str> = costs.chain(["margin", "greatest_load"]).collect();
         let force = if is_moving { "in motion" } else { "at rest" };
-        let tables = [
-            (
-                format!("Before and after, forces {force} at {greatest} % of the load"),
-                self.before_and_after(at),
-            ),
-            (
-                format!(
-                    "What each relief gains; TE: {figure} peak-to-peak transmission error over the \
-                     loads without deviations, worst: within the tolerances; * the smallest relief \
-                     {within}"
-                ),
-                self.gains(),
-            ),
+        let gains = has_gains.then(|| {
+            let title = format!(
+                "What each relief gains; TE: {figure} peak-to-peak transmission error over the \
+                 loads without deviations, worst: within the tolerances; * the smallest relief \
+                 {within}"
+            );
+            (title, self.gains())
+        });
+        let before = (
+            format!("Before and after, forces {force} at {greatest} % of the load"),
+            self.before_and_after(at),
+        );
+        let others = [
             (
                 format!(
                     "What each relief costs; TE at {} % of the load, contact ratio of the \
@@ -77,8 +75,7 @@ impl Specification {
         lines.extend(self.drawing(at).lines());
         lines.push(String::new());
         lines.extend(self.sentences(at));
-        let is_shown = |(at, _): &(usize, _)| has_gains || *at != GAINS;
-        for (_, (title, table)) in tables.into_iter().enumerate().filter(is_shown) {
+        for (title, table) in [before].into_iter().chain(gains).chain(others) {
             lines.extend([String::new(), title]);
             lines.extend(table.lines());
         }
@@ -396,32 +393,37 @@ impl Specification {
     }
 
     /// A choice as values of the fields of a case, rounded as the report prints them, with the
-    /// tolerances of the demand as distributions; an empty one is none.
+    /// tolerances of the demand as distributions. The empty distribution is that of a relief that is
+    /// not larger than its tolerance; without a tolerance the distributions stay.
     pub fn settings(&self, at: usize) -> Vec<(&'static str, String)> {
         let ([amounts, lengths], reliefs) = (KEYS, &self.choices[at].reliefs);
         let mut settings = vec![("model.relief_shape", name(reliefs.shape).to_owned())];
-        let spread = |nominal: f64, tolerance: f64, unit| {
-            let width = tidy(tolerance / units::factor(unit).unwrap_or(1.0), 4);
-            let is_possible = 0.0 < tolerance && tolerance <= nominal;
-            if is_possible { format!("uniform {width} {unit}") } else { String::new() }
+        let spread = |nominal: &str, tolerance: f64, unit| {
+            let width = tolerance / units::factor(unit).unwrap_or(1.0);
+            let is_larger = nominal.parse().is_ok_and(|nominal: f64| nominal > width);
+            if is_larger { format!("uniform {} {unit}", tidy(width, 4)) } else { String::new() }
         };
         for at in 0..2 {
-            let has_relief = reliefs.amounts[at] > 0.0;
-            let in_mm = format!("{} mm", mm(reliefs.lengths[at]));
-            settings.push((amounts[at], format!("{} um", um(reliefs.amounts[at]))));
-            settings.push((lengths[at], if has_relief { in_mm } else { String::new() }));
-            let length = if has_relief { reliefs.lengths[at] } else { 0.0 };
-            let spreads = [
-                spread(reliefs.amounts[at], self.demand.tolerance, "um"),
-                spread(length, self.tolerance_length(), "mm"),
-            ];
-            settings.extend(SPREADS.map(|keys| keys[at]).into_iter().zip(spreads));
+            let (amount, mut length) = (um(reliefs.amounts[at]), mm(reliefs.lengths[at]));
+            if reliefs.amounts[at] <= 0.0 {
+                length.clear();
+            }
+            let ends =
+                [(&amount, self.demand.tolerance, "um"), (&length, self.tolerance_length(), "mm")];
+            for (keys, (nominal, tolerance, unit)) in SPREADS.iter().zip(ends) {
+                if tolerance > 0.0 {
+                    settings.push((keys[at], spread(nominal, tolerance, unit)));
+                }
+            }
+            settings.push((amounts[at], format!("{amount} um")));
+            let length = if length.is_empty() { length } else { format!("{length} mm") };
+            settings.push((lengths[at], length));
         }
         if self.is_over_face {
             settings.push((CROWNING, format!("{} um", um(reliefs.crowning))));
         }
         if self.demand.misalignment > 0.0 {
-            let width = spread(f64::INFINITY, self.demand.misalignment, "um");
+            let width = spread("inf", self.demand.misalignment, "um");
             settings.push(("spread.deviations.misalignment", width));
         }
         settings

@@ -357,7 +357,7 @@ pub(super) fn set_about(app: &mut App, text: &str) {
     let (name, value) = text.split_once('=').unwrap_or((text, ""));
     let (name, value) = (name.trim().trim_matches('"'), value.trim());
     if name.is_empty() || !text.contains('=') {
-        return app.complain("type a name and a text with = between: drawing number = GB 12");
+        return app.complain("type NAME = TEXT, such as drawing number = GB 12");
     }
     let mut case = app.tab.case.clone();
     if let Err(problem) = case.apply(&format!("about.{name}"), Some(value)) {
@@ -384,7 +384,10 @@ fn take_relief(app: &mut App, values: &[(&'static str, String)]) {
         let name = if symbol.is_empty() { label } else { symbol };
         Some(format!("{} {text}", text::symbol(name, app.look.ascii)))
     });
-    let words: Vec<String> = words.chain(["tolerances in [spread]".to_owned()]).collect();
+    let mut words: Vec<String> = words.collect();
+    if values.iter().any(|(key, text)| key.starts_with("spread.") && !text.is_empty()) {
+        words.push("tolerances in [spread]".to_owned());
+    }
     set_values(app, values, &words.join(", "));
 }
 
