@@ -344,11 +344,12 @@ fn example_of(text: &str, layout: &Layout, new: &Written) -> Option<Range<usize>
 
 /// The lines with the example of the table `[about]`, if the next entry is a header.
 fn example_of_about(text: &str, layout: &Layout) -> Option<Range<usize>> {
-    let start = text.find(&format!("\n{ABOUT_EXAMPLE}\n"))? + 1;
+    let example = ABOUT_EXAMPLE.replace('\n', line_end(text));
+    let start = text.find(&format!("\n{example}{}", line_end(text)))? + 1;
     let is_inside = layout.values().any(|own| own.span.contains(&start));
     let next = layout.entries.iter().filter(|own| own.start > start).min_by_key(|own| own.start);
     let is_free = !is_inside && next.is_none_or(|own| own.place == Place::Header);
-    is_free.then(|| start..start + ABOUT_EXAMPLE.len())
+    is_free.then(|| start..start + example.len())
 }
 
 /// Inserts an entry after the last entry of its table. A new table is at the end of the text.

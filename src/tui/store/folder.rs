@@ -131,9 +131,9 @@ fn has_a_case(file: &Path) -> bool {
     let is_read = file.is_file()
         && fs::File::open(file).is_ok_and(|file| file.take(HEAD).read_to_end(&mut text).is_ok());
     let is_of_case = |line: &str| {
-        let key = line.split('=').next().unwrap_or_default().trim().trim_start_matches('[');
+        let key = line.split('=').next().unwrap_or_default();
         let table = key.split(['.', ']']).next().unwrap_or_default();
-        matches!(table, "format" | "pair" | "driver" | "driven" | "operation")
+        matches!(table.trim_matches(['[', '"', ' ', '\t', '\r']), "pair" | "driver" | "driven")
     };
     rexs::is_model(file) || is_read && String::from_utf8_lossy(&text).lines().any(is_of_case)
 }
@@ -222,8 +222,14 @@ pub(crate) fn preview(
         Target::Folder(path) => Some(match entries(&at_home(path), path) {
             Ok(entries) => {
                 let folders = entries.iter().filter(|entry| entry.is_folder()).count();
-                let is_case = |entry: &&Entry| matches!(&entry.target, Target::File(path) if has_a_case(&at_home(path)));
-                let cases = entries.iter().filter(is_case).count();
+                let mut cases = 0;
+                for entry in &entries {
+                    if !go_on(0.0) {
+                        return None;
+                    }
+                    let Target::File(path) = &entry.target else { continue };
+                    cases += usize::from(has_a_case(&at_home(path)));
+                }
                 let [cases, folders] =
                     [(cases, "case"), (folders, "folder")].map(|(count, one)| {
                         format!("{count} {one}{}", if count == 1 { "" } else { "s" })
