@@ -118,10 +118,10 @@ fn fit(sought: &str, word: &str) -> Option<u32> {
     }
 }
 
-/// Whether the word becomes the query by removing letters after the first, at most two of three.
+/// Whether the word becomes the query by removing at most two thirds of its letters, never the first.
 fn is_shortened(sought: &str, word: &str) -> bool {
     let mut rest = word.chars();
-    word.len() <= 3 * sought.len()
+    word.chars().count() <= 3 * sought.chars().count()
         && word.chars().next() == sought.chars().next()
         && sought.chars().all(|letter| rest.any(|other| other == letter))
 }

@@ -37,7 +37,7 @@ const PREFIXES: [(KeyModifiers, &str); 3] = [
 const LEAVE_FIELD: &str = "leave field";
 const SEEK: &str =
     "in the shell: tipstrike seek CASE --vary 'KEY=FROM..TO' --until 'RESULT<=VALUE'";
-const HELP: &str = "Show this page, over a dialog at its part.";
+const HELP: &str = "Show this page; over a dialog, its keys.";
 const UNICODE: &str = "drawn in Unicode; a locale without UTF-8 keeps it for this session only";
 
 const ABOUT_KEYS: [&str; 6] = [
@@ -488,7 +488,7 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::OUTSIDE, "5", "trade", |app| panes::show(app, Pane::Trade),
         "Go to accuracy against run time."),
     row(Place::OUTSIDE, "6", "study", studies::open,
-        "Go to the study: the selected result over a range of a field. From the form, of the focused field."),
+        "Go to the study: the selected result over a range of a field. Pressed in the form, it takes the focused field."),
     pair(Place::FIELD.or(Place::RESULTS), "j/k Down/Up", "", super::step, "Go to the next or previous line."),
     pair(Place::FIELD.or(Place::RESULTS), "l/h Right/Left", "", super::leap,
         "Go to the next or previous group, or page of results."),

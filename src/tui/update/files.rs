@@ -30,15 +30,16 @@ const HOW: &str =
 /// Quits, or asks if there are unsaved edits.
 pub(super) fn quit(app: &mut App) {
     app.close_titled(UNSAVED);
-    // The question may show another case than that of an open dialog.
-    if app.others.iter().any(Tab::is_unsaved) {
-        app.prompts.clear();
-    }
     let unsaved: Vec<_> = app.tabs().filter(|tab| tab.is_unsaved()).map(Tab::name).collect();
     let count = unsaved.len();
     if count < 2 {
-        let only = app.tabs().position(Tab::is_unsaved);
-        go_to_tab(app, only.unwrap_or(app.place_of_tab));
+        let only = app.tabs().position(Tab::is_unsaved).unwrap_or(app.place_of_tab);
+        // A dialog belongs to the case that is shown.
+        if only != app.place_of_tab {
+            app.prompts.clear();
+            app.cancel(Slot::Relief);
+        }
+        go_to_tab(app, only);
         return ask_or_go(app, Next::Quit);
     }
     let text = format!("{count} cases have unsaved edits: {}.", unsaved.join(", "));

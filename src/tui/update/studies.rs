@@ -90,7 +90,7 @@ pub(super) fn request(app: &mut App) {
     app.tab.study.start(StudyRequest { serial, parameters });
 }
 
-/// The study of the chosen or focused field and the chosen or selected result; the error is the
+/// The study of the field and of the chosen or selected result; the error is the
 /// reason why there is no study.
 fn parameters(app: &App) -> Result<StudyParameters, String> {
     let tab = &app.tab;

@@ -212,7 +212,7 @@ impl Plot {
         let middle = column.saturating_sub(width / 2).clamp(self.cells.x, column);
         let left = (column + 1).saturating_sub(width).max(self.cells.x);
         let is_word = |cell: &Cell| cell.symbol().starts_with(char::is_alphanumeric);
-        let is_free = |x| buffer.cell((x, y)).is_some_and(|cell| !is_word(cell));
+        let is_free = |x| buffer.cell((x, y)).is_none_or(|cell| !is_word(cell));
         // Between words is a gap.
         let gap = u16::from(width > 1);
         let has_room = |start: &u16| {

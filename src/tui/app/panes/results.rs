@@ -320,10 +320,15 @@ fn age(app: &App, answer: &Answer) -> String {
     if !app.tab.shows_last_valid() {
         return String::new();
     }
+    let case = &app.tab.case;
     let row = app.tab.problems.iter().map(|(row, _)| *row).min();
     let valid = app.tab.valid.as_ref().filter(|_| answer.serial == app.tab.serial);
-    let text = row.zip(valid).and_then(|(row, case)| rows::text(case, row));
-    text.map_or_else(|| "LAST VALID: ".to_owned(), |text| format!("LAST VALID ({text}): "))
+    let edited = row.zip(valid).filter(|(row, valid)| rows::differs(case, valid, *row));
+    let value = edited.and_then(|(row, valid)| {
+        let (symbol, text) = (rows::names_of(case, row).0, rows::text_in(valid, case, row)?);
+        Some(if symbol.is_empty() { text.to_owned() } else { format!("{symbol} = {text}") })
+    });
+    value.map_or_else(|| "LAST VALID: ".to_owned(), |value| format!("LAST VALID ({value}): "))
 }
 
 /// Why the results belong to an earlier state of the form: the cause, then the fix.
