@@ -417,9 +417,9 @@ pub fn ending(typed: &str, dimension: Dimension, usual: &str) -> Option<String> 
     }
     let fitting = units_of(dimension).iter().filter_map(|unit| Some((unit, rest(unit, begun)?)));
     let fitting: Vec<_> = fitting.collect();
-    // A whole unit of another dimension, such as kN for a torque, is a slip.
-    let is_only = fitting.len() == 1 && Dimension::of_unit(begun).is_none();
-    let own = fitting.iter().find(|(unit, _)| unit.symbol == usual || is_only);
+    // A whole unit without its second one, such as kN for a torque, is a slip.
+    let is_only = |rest: &str| fitting.len() == 1 && !rest.starts_with(' ');
+    let own = fitting.iter().find(|(unit, rest)| unit.symbol == usual || is_only(rest));
     own.map(|(_, rest)| (*rest).to_owned())
 }
 

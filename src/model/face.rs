@@ -185,7 +185,8 @@ impl FaceInputs {
     }
 
     /// Number of slices: that of the case, or so many that the shares of the load are within 0.1 %,
-    /// and the slices excite by about 1e-5 of the mean deflection, with two slices in a coupling length.
+    /// and they change the harmonics of the transmission error by about 1e-5 of the mean deflection, with
+    /// two slices in a coupling length.
     pub fn count(&self, base_pitch: f64) -> usize {
         /// Overlap ratio, slices and coupling lengths of the usual number.
         const LEAST: usize = 33;

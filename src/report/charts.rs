@@ -131,7 +131,7 @@ impl Picture {
     /// and stops the computation by returning false.
     ///
     /// # Errors
-    /// The refusal of the model; inside, the reason why the case has no such picture.
+    /// Outside, the refusal of the model; inside, the reason why the case has no such picture.
     pub fn of_case(
         self,
         source: Unsolved<'_>,

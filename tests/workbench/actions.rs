@@ -191,7 +191,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Ctrl-P units", "Enter", "", "492.56"),
     ("F1", "Enter", "", "▸ Form"),
     ("Ctrl-P", "Esc", "", "▸ Form"),
-    ("Ctrl-P", "F1", "", "In the list of files"),
+    ("Ctrl-P", "F1", "", "In a list or a line of text"),
     ("X Ctrl-P", "Ctrl-Q", "", "[> Cancel <]"),
     ("", "Ctrl-C", "", "Ctrl-C again to quit"),
     // In an explanation.
