@@ -149,5 +149,5 @@ fn a_line_for_the_reports_is_typed_and_undone() {
     assert!(desk.app.tab.case.about.contains(&project) && desk.app.tab.is_unsaved());
     desk.keys(&["u"]);
     assert!(!desk.app.tab.case.about.contains(&project));
-    desk.keys(&[":", "about a b c", "Enter"]).assert_shows("a name and a text with = between");
+    desk.keys(&[":", "about a b c", "Enter"]).assert_shows("type NAME = TEXT");
 }
