@@ -232,10 +232,10 @@ def test_work_in_threads_runs_beside_the_interpreter():
 
 def test_progress_is_reported_on_request_alone(capfd):
     seen = []
-    vary = {"operation.speed": np.linspace(100, 300, 300)}
+    vary = {"operation.speed": np.linspace(100, 300, 3000)}
     tipstrike.sweep(TABLE_1, vary, method="dynamic", only="dynamic_peak_force",
                     progress=lambda done, of: seen.append((done, of)))
-    assert seen and all(of == 300 for _, of in seen)
+    assert seen and all(of == 3000 for _, of in seen)
     assert capfd.readouterr() == ("", "")
     with pytest.raises(ZeroDivisionError):
         tipstrike.sweep(TABLE_1, vary, method="dynamic", only="dynamic_peak_force", progress=lambda *_: 1 / 0)
