@@ -182,12 +182,7 @@ pub fn write(
             Ok(samples.refusals)
         }
         (kind, format) => {
-            let methods = match kind {
-                Kind::Sweep(grid) => grid.methods(inputs),
-                Kind::Tolerance(_) => vec![inputs.method],
-            };
-            let points = (study.points(), &methods[..]);
-            let table = |first, rows: &[Row]| table(points, quantities, first, rows);
+            let table = |first, rows: &[Row]| table_of(study, first, rows);
             if format != Format::Json {
                 table(0, &[]).write_csv_header(out)?;
             }
@@ -206,6 +201,15 @@ pub fn write(
             Ok(refusals)
         }
     }
+}
+
+/// The rows of a study from an index on.
+pub fn table_of(study: &Study, first: usize, rows: &[Row]) -> Table {
+    let methods = match &study.kind {
+        Kind::Sweep(grid) => grid.methods(&study.inputs),
+        Kind::Tolerance(_) => vec![study.inputs.method],
+    };
+    table((study.points(), &methods), &study.quantities, first, rows)
 }
 
 /// The rows of a study by some methods from an index on: the columns of the points, the quantities in SI

@@ -135,7 +135,7 @@ fn a_table_in_a_narrow_pane_has_fewer_columns_and_whole_numbers() {
 #[test]
 fn the_shown_points_are_exported_as_by_the_command_that_is_named() {
     for (name, part) in [
-        ("a.csv", "static_force_at_start [N],dynamic_peak_approach_force [N],outcome,"),
+        ("a.csv", "[N],dynamic_peak_approach_force [N],outcome,method\n1000,1092.22"),
         ("a.json", "{\"varied\":{\"operation.speed\":{\"value\":1000.0"),
         ("a.svg", "<svg"),
     ] {

@@ -13,7 +13,7 @@ use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Solution};
 use crate::report::page::{format_of, is_picture};
 use crate::report::solve::common_method;
-use crate::report::studies::{Take, write};
+use crate::report::studies::{Take, table_of, write};
 use crate::report::svg;
 use crate::report::table::Named;
 use crate::report::tolerance::ToleranceReport;
@@ -352,47 +352,59 @@ pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), Strin
     let format = format_of(path).unwrap_or(Format::Csv);
     let (request, command) = repeated(app, format)?;
     let shown = app.tab.study.request.as_ref().map(|request| &request.parameters);
-    let (axes, layers) = match shown {
+    let curves = match shown {
         Some(StudyParameters::Grid(grid)) if format == Format::Csv => {
-            (grid.axes.len(), grid.layers.get(1..).unwrap_or_default().to_vec())
+            grid.layers.get(1..).unwrap_or_default().to_vec()
         }
-        _ => (0, Vec::new()),
+        _ => Vec::new(),
     };
-    let beside = if layers.is_empty() { "" } else { " with the other curves" };
+    let beside = if curves.is_empty() { "" } else { " with the other curves" };
     let content = move |running: &Running<'_>| {
         let refused = |problem: Problem| format!("{}: {}", problem.cause, problem.fix);
-        let text = |layer: Option<&Layer>| {
-            let mut study = Study::restore(&request).map_err(refused)?;
-            if let Some(layer) = layer {
-                study.inputs = layer.inputs.clone();
-                study.quantities = layer.quantity().into_iter().collect();
-            }
-            let needed: Vec<_> = study.quantities.iter().map(|quantity| quantity.stage).collect();
-            study.inputs = study.inputs.needing(needed);
-            text_of(&study, running).map_err(|error| error.to_string())
+        let mut study = Study::restore(&request).map_err(refused)?;
+        let needed: Vec<_> = study.quantities.iter().map(|quantity| quantity.stage).collect();
+        study.inputs = study.inputs.needing(needed);
+        let text = if curves.is_empty() {
+            text_of(&study, running)
+        } else {
+            text_of_curves(study, &curves, running)
         };
-        let mut all = text(None)?;
-        for (at, layer) in layers.iter().enumerate() {
-            all = with_column(&all, axes + at, &text(Some(layer))?, axes, layer.name());
-        }
-        Ok(all)
+        text.map_err(|error| error.to_string())
     };
     Ok((format!(" the study, as `{command}`{beside},"), Box::new(content)))
 }
 
-/// A table of CSV with a column of another table after one of its columns. A title that the table has
-/// already gets the name before it.
-fn with_column(table: &str, after: usize, other: &str, column: usize, name: &str) -> String {
-    let titles: Vec<&str> = table.lines().next().unwrap_or_default().split(',').collect();
-    let rows = table.lines().zip(other.lines()).enumerate().map(|(row, (line, other))| {
-        let cell = other.split(',').nth(column).unwrap_or_default();
-        let is_known = row == 0 && titles.contains(&cell);
-        let cell = if is_known { format!("{name} {cell}") } else { cell.to_owned() };
-        let mut cells: Vec<&str> = line.split(',').collect();
-        cells.insert((after + 1).min(cells.len()), &cell);
-        cells.join(",") + "\n"
-    });
-    rows.collect()
+/// The points of a study as CSV, with a column of each other curve behind that of the study. A name that
+/// the table has already gets the name of the curve before it.
+fn text_of_curves(mut study: Study, curves: &[Layer], running: &Running<'_>) -> io::Result<String> {
+    let solved = |study: &Study| {
+        let mut all = Vec::new();
+        let found = solve(&study.batch(), study.points().count(), running, &mut |_, rows| {
+            all.extend_from_slice(rows);
+            true
+        });
+        found.map_err(|_| io::Error::from(io::ErrorKind::Interrupted))?;
+        Ok::<_, io::Error>(table_of(study, 0, &all))
+    };
+    let (mut table, own) = (solved(&study)?, study.points().columns().len());
+    for (place, curve) in (own + 1..).zip(curves) {
+        let quantities: Vec<_> = curve.quantity().into_iter().collect();
+        study.inputs =
+            curve.inputs.clone().needing(quantities.iter().map(|quantity| quantity.stage));
+        study.quantities = quantities;
+        let other = solved(&study)?;
+        let mut column = other.columns[own].clone();
+        if table.columns.iter().any(|known| known.key == column.key) {
+            column.key = format!("{} {}", curve.name(), column.key).into();
+        }
+        table.columns.insert(place, column);
+        for (row, other) in table.rows.iter_mut().zip(other.rows) {
+            row.insert(place, other[own].clone());
+        }
+    }
+    let mut out = Vec::new();
+    table.write_csv(&mut out)?;
+    String::from_utf8(out).map_err(io::Error::other)
 }
 
 /// The command that repeats the shown study.
