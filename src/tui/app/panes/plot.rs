@@ -217,7 +217,7 @@ impl Plot {
         let gap = u16::from(width > 1);
         let has_room = |start: &u16| {
             let end = start + width;
-            end <= self.cells.right() && (start - gap..end + gap).all(is_free)
+            end <= self.cells.right() && (start.saturating_sub(gap)..end + gap).all(is_free)
         };
         if let Some(start) = [middle, column, left].into_iter().find(has_room) {
             buffer.set_string(start, y, name, style);

@@ -739,7 +739,7 @@ fn place_of_present(app: &App, axis: &StudyAxis) -> Option<f64> {
         (now - from) / (to - from)
     };
     let mut pieces = (0..axis.points.len().saturating_sub(1)).map(|at| (at as f64, part(at)));
-    pieces.find(|(_, part)| (0.0..=1.0).contains(part)).map(|(at, part)| at + part)
+    pieces.find(|(_, part)| (-SAME..=1.0 + SAME).contains(part)).map(|(at, part)| at + part)
 }
 
 /// The position of a point on the axis: its number, or the index of a choice.
