@@ -398,11 +398,8 @@ impl Specification {
     pub fn settings(&self, at: usize) -> Vec<(&'static str, String)> {
         let ([amounts, lengths], reliefs) = (KEYS, &self.choices[at].reliefs);
         let mut settings = vec![("model.relief_shape", name(reliefs.shape).to_owned())];
-        let spread = |nominal: &str, tolerance: f64, unit| {
-            let width = tolerance / units::factor(unit).unwrap_or(1.0);
-            let is_larger = nominal.parse().is_ok_and(|nominal: f64| nominal > width);
-            if is_larger { format!("uniform {} {unit}", tidy(width, 4)) } else { String::new() }
-        };
+        let in_unit = |tolerance: f64, unit| tolerance / units::factor(unit).unwrap_or(1.0);
+        let uniform = |width: f64, unit: &str| format!("uniform {} {unit}", tidy(width, 4));
         for at in 0..2 {
             let (amount, mut length) = (um(reliefs.amounts[at]), mm(reliefs.lengths[at]));
             if reliefs.amounts[at] <= 0.0 {
@@ -411,8 +408,11 @@ impl Specification {
             let ends =
                 [(&amount, self.demand.tolerance, "um"), (&length, self.tolerance_length(), "mm")];
             for (keys, (nominal, tolerance, unit)) in SPREADS.iter().zip(ends) {
+                let width = in_unit(tolerance, unit);
+                let is_larger = nominal.parse().is_ok_and(|nominal: f64| nominal > width);
                 if tolerance > 0.0 {
-                    settings.push((keys[at], spread(nominal, tolerance, unit)));
+                    let text = if is_larger { uniform(width, unit) } else { String::new() };
+                    settings.push((keys[at], text));
                 }
             }
             settings.push((amounts[at], format!("{amount} um")));
@@ -423,8 +423,8 @@ impl Specification {
             settings.push((CROWNING, format!("{} um", um(reliefs.crowning))));
         }
         if self.demand.misalignment > 0.0 {
-            let width = spread("inf", self.demand.misalignment, "um");
-            settings.push(("spread.deviations.misalignment", width));
+            let width = in_unit(self.demand.misalignment, "um");
+            settings.push(("spread.deviations.misalignment", uniform(width, "um")));
         }
         settings
     }

@@ -66,11 +66,11 @@ pub fn text(case: &Case, at: usize) -> Option<&str> {
 
 /// Whether a row differs from the same row of another case.
 pub(crate) fn differs(case: &Case, other: &Case, at: usize) -> bool {
-    text(case, at) != text_in(other, case, at)
+    text(case, at) != text_beside(other, case, at)
 }
 
 /// The text that another case has in a row of a case.
-pub(crate) fn text_in<'a>(other: &'a Case, case: &Case, at: usize) -> Option<&'a str> {
+pub(crate) fn text_beside<'a>(other: &'a Case, case: &Case, at: usize) -> Option<&'a str> {
     let same = match row(case, at).entry() {
         None => Some(at),
         Some(key) => of_entry(other, key),

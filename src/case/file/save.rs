@@ -328,6 +328,11 @@ fn take_out(text: &mut String, entry: &Entry) {
     text.replace_range(cut, "");
 }
 
+/// Whether a place is inside of a value, such as a text over several lines.
+fn is_inside(layout: &Layout, at: usize) -> bool {
+    layout.values().any(|own| own.span.contains(&at))
+}
+
 /// The line of the table that has the example of a field of the case as a comment, as in a new file.
 fn example_of(text: &str, layout: &Layout, new: &Written) -> Option<Range<usize>> {
     let comment = format!("# {}", check::assignment(&FIELDS[index_of(&new.key())?]));
@@ -336,9 +341,8 @@ fn example_of(text: &str, layout: &Layout, new: &Written) -> Option<Range<usize>
     let lines = text[header..next.unwrap_or(text.len())].split_inclusive('\n');
     let starts =
         lines.scan(header, |at, line| Some((std::mem::replace(at, *at + line.len()), line)));
-    let is_inside =
-        |at: usize| layout.values().any(|own| (own.span.start..own.span.end).contains(&at));
-    let found = starts.into_iter().find(|(at, line)| line.trim_end() == comment && !is_inside(*at));
+    let found =
+        starts.into_iter().find(|(at, line)| line.trim_end() == comment && !is_inside(layout, *at));
     found.map(|(at, _)| at..at + comment.len())
 }
 
@@ -346,9 +350,8 @@ fn example_of(text: &str, layout: &Layout, new: &Written) -> Option<Range<usize>
 fn example_of_about(text: &str, layout: &Layout) -> Option<Range<usize>> {
     let example = ABOUT_EXAMPLE.replace('\n', line_end(text));
     let start = text.find(&format!("\n{example}{}", line_end(text)))? + 1;
-    let is_inside = layout.values().any(|own| own.span.contains(&start));
     let next = layout.entries.iter().filter(|own| own.start > start).min_by_key(|own| own.start);
-    let is_free = !is_inside && next.is_none_or(|own| own.place == Place::Header);
+    let is_free = !is_inside(layout, start) && next.is_none_or(|own| own.place == Place::Header);
     is_free.then(|| start..start + example.len())
 }
 

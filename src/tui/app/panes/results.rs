@@ -168,6 +168,9 @@ fn widths(columns: &[Column], line: Option<usize>) -> Vec<usize> {
     let Some((unit, line)) = unit.zip(line) else { return widths };
     let width = |at: usize| text::width(&columns[at].cells[line]);
     let mut over = width(unit).saturating_sub(widths[unit]);
+    if over == 0 {
+        return widths;
+    }
     widths[unit] += over;
     let mut before: Vec<usize> = (0..unit).rev().collect();
     before.sort_by_key(|at| columns[*at].rank != NAMES);
@@ -325,7 +328,7 @@ fn age(app: &App, answer: &Answer) -> String {
     let valid = app.tab.valid.as_ref().filter(|_| answer.serial == app.tab.serial);
     let edited = row.zip(valid).filter(|(row, valid)| rows::differs(case, valid, *row));
     let value = edited.and_then(|(row, valid)| {
-        let (symbol, text) = (rows::names_of(case, row).0, rows::text_in(valid, case, row)?);
+        let (symbol, text) = (rows::names_of(case, row).0, rows::text_beside(valid, case, row)?);
         Some(if symbol.is_empty() { text.to_owned() } else { format!("{symbol} = {text}") })
     });
     value.map_or_else(|| "LAST VALID: ".to_owned(), |value| format!("LAST VALID ({value}): "))
