@@ -48,19 +48,7 @@ impl<const ROW: usize, T: Entry> Banded<ROW, T> {
         for at in 0..rows.len() {
             let (known, rest) = rows.split_at_mut(at);
             let row = &mut rest[0];
-            within_reach::<ROW>(at, |reach| {
-                for distance in (1..reach).rev() {
-                    let other = &known[at - distance];
-                    for far in distance + 1..reach {
-                        row[distance] = row[distance] - row[far] * other[far - distance];
-                    }
-                }
-                for distance in 1..reach {
-                    let share = row[distance] / known[at - distance][0];
-                    row[0] = row[0] - share * row[distance];
-                    row[distance] = share;
-                }
-            });
+            if at < ROW { eliminate(row, known, at + 1) } else { eliminate(row, known, ROW) }
             if !row[0].is_positive() {
                 return None;
             }
@@ -100,6 +88,24 @@ impl<const ROW: usize, T: Entry> Banded<ROW, T> {
 #[inline(always)]
 fn within_reach<const ROW: usize>(rows: usize, mut run: impl FnMut(usize)) {
     if rows >= ROW { run(ROW) } else { run(rows + 1) }
+}
+
+/// The factors of a row by those of the `known` rows before it.
+#[expect(clippy::inline_always, reason = "loops unroll only where their length is a constant")]
+#[inline(always)]
+fn eliminate<T: Entry, const ROW: usize>(row: &mut [T; ROW], known: &[[T; ROW]], reach: usize) {
+    let at = known.len();
+    for distance in (1..reach).rev() {
+        let other = &known[at - distance];
+        for far in distance + 1..reach {
+            row[distance] = row[distance] - row[far] * other[far - distance];
+        }
+    }
+    for distance in 1..reach {
+        let share = row[distance] / known[at - distance][0];
+        row[0] = row[0] - share * row[distance];
+        row[distance] = share;
+    }
 }
 
 fn subtract<T: Entry, const M: usize>(sums: &mut [T; M], factor: T, known: &[T; M]) {

@@ -8,7 +8,7 @@ use crate::model::Refusal;
 use crate::model::budget::PAIRS;
 use crate::model::pair_forces::PITCHES;
 use crate::numeric::banded::{Banded, Rows};
-use smallvec::SmallVec;
+use smallvec::{SmallVec, smallvec};
 
 /// The line loads of all pairs at a position of the mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -328,9 +328,8 @@ impl Face {
         /// Of a base pitch: a narrower side has too few digits.
         const NARROWEST: f64 = 1e-9;
         let (way, least) = (to - from, NARROWEST * self.mesh.base_pitch);
-        let is_inside =
-            |edge: &f64| (edge - from).min(to - edge).max((from - edge).min(edge - to)) > least;
-        let inside = self.edges.iter().copied().filter(is_inside);
+        let (low, high) = (from.min(to) + least, from.max(to) - least);
+        let inside = self.edges.iter().copied().filter(|edge| low < *edge && *edge < high);
         let mut cuts: SmallVec<[(f64, [f64; 6]); 4]> = SmallVec::new();
         cuts.push((from, one));
         cuts.extend(inside.map(|edge| (edge, self.sections.at(edge))));
@@ -777,10 +776,12 @@ impl<'a> System<'a> {
             slots
         };
         let active: Vec<_> = self.active.iter().map(|pair| (*pair, in_slots(pair))).collect();
-        let mut rows = Vec::with_capacity(slices.len() * SLOTS);
+        let mut rows: Rows<f64, ROW> = smallvec![[0.0; ROW]; slices.len() * SLOTS];
         let mut sides = vec![[0.0; 2]; slices.len() * SLOTS];
-        for (number, (slice, sides)) in slices.iter().zip(sides.chunks_mut(SLOTS)).enumerate() {
-            let ([before, after], mut block) = (slice.exchange, [[0.0; ROW]; SLOTS]);
+        let blocks = rows.as_chunks_mut().0.iter_mut().zip(sides.as_chunks_mut().0);
+        for ((number, slice), (block, sides)) in slices.iter().enumerate().zip(blocks) {
+            let (block, sides): (&mut [[f64; ROW]; SLOTS], &mut [[f64; 2]; SLOTS]) = (block, sides);
+            let [before, after] = slice.exchange;
             for (coordinate, &(first, last)) in self.spans.iter().enumerate() {
                 if number < first || number > last {
                     continue;
@@ -806,19 +807,17 @@ impl<'a> System<'a> {
                     continue;
                 }
                 let Contact { mean, local, root, .. } = self.at.contacts[at];
-                let push = part * slice.width * root / local;
-                let gap = mean - rest / part;
-                for (slot, factor) in factors.iter().enumerate().filter(|(_, it)| **it != 0.0) {
-                    let (push, side, row) = (push * factor, &mut sides[slot], &mut block[slot]);
-                    *side = [side[0] + push, side[1] + push * gap];
-                    for (other, factor) in factors[..=slot].iter().enumerate() {
-                        row[slot - other] += push * root * factor;
+                let (push, gap) = (part * slice.width * root / local, mean - rest / part);
+                for slot in 0..SLOTS {
+                    let push = push * factors[slot];
+                    sides[slot] = [sides[slot][0] + push, sides[slot][1] + push * gap];
+                    for other in 0..=slot {
+                        block[slot][slot - other] += push * root * factors[other];
                     }
                 }
             }
-            rows.extend_from_slice(&block);
         }
-        Banded::<ROW>::of(Rows::from_vec(rows))?.solve(&mut sides);
+        Banded::<ROW>::of(rows)?.solve(&mut sides);
         let mut all = vec![[0.0; 2]; slices.len() * count];
         for (coordinate, &(first, last)) in self.spans.iter().enumerate() {
             let place = |number: usize| number * count + coordinate;

@@ -21,14 +21,20 @@ impl Carried {
     pub(super) const ALL: Carried = Carried { part: 1.0, rest: 0.0, change: 0.0 };
 
     /// Of the lead δ̄ + a t + c (t² − 1/3).
+    #[inline]
     pub(super) fn of(mean: f64, rise: f64, bend: f64) -> Carried {
         let (middle, most) = (mean - bend / 3.0, rise.abs() + bend.abs());
         if middle > most {
-            return Carried::ALL;
+            Carried::ALL
+        } else if middle <= -most {
+            Carried::NONE
+        } else {
+            Carried::within(middle, rise, bend)
         }
-        if middle <= -most {
-            return Carried::NONE;
-        }
+    }
+
+    /// Of the lead m + a t + c t², which is above 0 in a part of the slice.
+    fn within(middle: f64, rise: f64, bend: f64) -> Carried {
         let root = (rise * rise - 4.0 * bend * middle).max(0.0).sqrt();
         let turn = -0.5 * (rise + root.copysign(rise));
         // A root that is no number is at an end.
