@@ -29,8 +29,8 @@ pub struct Loads {
     pub mean_loads: Vec<f64>,
     /// Displacement under the loads minus the gap, in m, above 0 where a pair carries.
     pub leads: Vec<f64>,
-    /// The mean over each slice of the displacement less that of the teeth, in m.
-    advances: Vec<f64>,
+    /// Displacement of the teeth by other loads over √q_t, which is smooth along the face.
+    teeth: Vec<f64>,
     /// Force that turns the driver, in N.
     pub force: f64,
     /// Change of the force with the displacement, in N/m.
@@ -386,15 +386,8 @@ impl Face {
         }
         let before = after.clamp(1, self.slices.len() - 1) - 1;
         let ahead_of = loads.displacement + if ahead == 0 { loads.error } else { 0.0 };
-        // The displacement of the teeth by other loads, over √q_t, is smooth along the face.
-        let teeth = |number: usize| {
-            let (at, slice) = (number * loads.pairs + pair, &self.slices[number]);
-            let path = self.path(loads, ahead, number) - slice.ahead;
-            let (contact, _) = self.contact(slice, path, None, &mut Vec::new());
-            let own = loads.leads[at] + self.own(&contact) * loads.line_loads[at];
-            if contact.root > 0.0 { (ahead_of - contact.gap - own) / contact.root } else { 0.0 }
-        };
-        let [one, other] = [before, before + 1].map(teeth);
+        let [one, other] =
+            [before, before + 1].map(|slice| loads.teeth[slice * loads.pairs + pair]);
         let part = (z - self.slices[before].z) / self.slices[before].step;
         let slice = Slice::at(&self.inputs, z);
         let (contact, _) = self.contact(&slice, path - slice.ahead, None, &mut Vec::new());
@@ -546,13 +539,8 @@ impl Position<'_> {
                 smooth = f64::min(smooth, (means[at].abs() - half).abs() / lines[at][0].abs());
             }
         }
-        // Beyond the computed range no load displaces the teeth.
-        let advance = |(of, mean): (&Contact, &f64)| {
-            if of.mean < f64::INFINITY { mean + of.mean } else { displacement }
-        };
-        let advances = self.contacts.iter().zip(&means).map(advance).collect();
         let (mut leads, mut line_loads) = (means.clone(), vec![0.0; count]);
-        let mut mean_loads = line_loads.clone();
+        let (mut mean_loads, mut teeth) = (line_loads.clone(), line_loads.clone());
         let known = self.contacts.iter().enumerate().filter(|(_, of)| of.gap < f64::INFINITY);
         for (at, of) in known {
             if carried[at].touches() {
@@ -564,6 +552,9 @@ impl Position<'_> {
             leads[at] = if lead > 0.0 { lead * of.local / (of.local + own) } else { lead };
             if of.can_carry {
                 line_loads[at] = leads[at].max(0.0) / of.local;
+            }
+            if of.root > 0.0 {
+                teeth[at] = (displacement - of.gap - lead) / of.root;
             }
         }
         let most = displacement - self.face.least_gap + self.error.max(0.0);
@@ -577,7 +568,7 @@ impl Position<'_> {
             line_loads,
             mean_loads,
             leads,
-            advances,
+            teeth,
             force: sums[0] * displacement - sums[1],
             stiffness: sums[0],
             bend,
@@ -619,27 +610,29 @@ impl Position<'_> {
     /// What carries to begin with, and the displacement.
     fn first_guess(&self, until: Until, near: &[Rc<Loads>]) -> (Vec<Carried>, f64) {
         if let [first, rest @ ..] = near {
-            let mut means = self.moved(first);
+            let (mut teeth, mut displacement) = (self.moved(first), first.displacement);
             if let [second, ..] = rest {
                 let part = (self.s - first.s) / (second.s - first.s);
-                for (advance, other) in means.iter_mut().zip(self.moved(second)) {
-                    *advance += part * (other - *advance);
+                displacement += part * (second.displacement - displacement);
+                for (teeth, other) in teeth.iter_mut().zip(self.moved(second)) {
+                    *teeth += part * (other - *teeth);
                 }
             }
-            for (mean, of) in means.iter_mut().zip(&self.contacts) {
-                *mean -= of.mean;
+            if let Until::Displacement(known) = until {
+                displacement = known;
             }
+            let mean = |(of, teeth): (&Contact, f64)| {
+                let lead = displacement - of.mean - of.root * teeth;
+                if lead > 0.0 { lead * of.local / (of.local + self.face.own(of)) } else { lead }
+            };
+            let means: Vec<f64> = self.contacts.iter().zip(teeth).map(mean).collect();
             let guess = |(at, of): (usize, &Contact)| {
                 let rise = self.rise(&means, at);
                 if of.can_carry { of.carried(&self.sides, means[at], rise) } else { Carried::NONE }
             };
             let carried: Vec<Carried> = self.contacts.iter().enumerate().map(guess).collect();
-            match until {
-                Until::Displacement(displacement) => return (carried, displacement),
-                Until::Force(_) if carried.iter().any(|carried| carried.touches()) => {
-                    return (carried, first.displacement);
-                }
-                Until::Force(_) => {}
+            if matches!(until, Until::Displacement(_)) || carried.iter().any(|of| of.touches()) {
+                return (carried, displacement);
             }
         }
         let displacement = match until {
@@ -651,21 +644,22 @@ impl Position<'_> {
         (self.contacts.iter().map(guess).collect(), displacement)
     }
 
-    /// The advances near by, which keep their places on the path and have no bends at its ends.
+    /// The displacements of the teeth near by, which keep their places on the path and have no bends at
+    /// its ends.
     fn moved(&self, near: &Loads) -> Vec<f64> {
         let moved = self.face.slices_in(self.s - near.s);
         let (whole, part) = (moved.floor() as isize, moved - moved.floor());
         let last = self.face.slices.len() - 1;
-        let mut advances = vec![near.displacement; self.contacts.len()];
+        let mut teeth = vec![0.0; self.contacts.len()];
         for (pair, ahead) in (self.first..).take(self.pairs).enumerate() {
             let Some(known) = near.index(ahead) else { continue };
-            let advance = |slice: usize| near.advances[slice.min(last) * near.pairs + known];
-            for (slice, new) in advances[pair..].iter_mut().step_by(self.pairs).enumerate() {
+            let of = |slice: usize| near.teeth[slice.min(last) * near.pairs + known];
+            for (slice, new) in teeth[pair..].iter_mut().step_by(self.pairs).enumerate() {
                 let before = slice.saturating_add_signed(whole);
-                *new = advance(before) + part * (advance(before + 1) - advance(before));
+                *new = of(before) + part * (of(before + 1) - of(before));
             }
         }
-        advances
+        teeth
     }
 
     /// Mean displacement under the loads minus the mean gap, of every pair over every slice, if what is
