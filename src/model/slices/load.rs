@@ -195,6 +195,7 @@ impl Face {
     /// The force of a pair in a part of the path, in N: all of it as in the balance, a part of it up to its
     /// border and to the end of the contact, which are between two slices.
     fn force(&self, loads: &Loads, ahead: i32, part: Part) -> f64 {
+        const PARTS: u32 = 8;
         let Some(border) = part.border(self.mesh.length) else {
             return self.pair_force(loads, ahead);
         };
@@ -208,7 +209,7 @@ impl Face {
             at_border.map(|(lead, compliance, z)| (z, lead, lead.max(0.0) / compliance));
         let mut places: Vec<(f64, f64, f64)> = at_slices.chain(at_border).collect();
         places.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let between = |ends: &[(f64, f64, f64)]| {
+        let trapezoid = |ends: &[(f64, f64, f64)]| {
             let [(from, lead, load), (to, other, last)] = [ends[0], ends[1]];
             // The lead is linear where the contact ends.
             let part = match (lead > 0.0, other > 0.0) {
@@ -218,6 +219,22 @@ impl Face {
                 (false, true) => other / (other - lead),
             };
             0.5 * (load + last) * part * (to - from)
+        };
+        let middle = loads.s + f64::from(ahead) * self.mesh.base_pitch;
+        let between = |ends: &[(f64, f64, f64)]| {
+            if ends[0].1.max(ends[1].1) <= 0.0 {
+                return 0.0;
+            }
+            let inside = (1..PARTS).filter_map(|part| {
+                let z = ends[0].0 + (ends[1].0 - ends[0].0) * f64::from(part) / f64::from(PARTS);
+                let (lead, compliance, z) =
+                    self.lead_between(loads, ahead, middle + z * self.inputs.lead)?;
+                Some((z, lead, lead.max(0.0) / compliance))
+            });
+            let mut fine = vec![ends[0]];
+            fine.extend(inside);
+            fine.push(ends[1]);
+            fine.windows(2).map(trapezoid).sum()
         };
         places.windows(2).map(between).sum()
     }
