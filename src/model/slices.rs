@@ -27,6 +27,8 @@ struct Slice {
     exchange: [f64; 2],
     /// v of the slice before and after over that of this one, where no load acts on all slices beyond.
     tail: [f64; 2],
+    /// Mean of a function over the slice less its value in the middle, over its change of slope, in m².
+    spread: f64,
     /// Path ahead of the middle of the face, and at both borders to the next slices, in m.
     ahead: f64,
     borders: [f64; 2],
@@ -45,8 +47,21 @@ impl Slice {
         let none = [0.0; 2];
         let (ahead, gap) = (inputs.lead * z, inputs.gap(z));
         let (borders, mean_gap, border_gaps) = ([ahead; 2], gap, [gap; 2]);
-        let (width, step, exchange, tail) = (0.0, 0.0, none, none);
-        Slice { z, width, step, exchange, tail, ahead, borders, gap, mean_gap, border_gaps, ends }
+        let (width, step, exchange, tail, spread) = (0.0, 0.0, none, none, 0.0);
+        Slice {
+            z,
+            width,
+            step,
+            exchange,
+            tail,
+            spread,
+            ahead,
+            borders,
+            gap,
+            mean_gap,
+            border_gaps,
+            ends,
+        }
     }
 
     /// The slice from one place to another.
@@ -54,6 +69,7 @@ impl Slice {
         let (slice, width) = (Slice::at(inputs, z), to - from);
         Slice {
             width,
+            spread: ((to - z).powi(3) - (from - z).powi(3)) / (6.0 * width),
             borders: [from, to].map(|end| inputs.lead * end),
             mean_gap: mean(z, [from, to], |z| inputs.gap(z)),
             border_gaps: [from, to].map(|end| inputs.gap(end)),
@@ -81,8 +97,9 @@ pub struct Face {
     /// The section over the path of a pair, see [`Mesh::sections`].
     sections: Arc<Series<6>>,
     slices: Vec<Slice>,
-    /// ε of [`Face::new`].
+    /// ε of [`Face::new`], and 1/L² by it, in 1/m².
     excess: f64,
+    stiffening: f64,
     /// The places of a pair at which it passes into another zone.
     edges: Vec<f64>,
     /// Greatest path of a slice ahead of the middle, in m.
@@ -168,6 +185,7 @@ impl Face {
             mesh: Arc::clone(mesh),
             sections: Arc::clone(sections),
             excess,
+            stiffening: 12.0 * excess / ((1.0 + excess) * step * step),
             edges: mesh.edges().collect(),
             reach: 0.5 * inputs.width * inputs.lead.abs(),
             least_gap: slices.iter().map(|slice| slice.gap).fold(f64::INFINITY, f64::min),

@@ -29,8 +29,9 @@ pub struct Loads {
     pub mean_loads: Vec<f64>,
     /// Displacement under the loads minus the gap, in m, above 0 where a pair carries.
     pub leads: Vec<f64>,
-    /// Displacement of the teeth by other loads over √q_t, which is smooth along the face.
-    teeth: Vec<f64>,
+    /// Displacement of the teeth in the middle of each slice over √q_t, which is smooth along the face,
+    /// and its change of slope, in 1/m². Of independent slices by other pairs alone.
+    teeth: Vec<[f64; 2]>,
     /// Force that turns the driver, in N.
     pub force: f64,
     /// Change of the force with the displacement, in N/m.
@@ -181,8 +182,9 @@ struct Contact {
     sides: Option<usize>,
     /// Whether the pair can carry here.
     can_carry: bool,
-    /// Compliance of the contact, q_c, less what the load takes from the mean of u.
+    /// Compliance of the contact, q_c, less what the load takes from the mean of u, and without that.
     local: f64,
+    whole: f64,
     /// √(1 + ε) √q_t of the teeth.
     root: f64,
     /// The part of the load that turns the driver.
@@ -200,6 +202,7 @@ impl Contact {
         sides: None,
         can_carry: false,
         local: 1.0,
+        whole: 1.0,
         root: 0.0,
         weight: 1.0,
     };
@@ -309,6 +312,7 @@ impl Face {
             sides: found.as_ref().map(|_| sides.len()),
             can_carry: true,
             local,
+            whole: means[1],
             root: (teeth * (1.0 + self.excess)).sqrt(),
             weight: 1.0 - mesh.friction() * self.inputs.oblique * means[4],
         };
@@ -388,11 +392,18 @@ impl Face {
         let ahead_of = loads.displacement + if ahead == 0 { loads.error } else { 0.0 };
         let [one, other] =
             [before, before + 1].map(|slice| loads.teeth[slice * loads.pairs + pair]);
-        let part = (z - self.slices[before].z) / self.slices[before].step;
+        let step = self.slices[before].step;
+        let part = (z - self.slices[before].z) / step;
+        let rest = 1.0 - part;
+        // The cubic with both values and both changes of slope.
+        let cubic = |part: f64, [value, bend]: [f64; 2]| {
+            part * (value - bend * step * step * (1.0 - part * part) / 6.0)
+        };
+        let teeth = cubic(rest, one) + cubic(part, other);
         let slice = Slice::at(&self.inputs, z);
         let (contact, _) = self.contact(&slice, path - slice.ahead, None, &mut Vec::new());
-        let lead = ahead_of - contact.gap - contact.root * (one + part * (other - one));
-        Some((lead, contact.local + self.own(&contact), z))
+        let lead = ahead_of - contact.gap - contact.root * teeth;
+        Some((lead, contact.whole + self.own(&contact), z))
     }
 
     /// The line load of a pair at a place of its path between two slices, and z.
@@ -540,21 +551,25 @@ impl Position<'_> {
             }
         }
         let (mut leads, mut line_loads) = (means.clone(), vec![0.0; count]);
-        let (mut mean_loads, mut teeth) = (line_loads.clone(), line_loads.clone());
+        let (mut mean_loads, mut teeth) = (line_loads.clone(), vec![[0.0; 2]; count]);
+        for (at, of) in self.contacts.iter().enumerate().filter(|(at, _)| carried[*at].touches()) {
+            mean_loads[at] = carried[at].mean(means[at]) / of.local;
+        }
         let known = self.contacts.iter().enumerate().filter(|(_, of)| of.gap < f64::INFINITY);
         for (at, of) in known {
-            if carried[at].touches() {
-                mean_loads[at] = carried[at].mean(means[at]) / of.local;
-            }
             let own = self.face.own(of);
             // The middle of a slice alone deflects under its own load, not under the mean.
-            let lead = means[at] + (of.mean - of.gap) + own * mean_loads[at];
-            leads[at] = if lead > 0.0 { lead * of.local / (of.local + own) } else { lead };
+            let moved =
+                displacement - of.mean - means[at] - (of.whole - of.local + own) * mean_loads[at];
+            let bend = self.face.stiffening * (moved - self.source(at, &mean_loads));
+            let middle = moved - bend * self.face.slices[at / self.pairs].spread;
+            let lead = displacement - of.gap - middle;
+            leads[at] = if lead > 0.0 { lead * of.whole / (of.whole + own) } else { lead };
             if of.can_carry {
-                line_loads[at] = leads[at].max(0.0) / of.local;
+                line_loads[at] = leads[at].max(0.0) / of.whole;
             }
             if of.root > 0.0 {
-                teeth[at] = (displacement - of.gap - lead) / of.root;
+                teeth[at] = [middle / of.root, bend / of.root];
             }
         }
         let most = displacement - self.face.least_gap + self.error.max(0.0);
@@ -574,6 +589,18 @@ impl Position<'_> {
             bend,
             smooth,
         })
+    }
+
+    /// The displacement of the teeth of a pair at a slice by the mean loads there if they were even.
+    fn source(&self, at: usize, mean_loads: &[f64]) -> f64 {
+        let (first, own) = (at - at % self.pairs, at % self.pairs);
+        let here = self.contacts[first..][..self.pairs].iter().zip(&mean_loads[first..]);
+        let pushes = here.zip(&self.kappa[own * self.pairs..]).enumerate();
+        let parts = pushes.map(|(pair, ((of, load), kappa))| {
+            let kappa = if pair == own { kappa / (1.0 + self.face.excess) } else { *kappa };
+            kappa * of.root * load
+        });
+        self.contacts[at].root * parts.sum::<f64>()
     }
 
     /// The rise of a lead over its slice by the displacement of the teeth, which is linear between the
@@ -623,7 +650,7 @@ impl Position<'_> {
             }
             let mean = |(of, teeth): (&Contact, f64)| {
                 let lead = displacement - of.mean - of.root * teeth;
-                if lead > 0.0 { lead * of.local / (of.local + self.face.own(of)) } else { lead }
+                if lead > 0.0 { lead * of.local / (of.whole + self.face.own(of)) } else { lead }
             };
             let means: Vec<f64> = self.contacts.iter().zip(teeth).map(mean).collect();
             let guess = |(at, of): (usize, &Contact)| {
@@ -653,7 +680,7 @@ impl Position<'_> {
         let mut teeth = vec![0.0; self.contacts.len()];
         for (pair, ahead) in (self.first..).take(self.pairs).enumerate() {
             let Some(known) = near.index(ahead) else { continue };
-            let of = |slice: usize| near.teeth[slice.min(last) * near.pairs + known];
+            let of = |slice: usize| near.teeth[slice.min(last) * near.pairs + known][0];
             for (slice, new) in teeth[pair..].iter_mut().step_by(self.pairs).enumerate() {
                 let before = slice.saturating_add_signed(whole);
                 *new = of(before) + part * (of(before + 1) - of(before));
