@@ -237,9 +237,11 @@ fn required(more: f64, given: f64, gear: &str, system: System) -> String {
     let unit = system.unit(RELIEF_UNIT);
     let [more, all] = rounded_up(more, given, system);
     if given > 0.0 {
-        format!("{more} {unit} more tip relief on the {gear}, {all} {unit} in all, prevents it")
+        format!(
+            "at least {more} {unit} more tip relief on the {gear}, {all} {unit} in all, prevents it"
+        )
     } else {
-        format!("{more} {unit} of tip relief on the {gear} prevents it")
+        format!("at least {more} {unit} tip relief on the {gear} prevents it")
     }
 }
 
@@ -323,7 +325,7 @@ mod tests {
         assert_eq!(
             verdict(&[]),
             "Corner contact 1.366 deg before E: free impact 2191.0 N (1.44 times the mesh force); \
-                47.4 um of tip relief on the driven gear prevents it."
+                at least 47.4 um tip relief on the driven gear prevents it."
         );
         assert!(verdict(&[("model.method", "static")]).starts_with(
             "Corner contact 1.252 deg before E: up to 1466.2 N on the tip (0.96 times the mesh \
@@ -370,9 +372,8 @@ mod tests {
         let at_exit = of("0 um");
         assert!(at_exit.starts_with("Corner contact at the exit, until "), "{at_exit}");
         assert!(
-            at_exit.contains(
-                " um of tip relief on the driver prevents it. None at the entry: the tip"
-            ),
+            at_exit
+                .contains(" um tip relief on the driver prevents it. None at the entry: the tip"),
             "{at_exit}"
         );
         let relieved = of("80 um");

@@ -116,7 +116,7 @@ fn figures(sentence: &str) -> (String, Option<String>) {
     let words: Vec<&str> = sentence.split(' ').collect();
     let total =
         sentence.split_once("driven gear, ").and_then(|(_, rest)| rest.split_once(" in all"));
-    (words[..2].join(" "), total.map(|(total, _)| total.to_owned()))
+    (words[2..4].join(" "), total.map(|(total, _)| total.to_owned()))
 }
 
 #[test]

@@ -380,7 +380,7 @@ fn notes_are_never_off_the_screen() {
 #[test]
 fn the_required_relief_has_a_placeholder_until_it_is_present() {
     let mut desk = Desk::new(LARGE);
-    desk.assert_shows("47.4 um of tip relief on the driven gear");
+    desk.assert_shows("47.4 um tip relief on the driven gear");
     let effects = update(&mut desk.app, harness::run("method"));
     assert!(requested(effects, Slot::Solve).is_some(), "it asks for a solve");
     let whole = desk.whole_answer();
@@ -397,7 +397,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
     // It is waited for no more.
     assert!(!stopped.tab.lacks(Stage::Clearing));
     desk.show(whole);
-    desk.assert_shows("40.1 um of").lacks(&["being"]);
+    desk.assert_shows("40.1 um tip").lacks(&["being"]);
 }
 
 #[test]
