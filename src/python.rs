@@ -21,6 +21,7 @@ use pyo3::types::{PyBool, PyByteArray, PyFloat, PyList};
 
 use crate::case::fields::{FIELDS, Kind, index_of};
 use crate::case::file::{Document, MOST_MODEL_BYTES, ReadError, read_bytes};
+use crate::case::units::System;
 use crate::case::{
     Case as Fields, EXAMPLES, Example, Problem, put_field, quantity, rexs, violated_rule,
 };
@@ -507,7 +508,7 @@ impl Case {
             wrong(format!("{chart}: there is no such chart: write one of {}", names.join(", ")))
         })?;
         let source = self.unsolved()?;
-        let drawn = run(py, progress, |go_on| picture.of_case(source, go_on))?;
+        let drawn = run(py, progress, |go_on| picture.of_case(source, System::Metric, go_on))?;
         let drawn = drawn.map_err(|refusal| self.refused(&refusal))?;
         drawn.map_err(|reason| self.failed(&reason))
     }
@@ -664,7 +665,7 @@ fn report(
         let subject = run(py, call, |go_on| source.subject(file, format, go_on))?;
         subjects.push(subject.map_err(|refusal| case.refused(&refusal))?);
     }
-    Ok(render(format, &subjects, &page::Settings { title, no_appendix })?)
+    Ok(render(format, &subjects, &page::Settings { title, no_appendix, units: System::Metric })?)
 }
 
 /// The SI unit of each field; empty for bare numbers.

@@ -194,8 +194,9 @@ pub fn shown_with(quantity: &Quantity, value: f64, unit: &'static str) -> Shown 
 fn numbers(
     quantity: &Quantity,
     values: &[Option<f64>],
+    units: System,
 ) -> Option<(Vec<Option<String>>, &'static str)> {
-    let unit = common_unit(quantity, values.iter().copied().flatten(), System::Metric);
+    let unit = common_unit(quantity, values.iter().copied().flatten(), units);
     let shown = |value| shown_with(quantity, value, unit);
     let last = shown(*values.iter().flatten().last()?);
     let number = |value: &Option<f64>| value.map(|value| shown(value).number);

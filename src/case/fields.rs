@@ -2,7 +2,7 @@
 
 mod table;
 
-use super::units::Dimension;
+use super::units::{self, Dimension, System};
 use crate::model::Inputs;
 use crate::model::compliance::{contact_of, model_of};
 use crate::model::given::COEFFICIENTS;
@@ -11,6 +11,9 @@ use crate::model::limits::Member;
 use crate::numeric::decimal::shortest;
 use Reason::{Idle, Partly};
 pub use table::{FIELDS, List};
+
+/// Significant digits of a hint.
+const DIGITS: usize = 5;
 
 /// A line of the form and a key of the case file.
 #[derive(Debug, Clone, Copy)]
@@ -116,6 +119,23 @@ impl Field {
     pub fn usual_unit(&self) -> &'static str {
         let is_number = matches!(self.kind, Kind::Number(..));
         self.example().split_once(' ').filter(|_| is_number).map_or("", |(_, unit)| unit)
+    }
+
+    /// A default or an example of the field in the units of the system, as a bare number gets them.
+    pub(crate) fn text_in(&self, text: &str, system: System) -> String {
+        let unit = self.usual_unit();
+        let value = match self.kind {
+            Kind::Number(dimension, ..) if system.unit(unit) != unit => {
+                units::parse(text, dimension, "").ok()
+            }
+            _ => None,
+        };
+        value.map_or_else(|| text.to_owned(), |value| self.in_usual_unit(value, system))
+    }
+
+    /// A value in SI in the usual unit of the field, with the digits of a hint.
+    pub(crate) fn in_usual_unit(&self, value: f64, system: System) -> String {
+        system.text(value, self.usual_unit(), DIGITS)
     }
 
     /// The index of its alternative in [`FIELDS`].

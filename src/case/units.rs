@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use super::Problem;
 use super::sanitize::{cut, nearest, quoted};
+use crate::model::explanation::tidy;
 use crate::numeric::decimal::significant;
 
 /// The physical dimension of a field or a quantity.
@@ -647,11 +648,12 @@ static UNITS: [(Dimension, &str, &[Unit]); 18] = [
 
 /// The units of shown values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum System {
-    /// mm, um, N, kW, N m, GPa.
+    /// mm, um, N, kW, N m, GPa
     #[default]
     Metric,
-    /// in, thou, lbf, hp, lbf ft, ksi.
+    /// in, thou, lbf, hp, lbf ft, ksi
     Inch,
 }
 
@@ -708,6 +710,17 @@ impl System {
             Some((_, inch)) if self == System::Inch => inch,
             _ => written,
         }
+    }
+
+    /// A value in SI as a number of the unit that corresponds to a metric unit.
+    pub fn number(self, value: f64, metric: &str, digits: usize) -> String {
+        tidy(per(value, self.unit(metric)), digits)
+    }
+
+    /// The same number with its unit, unless that is empty.
+    pub fn text(self, value: f64, metric: &str, digits: usize) -> String {
+        let text = format!("{} {}", self.number(value, metric, digits), self.unit(metric));
+        text.trim_end().to_owned()
     }
 }
 

@@ -1,5 +1,7 @@
 //! A chart as a value: curves, bars and points between two axes, for pictures and the workbench.
 
+use crate::case::units::{self, System};
+
 /// A point of a curve.
 pub type Point = (f64, f64);
 
@@ -137,6 +139,27 @@ impl Chart {
         };
         let sound = |span: Span| if span.is_empty() { Span::new(0.0, 1.0) } else { span };
         (sound(Span::new(across.from - half, across.to + half)), sound(up))
+    }
+
+    /// The chart with its axes in the units of a system. The values of a map keep their unit.
+    #[must_use]
+    pub fn in_units(mut self, units: System) -> Chart {
+        let converted = |axis: &mut Axis| {
+            let own = units::factor(&axis.unit).unwrap_or(1.0);
+            axis.unit = units.unit(&axis.unit).to_owned();
+            let factor = own / units::factor(&axis.unit).unwrap_or(1.0);
+            axis.labels.iter_mut().for_each(|(value, _)| *value *= factor);
+            factor
+        };
+        let [x, y] = [&mut self.across, &mut self.up].map(converted);
+        let points = self.series.iter_mut().flat_map(|series| series.pieces.iter_mut().flatten());
+        points.for_each(|point| *point = (x * point.0, y * point.1));
+        self.marks.iter_mut().for_each(|(place, _)| *place *= x);
+        let places = self.map.iter_mut().flat_map(|map| map.places.iter_mut().zip([x, y]));
+        for (place, factor) in places.flat_map(|(all, by)| all.iter_mut().map(move |at| (at, by))) {
+            *place *= factor;
+        }
+        self
     }
 
     /// Whether the chart has bars at whole numbers.

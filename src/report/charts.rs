@@ -24,13 +24,22 @@ use std::fmt;
 
 /// The pictures that are not charts of [`GRAPHS`]; they follow those charts.
 const OTHERS: [Picture; 7] = [
-    Picture { is_on_page: false, ..of_one(TOOTH_KEYS[0], Part::Flanks, |cases| tooth(0, cases)) },
-    Picture { is_on_page: false, ..of_one(TOOTH_KEYS[1], Part::Flanks, |cases| tooth(1, cases)) },
-    Picture { is_of_one_case: false, ..of_one(SPECTRUM, Part::Stations, spectrum_chart) },
+    Picture {
+        is_on_page: false,
+        ..of_one(TOOTH_KEYS[0], Part::Flanks, |cases, _| tooth(0, cases))
+    },
+    Picture {
+        is_on_page: false,
+        ..of_one(TOOTH_KEYS[1], Part::Flanks, |cases, _| tooth(1, cases))
+    },
+    Picture {
+        is_of_one_case: false,
+        ..of_one(SPECTRUM, Part::Stations, |cases, _| spectrum_chart(cases))
+    },
     Picture { is_of_one_case: false, ..of_one(SPEED, Part::Speeds, speed) },
     of_one(RELIEF, Part::Stations, reliefs),
     of_one(PATTERN, Part::Stations, pattern),
-    Picture { drawing: Drawing::Teeth, ..of_one(TEETH, Part::Stations, spectrum_chart) },
+    Picture { drawing: Drawing::Teeth, ..of_one(TEETH, Part::Stations, pattern) },
 ];
 
 /// A picture of solved cases.
@@ -48,7 +57,7 @@ pub struct Picture {
 }
 
 /// The chart of solved cases.
-type Draw = fn(&[NamedCase]) -> Result<Chart, String>;
+type Draw = fn(&[NamedCase], System) -> Result<Chart, String>;
 
 #[derive(Debug, Clone, Copy)]
 enum Drawing {
@@ -76,21 +85,21 @@ fn tooth(gear: usize, cases: &[NamedCase]) -> Result<Chart, String> {
     }
 }
 
-fn speed(cases: &[NamedCase]) -> Result<Chart, String> {
+fn speed(cases: &[NamedCase], _: System) -> Result<Chart, String> {
     let named = cases.iter().filter_map(|(name, case)| Some((*name, case.speeds.as_ref()?)));
     speed_chart(&named.collect::<Vec<_>>())
 }
 
-fn reliefs(cases: &[NamedCase]) -> Result<Chart, String> {
+fn reliefs(cases: &[NamedCase], _: System) -> Result<Chart, String> {
     let (_, report) = first(cases)?;
     let (reliefs, geometry) = (report.inputs.reliefs(), &report.solution.geometry);
     relief_chart(&reliefs, geometry, tolerances(&report.case))
 }
 
-fn pattern(cases: &[NamedCase]) -> Result<Chart, String> {
+fn pattern(cases: &[NamedCase], units: System) -> Result<Chart, String> {
     let (case, report) = first(cases)?;
     let solutions = case.reports.iter().map(|report| &report.solution);
-    pattern_chart(&report.inputs, &solutions.collect::<Vec<_>>())
+    pattern_chart(&report.inputs, &solutions.collect::<Vec<_>>(), units)
 }
 
 /// Every picture: the charts of the stations, the charts with their own axes, the teeth.
@@ -115,16 +124,16 @@ impl Picture {
     ///
     /// # Errors
     /// The reason if no case has values for the picture.
-    pub fn draw(self, cases: &[NamedCase], caption: &str) -> Result<String, String> {
+    pub fn draw(self, cases: &[NamedCase], caption: &str, units: System) -> Result<String, String> {
         let chart = match self.drawing {
             Drawing::Graph(graph) => graph_chart(graph, cases)?,
-            Drawing::Chart(chart) => chart(cases)?,
+            Drawing::Chart(chart) => chart(cases, units)?,
             Drawing::Teeth => {
                 let (_, report) = first(cases)?;
-                return Ok(svg::teeth(&report.inputs, &report.solution, caption));
+                return Ok(svg::teeth(&report.inputs, &report.solution, caption, units));
             }
         };
-        Ok(svg::draw(&chart, caption))
+        Ok(svg::draw(&chart.in_units(units), caption))
     }
 
     /// Solves a case and draws it. `go_on` receives the number of computed parts and their total,
@@ -135,11 +144,12 @@ impl Picture {
     pub fn of_case(
         self,
         source: Unsolved<'_>,
+        units: System,
         go_on: &dyn Fn(usize, usize) -> bool,
     ) -> Result<Result<String, String>, Refusal> {
         let fix = if self.part == Part::Speeds { "" } else { ": choose another chart" };
         let pair = Named { name: source.name, title: source.case.title() }.caption();
-        let drawn = self.draw(&[("", &source.part(self.part, go_on)?)], &pair);
+        let drawn = self.draw(&[("", &source.part(self.part, go_on)?)], &pair, units);
         Ok(drawn.map_err(|reason| format!("{self} has no curve: {reason}{fix}")))
     }
 }
@@ -710,12 +720,16 @@ impl<'a> Pattern<'a> {
 ///
 /// # Errors
 /// The reason if the pair has no slices, or the method no line load.
-pub fn pattern_chart(inputs: &Inputs, solutions: &[&Solution]) -> Result<Chart, String> {
+pub fn pattern_chart(
+    inputs: &Inputs,
+    solutions: &[&Solution],
+    units: System,
+) -> Result<Chart, String> {
     let found = solutions.iter().find_map(|solution| Pattern::of(inputs, solution));
     match (found, inputs.face()) {
         (Some(pattern), _) => {
             let window = pattern.span().scaled(1f64.to_degrees());
-            Ok(pattern.chart(pattern.at_peak(), window, System::Metric))
+            Ok(pattern.chart(pattern.at_peak(), window, units))
         }
         (None, Some(_)) => Err("no method computed the line load of the pair".to_owned()),
         (None, None) => {
@@ -798,6 +812,6 @@ mod pattern_tests {
             }
         }
         let spur = Example::find("zhou-chen-2014").unwrap().document().case.inputs().unwrap();
-        assert!(pattern_chart(&spur, &[]).is_err());
+        assert!(pattern_chart(&spur, &[], System::Metric).is_err());
     }
 }

@@ -119,12 +119,12 @@ impl Comparison {
 
     /// The inputs that differ, and the results in the order of the first method, in groups unless
     /// the user names some.
-    pub(super) fn tables(&self) -> Vec<Table> {
+    pub(super) fn tables(&self, units: System) -> Vec<Table> {
         let columns = self.columns();
         let table = |title: &str| Table::new(title, columns.clone());
         let mut found = vec![table("Inputs that differ").with(self.inputs())];
         if let Some(method) = self.cases.iter().find_map(|case| Some(case.solution()?.method)) {
-            let row = |quantity| self.row(quantity, method);
+            let row = |quantity| self.row(quantity, method, units);
             if self.selection.is_whole() {
                 found.extend(grouped(method, &columns, row));
             } else {
@@ -136,12 +136,12 @@ impl Comparison {
     }
 
     /// A quantity by the definition of a method; CSV has the values by the methods of the cases.
-    fn row(&self, quantity: &'static Quantity, method: Method) -> Option<Vec<Cell>> {
+    fn row(&self, quantity: &'static Quantity, method: Method, units: System) -> Option<Vec<Cell>> {
         let of = |case: &ComparedCase| value_as_in(quantity, case.solution()?, method);
         let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
         let known: Vec<Option<f64>> = self.cases.iter().map(of).map(finite).collect();
         let last = *known.iter().flatten().last()?;
-        let unit = common_unit(quantity, known.iter().copied().flatten(), System::Metric);
+        let unit = common_unit(quantity, known.iter().copied().flatten(), units);
         let shown = |value| shown_with(quantity, value, unit);
         let [symbol, label] = [quantity.symbol_in(method), quantity.label_in(method)];
         let names = [quantity.key, quantity.unit, symbol, label, shown(last).unit].map(Cell::from);
@@ -219,7 +219,7 @@ impl Comparison {
                 writeln!(out, "{line}")?;
             }
         }
-        let tables = self.tables();
+        let tables = self.tables(System::Metric);
         if tables.is_empty() {
             return Ok(());
         }
@@ -258,7 +258,7 @@ impl Comparison {
         }
         let others = (1..self.cases.len()).flat_map(|at| self.pair(at));
         let columns: Vec<usize> = [3, 2, NAMES].into_iter().chain(others).chain([4]).collect();
-        for table in self.tables() {
+        for table in self.tables(System::Metric) {
             let mut shown = table.of(&columns);
             shown.columns[0].title = table.title.into();
             writeln!(out, "\n{}", shown.markdown())?;
@@ -281,7 +281,7 @@ impl Comparison {
             words("method", |case| case.method().unwrap_or_default()),
             words("outcome", ComparedCase::outcome),
         ];
-        let tables = self.tables();
+        let tables = self.tables(System::Metric);
         let results = tables.iter().flat_map(|table| &table.rows);
         rows.extend(self.quantities().filter_map(|quantity| {
             results.clone().find(|row| row[0] == Cell::from(quantity.key)).cloned()

@@ -22,7 +22,7 @@ pub fn render(report: &Report) -> String {
     let notes = case_notes(&report.notes).map(|note| sanitize(&note.to_string())).collect();
     let sections = [
         report.named().headings(&methods(report)),
-        items("", verdict(report)),
+        items("", verdict(report, System::Metric)),
         inputs(report),
         quantity_lines(report),
         titled("Notes", items("  - ", notes)),
@@ -55,8 +55,8 @@ fn beside(quantity: &Quantity, solution: &Solution) -> Option<&'static str> {
 }
 
 /// The verdict in a sentence, followed by the results of other methods and the resonance.
-pub(super) fn verdict(report: &Report) -> Vec<String> {
-    let (solution, system) = (&report.solution, System::Metric);
+pub(super) fn verdict(report: &Report, system: System) -> Vec<String> {
+    let solution = &report.solution;
     let mut sentences = vec![sentence(solution, system, false)];
     if report.selection.is_whole() {
         let all: Vec<&Solution> = report.others.iter().collect();

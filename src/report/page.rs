@@ -7,14 +7,13 @@ use crate::case::fields::{Absent, index_of};
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
-use crate::case::{Case, FIELDS, units};
-use crate::model::explanation::tidy;
+use crate::case::{Case, FIELDS};
 use crate::model::quantities::conditions::helical;
 use crate::model::{About, Inputs, Quantity};
 use crate::report::charts::NamedCase;
 use crate::report::charts::{PATTERN, Picture, find, pictures};
 use crate::report::compare::{ComparedCase, Comparison};
-use crate::report::relief::{BEGINS, RELIEF, begins, tolerance, tolerances};
+use crate::report::relief::{BEGINS, RELIEF, begins, drawn, tolerance, tolerances};
 use crate::report::solve::Subject;
 use crate::report::table::{Cell, Column, Table};
 use crate::report::tolerance::{distributions, probabilities, samples as samples_of};
@@ -40,6 +39,9 @@ pub struct Settings {
     /// Leave out the appendix: all results, further charts, studies, sources and case files
     #[cfg_attr(feature = "cli", arg(long))]
     pub no_appendix: bool,
+    /// Units of the page; .csv and .json are in SI
+    #[cfg_attr(feature = "cli", arg(long, value_name = "SYSTEM", default_value = "metric"))]
+    pub units: System,
 }
 
 /// Fields that the page shows even with their defaults, because they define the pair.
@@ -125,6 +127,7 @@ pub struct Page<'a> {
     inputs: Table,
     main: Table,
     results: Vec<Table>,
+    units: System,
 }
 
 /// The date of today in UTC, or of `SOURCE_DATE_EPOCH` for pages with the same bytes on every day.
@@ -149,14 +152,16 @@ fn date(days: u64) -> String {
 impl<'a> Page<'a> {
     /// The page of some cases; empty without cases.
     pub fn of(subjects: &'a [Subject], settings: &Settings) -> Page<'a> {
-        let cases: Vec<PageCase> = subjects.iter().filter_map(PageCase::of).collect();
+        let units = settings.units;
+        let cases = subjects.iter().filter_map(|subject| PageCase::of(subject, units));
+        let cases: Vec<PageCase> = cases.collect();
         let title = match (&settings.title, cases.as_slice()) {
             (Some(title), _) => sanitize(title),
             (None, []) => String::new(),
             (None, [only]) => only.title.clone(),
             (None, several) => format!("{} gear pairs side by side", several.len()),
         };
-        let (inputs, (main, results)) = (inputs(&cases), results(&cases));
+        let (inputs, (main, results)) = (inputs(&cases, units), results(&cases, units));
         Page {
             subjects,
             has_appendix: !settings.no_appendix,
@@ -167,6 +172,7 @@ impl<'a> Page<'a> {
             inputs,
             main,
             results,
+            units,
         }
     }
 
@@ -187,7 +193,7 @@ impl<'a> Page<'a> {
                 [(title, _)] => (*title).to_owned(),
                 _ => String::new(),
             };
-            let draw = |cases: &[NamedCase]| picture.draw(cases, &title(cases)).ok();
+            let draw = |cases: &[NamedCase]| picture.draw(cases, &title(cases), self.units).ok();
             sets.into_iter().filter_map(draw).collect()
         };
         let is_main = |picture: &Picture| MAIN_PICTURES.contains(&picture.key);
@@ -235,20 +241,20 @@ impl<'a> Page<'a> {
 }
 
 impl PageCase<'_> {
-    fn of(subject: &Subject) -> Option<PageCase<'_>> {
+    fn of(subject: &Subject, units: System) -> Option<PageCase<'_>> {
         let report = subject.own()?;
         let limits = verdicts(&report.case, &report.solution);
         let limits = limits.iter().map(|verdict| {
-            let sentence = with_labels(&verdict.to_string());
+            let sentence = with_labels(&verdict.sentence(units));
             (verdict.standing.holds(), verdict.standing.word(), sentence)
         });
         Some(PageCase {
             report,
             title: report.named().heading(),
-            verdict: verdict(report),
+            verdict: verdict(report, units),
             limits: limits.collect(),
             notes: notes(report),
-            studies: tables(subject, &report.case),
+            studies: tables(subject, &report.case, units),
             lines: without_comments(&subject.file),
             file: &subject.file,
         })
@@ -342,7 +348,7 @@ fn titles<'a>(cases: &'a [PageCase]) -> impl Iterator<Item = String> + 'a {
 
 /// The fields that differ from their defaults in a case, and those that define the pair. A field of
 /// both gears is one row, the driver first.
-fn inputs(cases: &[PageCase]) -> Table {
+fn inputs(cases: &[PageCase], units: System) -> Table {
     let rows = FIELDS.iter().enumerate().filter_map(|(at, field)| {
         let fields: Vec<usize> = match field.table() {
             "" | "driven" => return None,
@@ -353,7 +359,7 @@ fn inputs(cases: &[PageCase]) -> Table {
             _ => vec![at],
         };
         let texts = cases.iter().map(|case| {
-            let texts = fields.iter().map(|&field| input(field, case.report));
+            let texts = fields.iter().map(|&field| input(field, case.report, units));
             texts.collect::<Vec<(Option<String>, bool)>>()
         });
         let texts: Vec<_> = texts.collect();
@@ -382,12 +388,13 @@ fn inputs(cases: &[PageCase]) -> Table {
             let geometry = &case.report.solution.geometry;
             let reliefs = TipReliefs::of_case(&case.report.inputs, geometry);
             let found = begins(*place, &reliefs, geometry, tolerances(&case.report.case));
+            let drawn = |value| drawn(value, unit, units);
             let text = |at: usize| match (reliefs.amounts[at], found[at]) {
                 (0.0, _) => "–".to_owned(),
-                (_, [own, 0.0]) => format!("{own:.2}"),
-                (_, [own, by]) => format!("{own:.2} ±{by:.2}"),
+                (_, [own, 0.0]) => drawn(own),
+                (_, [own, by]) => format!("{} ±{}", drawn(own), drawn(by)),
             };
-            Cell::Default(format!("{} / {} {unit}", text(0), text(1)))
+            Cell::Default(format!("{} / {} {}", text(0), text(1), units.unit(unit)))
         };
         let names = [format!("tip relief {label}"), (*symbol).to_owned()].map(Cell::from);
         names.into_iter().chain(cases.iter().map(of)).collect()
@@ -397,24 +404,22 @@ fn inputs(cases: &[PageCase]) -> Table {
 
 /// The text of a field, given, computed from other fields or by default, and whether the case does
 /// not change it.
-fn input(at: usize, report: &Report) -> (Option<String>, bool) {
+fn input(at: usize, report: &Report, units: System) -> (Option<String>, bool) {
     const DIGITS: usize = 6;
     let (case, field) = (&report.case, &FIELDS[at]);
-    let derived = case.derived(at, &report.inputs).map(|value| {
-        let unit = field.usual_unit();
-        let number = tidy(value / units::factor(unit).unwrap_or(1.0), DIGITS);
-        format!("{number} {unit}").trim_end().to_owned()
-    });
+    let shown = |value| units.text(value, field.usual_unit(), DIGITS);
+    let derived = case.derived(at, &report.inputs).map(shown);
     let words = matches!(field.absent, Absent::Without(_)) && case.text(at).is_none();
-    let text = derived.or_else(|| case.effective(at).filter(|_| !words).map(sanitize));
-    let unit = field.usual_unit();
-    let off = tolerance(case, field.key) / units::factor(unit).unwrap_or(1.0);
-    let off = if off > 0.0 { format!(" ±{} {unit}", tidy(off, DIGITS)) } else { String::new() };
+    // A given value keeps its unit.
+    let usual = || Some(field.text_in(case.effective(at)?, units)).filter(|_| !words);
+    let text = derived.or_else(|| case.text(at).map(sanitize)).or_else(usual);
+    let off = tolerance(case, field.key);
+    let off = if off > 0.0 { format!(" ±{}", shown(off)) } else { String::new() };
     (text.map(|text| text + &off), is_default(at, case))
 }
 
 /// The main results, and all results in groups, in the order of the method of the first case.
-fn results(cases: &[PageCase]) -> (Table, Vec<Table>) {
+fn results(cases: &[PageCase], units: System) -> (Table, Vec<Table>) {
     let mut columns = columns("quantity", titles(cases));
     columns.extend(["unit", "source"].map(|key| Column::text(key, key)));
     let main = Table::new("", columns);
@@ -423,7 +428,7 @@ fn results(cases: &[PageCase]) -> (Table, Vec<Table>) {
     };
     let row = |quantity: &'static Quantity| {
         let values = cases.iter().map(|case| value(quantity, &case.report.solution));
-        let (texts, unit) = numbers(quantity, &values.collect::<Vec<_>>())?;
+        let (texts, unit) = numbers(quantity, &values.collect::<Vec<_>>(), units)?;
         let texts = texts.into_iter().map(|text| text.map_or(Cell::None("–".into()), Cell::Text));
         let names = [quantity.label_in(method).trim(), quantity.symbol_in(method)].map(Cell::from);
         let source = [unit, quantity.equation].map(Cell::from);
@@ -441,18 +446,18 @@ fn results(cases: &[PageCase]) -> (Table, Vec<Table>) {
 }
 
 /// The tables of the studies of a case.
-fn tables(subject: &Subject, case: &Case) -> Vec<Table> {
-    let variants = subject.variants.iter().map(of_variants);
+fn tables(subject: &Subject, case: &Case, units: System) -> Vec<Table> {
+    let variants = subject.variants.iter().map(|comparison| of_variants(comparison, units));
     let tolerance = subject.tolerance.iter();
-    let tolerance = tolerance.map(|(study, samples)| of_tolerance(case, study, samples));
+    let tolerance = tolerance.map(|(study, samples)| of_tolerance(case, study, samples, units));
     variants.chain(tolerance).collect()
 }
 
-fn of_variants(comparison: &Comparison) -> Table {
+fn of_variants(comparison: &Comparison, units: System) -> Table {
     let names = comparison.cases.iter().map(|case| sanitize(&case.name));
     let mut columns = columns("", names);
     columns.push(Column::text("unit", ""));
-    let tables = comparison.tables();
+    let tables = comparison.tables(units);
     let rows = tables.iter().flat_map(|table| &table.rows).map(|row| {
         let [symbol, label, unit] = [2, 3, 4].map(|at: usize| row[at].clone());
         let values = (0..comparison.cases.len()).map(|at| comparison.value(row, at).into());
@@ -468,7 +473,7 @@ fn of_variants(comparison: &Comparison) -> Table {
     }
 }
 
-fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples) -> Table {
+fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples, units: System) -> Table {
     let summary = study.summary(samples);
     let percentiles = PERCENTILES.iter().map(|percent| format!("P{percent}"));
     let figures = ["mean", "standard deviation"].map(str::to_owned);
@@ -480,7 +485,7 @@ fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples) -> Table {
             return None;
         }
         let ends = [found.range.0, found.range.1].into_iter();
-        let unit = common_unit(quantity, ends, System::Metric);
+        let unit = common_unit(quantity, ends, units);
         let shown = |value: f64| shown_with(quantity, value, unit);
         let values = found.percentiles.iter().map(|one| one.value);
         let values = values.chain([found.mean.value, found.deviation]);

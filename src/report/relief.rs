@@ -5,9 +5,10 @@ use super::table::{Cell, Column, Table};
 use super::table::{Json, json, with};
 use super::table::{Named, Results};
 use super::table::{WIDTH, item};
+use crate::case::Case;
 use crate::case::fields::index_of;
 use crate::case::spread::Shape;
-use crate::case::{Case, units};
+use crate::case::units::{self, System};
 use crate::model::Inputs;
 use crate::model::explanation::tidy;
 use crate::model::geometry::Geometry;
@@ -21,60 +22,51 @@ use crate::study::relief::{
 impl Specification {
     /// The specification with one of its choices, without its gains if these are shown elsewhere:
     /// rows of tables of at most 80 columns, and unwrapped sentences.
-    pub fn of_choice(&self, at: usize, has_gains: bool) -> Vec<String> {
+    pub fn of_choice(&self, at: usize, has_gains: bool, units: System) -> Vec<String> {
         let is_moving = self.method == Method::Dynamic;
         let (figure, greatest) = (self.figure(), percent(self.demand.greatest_load()));
-        let within = match self.demand.minimise.worth() {
-            0.0 => "without force before E".to_owned(),
-            worth => {
-                let (percent, least) = (100.0 * worth, self.criterion());
-                format!("within {percent:.0} % of the least {least} within the tolerances")
-            }
-        };
+        let [um, force_unit] = ["um", "N"].map(|unit| units.unit(unit));
         let costs = ["least_load_error", "least_load_change", "unloaded_contact_ratio"];
-        let costs = costs.into_iter().chain(["worst_entry_force", "worst_peak_force"]);
+        let costs = costs.into_iter().chain(["worst_entry_force"]);
         let costs = costs.chain(is_moving.then_some("dynamic_factor"));
         let costs: Vec<&str> = costs.chain(["margin", "greatest_load"]).collect();
         let force = if is_moving { "in motion" } else { "at rest" };
         let gains = has_gains.then(|| {
-            let title = format!(
-                "What each relief gains; TE: {figure} peak-to-peak transmission error over the \
-                 loads without deviations, worst: within the tolerances; * the smallest relief \
-                 {within}"
-            );
-            (title, self.gains())
+            (format!("What each relief gains; {}", self.legend(units)), self.gains(units))
         });
         let before = (
             format!("Before and after, forces {force} at {greatest} % of the load"),
-            self.before_and_after(at),
+            self.before_and_after(at, units),
         );
         let others = [
             (
                 format!(
-                    "What each relief costs; TE at {} % of the load, contact ratio of the \
-                     unrelieved flanks; within the tolerances: force before E, peak force, gap, \
-                     load at which it closes",
+                    "What each relief costs; TE in {um} at {} % of the load, contact ratio of the \
+                     unrelieved flanks; within the tolerances: force before E in {force_unit}, gap \
+                     in {um}, load at which it closes",
                     percent(self.loads[0])
                 ),
-                self.of_choices(&costs),
-            ),
-            (
-                "Transmission error peak to peak over the load, without deviations, um (Harris map)"
-                    .into(),
-                self.harris(),
+                self.of_choices(&costs, units),
             ),
             (
                 format!(
-                    "Map of the {figure} transmission error over length and amount, um; - corner \
+                    "Transmission error peak to peak over the load, without deviations, {um} \
+                     (Harris map)"
+                ),
+                self.harris(units),
+            ),
+            (
+                format!(
+                    "Map of the {figure} transmission error over length and amount, {um}; - corner \
                      contact at the greatest load, * the relief to specify"
                 ),
-                self.map(),
+                self.map(units),
             ),
         ];
-        let mut lines = vec![self.demand(), String::new()];
-        lines.extend(self.drawing(at).lines());
+        let mut lines = vec![self.demand(units), String::new()];
+        lines.extend(self.drawing(at, units).lines());
         lines.push(String::new());
-        lines.extend(self.sentences(at));
+        lines.extend(self.sentences(at, units));
         for (title, table) in [before].into_iter().chain(gains).chain(others) {
             lines.extend([String::new(), title]);
             lines.extend(table.lines());
@@ -82,7 +74,24 @@ impl Specification {
         lines
     }
 
-    fn demand(&self) -> String {
+    /// The columns of the gains, and the rule by which one of the reliefs is specified.
+    pub fn legend(&self, units: System) -> String {
+        let [um, mm, force] = ["um", "mm", "N"].map(|unit| units.unit(unit));
+        let figure = match self.demand.minimise {
+            Criterion::Te => "worst TE".to_owned(),
+            _ => self.criterion(),
+        };
+        let rule = match self.demand.minimise.worth() {
+            0.0 => "without force before E".to_owned(),
+            worth => format!("with {figure} within {:.0} % of the least", 100.0 * worth),
+        };
+        format!(
+            "Ca, TE (transmission error) in {um}, La in {mm}; worst TE, peak force ({force}): in \
+             tolerance; * smallest relief {rule}"
+        )
+    }
+
+    fn demand(&self, units: System) -> String {
         let Specification { demand, torque, method, .. } = self;
         // Why the method is not that of the case.
         let reason = match self.asked {
@@ -96,16 +105,16 @@ impl Specification {
         };
         let tilt = match demand.misalignment {
             0.0 => String::new(),
-            tilt => format!(", misalignment +-{} um", tidy(tilt * 1e6, 3)),
+            tilt => format!(", misalignment +-{}", units.text(tilt, "um", 3)),
         };
         format!(
-            "Tip relief for {} of {} N m with the least {}, tolerances {} um on amounts and {} mm \
-             on lengths{tilt}; computed by method {}{reason}.",
+            "Tip relief for {} of {} with the least {}, tolerances {} on amounts and {} on \
+             lengths{tilt}; computed by method {}{reason}.",
             demand.loads_text().replace("..", " to "),
-            tidy(*torque, 4),
+            units.text(*torque, "N m", 4),
             self.criterion(),
-            tidy(demand.tolerance * 1e6, 3),
-            tidy(self.tolerance_length() * 1e3, 3),
+            units.text(demand.tolerance, "um", 3),
+            units.text(self.tolerance_length(), "mm", 3),
             method.name()
         )
     }
@@ -128,32 +137,37 @@ impl Specification {
     }
 
     /// What a drawing states of a choice.
-    fn drawing(&self, at: usize) -> Table {
+    fn drawing(&self, at: usize, units: System) -> Table {
         let Specification { choices, demand, geometry, is_over_face, .. } = self;
         let (reliefs, off) = (choices[at].reliefs, self.tolerance_length());
         let row = |title: &str, of: &dyn Fn(usize) -> String| {
             let cell = |at: usize| if reliefs.amounts[at] > 0.0 { of(at) } else { "-".to_owned() };
             vec![format!("  {title}"), cell(0), cell(1)]
         };
+        let within = |own: f64, by: f64, unit| {
+            format!("{} +-{}", drawn(own, unit, units), drawn(by, unit, units))
+        };
         let places = BEGINS.map(|(label, _, unit, of)| {
-            row(&format!("{label}, {unit}"), &|at| {
+            row(&format!("{label}, {}", units.unit(unit)), &|at| {
                 let [own, by] = begins(of, &reliefs, geometry, [off; 4])[at];
-                format!("{own:.2} +-{by:.2}")
+                within(own, by, unit)
             })
         });
+        let [um, mm] = ["um", "mm"].map(|unit| units.unit(unit));
         let mut rows = vec![
-            row("tip relief Ca, um", &|at| {
-                format!("{} +-{}", um(reliefs.amounts[at]), um(demand.tolerance))
+            row(&format!("tip relief Ca, {um}"), &|at| {
+                within(reliefs.amounts[at], demand.tolerance, "um")
             }),
-            row("length along the path of contact La, mm", &|at| {
-                format!("{} +-{}", mm(reliefs.lengths[at]), mm(off))
+            row(&format!("length along path of contact La, {mm}"), &|at| {
+                within(reliefs.lengths[at], off, "mm")
             }),
         ];
         rows.extend(places);
         rows.push(row("shape", &|_| name(reliefs.shape).to_owned()));
         if *is_over_face {
-            let crowning = um(reliefs.crowning);
-            rows.push(vec!["  crowning Cβ, um".to_owned(), crowning, um(self.driven_crowning)]);
+            let crownings = [reliefs.crowning, self.driven_crowning];
+            let [own, other] = crownings.map(|crowning| drawn(crowning, "um", units));
+            rows.push(vec![format!("  crowning Cβ, {um}"), own, other]);
         }
         let head = ["  For the drawing", "driver", "driven gear"].map(str::to_owned);
         let mut table = Table::of_texts(head.to_vec(), rows);
@@ -162,7 +176,7 @@ impl Specification {
     }
 
     /// Margin, gain, cost and alternative of a choice.
-    fn sentences(&self, at: usize) -> Vec<String> {
+    fn sentences(&self, at: usize, units: System) -> Vec<String> {
         let (case, own) = (&self.choices[0], &self.choices[at]);
         let greatest = self.demand.greatest_load();
         let load = match own.greatest_load {
@@ -174,23 +188,23 @@ impl Specification {
         let Figures { gap, strikes, entry, .. } = own.worst;
         let contact =
             format!("orner contact at {} % of the load within the tolerances", percent(greatest));
-        let [remains, overlap] = [gap, -gap].map(|gap| tidy(gap * 1e6, 2));
-        let entry = tidy(entry, 3);
+        let [remains, overlap] = [gap, -gap].map(|gap| units.text(gap, "um", 2));
+        let entry = units.text(entry, "N", 3);
         let mut lines = vec![match strikes {
             false => {
-                format!("No c{contact}: a gap of {remains} um remains; at rest, {load}.")
+                format!("No c{contact}: a gap of {remains} remains; at rest, {load}.")
             }
             true if gap < 0.0 => format!(
-                "C{contact}: the teeth overlap by {overlap} um at rest, the force before E is \
-                 {entry} N."
+                "C{contact}: the teeth overlap by {overlap} at rest, the force before E is \
+                 {entry}."
             ),
             true if self.is_over_face => format!("C{contact} after B."),
             true => "Corner contact in motion within the tolerances.".to_owned(),
         }];
         if at > 0 {
             let changed = |from: f64, to: f64| {
-                let [shown, other] = [from, to].map(|error| tidy(error * 1e6, 3));
-                format!("from {shown} to {other} um ({})", change(from, to))
+                let (shown, other) = (units.number(from, "um", 3), units.text(to, "um", 3));
+                format!("from {shown} to {other} ({})", change(from, to))
             };
             let over_loads = changed(case.nominal.error, own.nominal.error);
             let at_first = changed(case.errors[0], own.errors[0]);
@@ -206,10 +220,10 @@ impl Specification {
             ));
             let [from, to] = [case, own].map(|choice| choice.nominal.peak);
             if (to / from - 1.0).abs() > 0.02 {
-                let [shown, other] = [from, to].map(|force| tidy(force, 4));
+                let (shown, other) = (units.number(from, "N", 4), units.text(to, "N", 4));
                 let change = change(from, to);
                 lines.push(format!(
-                    "The peak force of a tooth changes from {shown} to {other} N ({change})."
+                    "The peak force of a tooth changes from {shown} to {other} ({change})."
                 ));
             }
         }
@@ -220,7 +234,7 @@ impl Specification {
                  light load the pairs change on the reliefs."
             ));
         }
-        lines.extend(self.alternative(own));
+        lines.extend(self.alternative(own, units));
         if self.is_cut {
             lines.push("The search ended with its budget; a better relief may exist.".to_owned());
         }
@@ -228,7 +242,7 @@ impl Specification {
     }
 
     /// The choice with the best figure, if it is another one than `own`.
-    fn alternative(&self, own: &Choice) -> Option<String> {
+    fn alternative(&self, own: &Choice, units: System) -> Option<String> {
         let Specification { choices, demand, .. } = self;
         let figure = |choice: &Choice| choice.worst.of(demand.minimise);
         let best = choices.iter().filter(|choice| !choice.worst.strikes);
@@ -237,60 +251,65 @@ impl Specification {
         let cost = best.reliefs.removed() - own.reliefs.removed();
         (gain >= 0.005 && cost > 0.0).then(|| {
             format!(
-                "The relief \"{}\" has {:.0} % less {} within the tolerances, for {} um more \
+                "The relief \"{}\" has {:.0} % less {} within the tolerances, for {} {} more \
                  relief on both gears together.",
                 best.name,
                 100.0 * gain,
                 self.criterion(),
-                um(cost)
+                drawn(cost, "um", units),
+                units.unit("um")
             )
         })
     }
 
     /// The figures with the relief of the case, with a choice, and at the limits of its tolerances.
-    fn before_and_after(&self, at: usize) -> Table {
+    fn before_and_after(&self, at: usize, units: System) -> Table {
         type Value<'v> = &'v dyn Fn(&Figures) -> Option<f64>;
         let Specification { choices, mesh_force, is_over_face, .. } = self;
         let (case, own) = (&choices[0], &choices[at]);
-        let error = format!("{} TE over the loads, um", self.figure());
-        let gap = if *is_over_face { "gap before E at rest, um" } else { BOTH_GAPS };
-        let rows: [(&str, usize, Value); 9] = [
-            (&error, 3, &|found| Some(found.error * 1e6)),
-            ("TE_st,pp at the load of the case, um", 4, &|found| Some(found.own_errors?[0] * 1e6)),
-            ("TE_st, the same with deviations, um", 4, &|found| Some(found.own_errors?[1] * 1e6)),
-            ("force before E, N", 4, &|found| Some(found.entry)),
-            ("peak force of a tooth, N", 4, &|found| Some(found.peak)),
-            ("peak force/mesh force", 3, &|found| Some(found.peak / mesh_force)),
-            ("peak line load, N/mm", 4, &|found| Some(found.line_load? / 1e3)),
-            ("dynamic factor K_mesh", 3, &|found| found.factor),
-            (gap, 2, &|found| Some(found.gap * 1e6)),
+        let error = format!("{} TE over the loads", self.figure());
+        let gap = if *is_over_face { "gap before E at rest" } else { BOTH_GAPS };
+        let rows: [(&str, &str, usize, Value); 9] = [
+            (&error, "um", 3, &|found| Some(found.error)),
+            ("TE_st,pp at the load of the case", "um", 4, &|found| Some(found.own_errors?[0])),
+            ("TE_st, the same with deviations", "um", 4, &|found| Some(found.own_errors?[1])),
+            ("force before E", "N", 4, &|found| Some(found.entry)),
+            ("peak force of a tooth", "N", 4, &|found| Some(found.peak)),
+            ("peak force/mesh force", "1", 3, &|found| Some(found.peak / mesh_force)),
+            ("peak line load", "N/mm", 4, &|found| found.line_load),
+            ("dynamic factor K_mesh", "1", 3, &|found| found.factor),
+            (gap, "um", 2, &|found| Some(found.gap)),
         ];
-        let rows = rows.iter().filter_map(|(title, digits, of)| {
+        let rows = rows.iter().filter_map(|(title, unit, digits, of)| {
             let values = [&case.nominal, &own.nominal, &own.worst].map(of);
-            let cell = |value: Option<f64>| value.map_or("-".to_owned(), |it| tidy(it, *digits));
+            let cell = |value: Option<f64>| {
+                value.map_or("-".to_owned(), |value| units.number(value, unit, *digits))
+            };
             let is_shown = values.iter().any(Option::is_some);
-            is_shown.then(|| [vec![format!("  {title}")], values.map(cell).to_vec()].concat())
+            let unit = Some(units.unit(unit)).filter(|unit| *unit != "1");
+            let unit = unit.map_or_else(String::new, |unit| format!(", {unit}"));
+            is_shown.then(|| [vec![format!("  {title}{unit}")], values.map(cell).to_vec()].concat())
         });
         let head = ["", "case", "relief", "in tolerance"].map(str::to_owned).to_vec();
         Table::of_texts(head, rows)
     }
 
-    /// One row per choice: the relief and its transmission error.
-    pub fn gains(&self) -> Table {
+    /// One row per choice: the relief, its transmission error and its peak force.
+    pub fn gains(&self, units: System) -> Table {
         let [amounts, lengths] = KEYS;
         let reliefs = [amounts[0], lengths[0], amounts[1], lengths[1]].into_iter();
         let crowning = self.is_over_face.then_some(CROWNING);
         // A line has room for the change or for the crowning.
         let change = (!self.is_over_face).then_some("change");
         let errors = ["transmission_error"].into_iter().chain(change);
-        let errors = errors.chain(["worst_transmission_error"]);
-        self.of_choices(&reliefs.chain(crowning).chain(errors).collect::<Vec<_>>())
+        let results = errors.chain(["worst_transmission_error", "worst_peak_force"]);
+        self.of_choices(&reliefs.chain(crowning).chain(results).collect::<Vec<_>>(), units)
     }
 
     /// One row per choice with these columns of the whole table, and a mark at the relief to
     /// specify.
-    fn of_choices(&self, keys: &[&str]) -> Table {
-        let all = self.choices();
+    fn of_choices(&self, keys: &[&str], units: System) -> Table {
+        let all = self.choices(units);
         let place = |key| all.columns.iter().position(|column| column.key == key);
         let columns: Vec<usize> =
             [0].into_iter().chain(keys.iter().filter_map(|key| place(*key))).collect();
@@ -312,7 +331,7 @@ impl Specification {
     }
 
     /// Every result of each choice.
-    fn choices(&self) -> Table {
+    fn choices(&self, units: System) -> Table {
         let texts = [("choice", "  relief"), ("best", ""), ("shape", "")];
         let texts = texts.map(|(key, title)| Column::text(key, title).wide(0, 0)).into_iter();
         let numbers = self.numbers().iter();
@@ -327,7 +346,7 @@ impl Specification {
                 let text = match *shown {
                     "%" => format!("{:+.0} %", 100.0 * value),
                     "% load" => format!("{:.1} %", 100.0 * value),
-                    unit => tidy(value / units::factor(unit).unwrap_or(1.0), *digits),
+                    unit => units.number(value, unit, *digits),
                 };
                 Cell::Shown(value, text)
             });
@@ -337,10 +356,10 @@ impl Specification {
     }
 
     /// One row per choice: the transmission error over the load.
-    fn harris(&self) -> Table {
+    fn harris(&self, units: System) -> Table {
         let loads = self.loads.iter().map(|&load| format!("{} %", percent(load)));
         let rows = self.choices.iter().enumerate().map(|(at, choice)| {
-            let errors = choice.errors.iter().map(|error| tidy(error * 1e6, 3));
+            let errors = choice.errors.iter().map(|error| units.number(*error, "um", 3));
             [self.marked(at)].into_iter().chain(errors).collect()
         });
         Table::of_texts(["  relief".to_owned()].into_iter().chain(loads).collect(), rows)
@@ -348,20 +367,25 @@ impl Specification {
 
     /// One row per length: the figure of the transmission error by amount. The amounts are in one
     /// row, or in one per gear.
-    fn map(&self) -> Table {
+    fn map(&self, units: System) -> Table {
         let chosen = self.chosen().reliefs;
         let near = |one: [f64; 2], other: [f64; 2]| (one[0] - other[0]).abs() < 1e-9;
         let cell = |point: &MapPoint| {
-            let error =
-                if point.margin < 0.0 { "-".to_owned() } else { tidy(point.error * 1e6, 2) };
+            let error = match point.margin {
+                margin if margin < 0.0 => "-".to_owned(),
+                _ => units.number(point.error, "um", 2),
+            };
             let is_chosen = near(point.reliefs.amounts, chosen.amounts)
                 && near(point.reliefs.lengths, chosen.lengths);
             if is_chosen { format!("*{error}") } else { error }
         };
         let points = self.map.first().map_or(&[][..], Vec::as_slice);
-        let amounts = |at: usize| points.iter().map(move |point| um(point.reliefs.amounts[at]));
+        let amounts = |at: usize| {
+            points.iter().map(move |point| drawn(point.reliefs.amounts[at], "um", units))
+        };
+        let [um, mm] = ["um", "mm"].map(|unit| units.unit(unit));
         let head = |name: &str, at: usize| {
-            [format!("  amount{name}, um")].into_iter().chain(amounts(at)).collect::<Vec<_>>()
+            [format!("  amount{name}, {um}")].into_iter().chain(amounts(at)).collect::<Vec<_>>()
         };
         let (first, second) = if amounts(0).eq(amounts(1)) {
             (head("", 0), None)
@@ -369,9 +393,9 @@ impl Specification {
             (head(" driver", 0), Some(head(" driven", 1)))
         };
         let rows = self.map.iter().map(|row| {
-            let [driver, driven] = row[0].reliefs.lengths.map(mm);
+            let [driver, driven] = row[0].reliefs.lengths.map(|length| drawn(length, "mm", units));
             let both = if driver == driven { driver } else { format!("{driver}/{driven}") };
-            [format!("  length {both} mm")].into_iter().chain(row.iter().map(cell)).collect()
+            [format!("  length {both} {mm}")].into_iter().chain(row.iter().map(cell)).collect()
         });
         Table::of_texts(first, second.into_iter().chain(rows))
     }
@@ -395,36 +419,36 @@ impl Specification {
     /// A choice as values of the fields of a case, rounded as the report prints them, with the
     /// tolerances of the demand as distributions. The empty distribution is that of a relief that is
     /// not larger than its tolerance; without a tolerance the distributions stay.
-    pub fn settings(&self, at: usize) -> Vec<(&'static str, String)> {
+    pub fn settings(&self, at: usize, units: System) -> Vec<(&'static str, String)> {
         let ([amounts, lengths], reliefs) = (KEYS, &self.choices[at].reliefs);
         let mut settings = vec![("model.relief_shape", name(reliefs.shape).to_owned())];
-        let in_unit = |tolerance: f64, unit| tolerance / units::factor(unit).unwrap_or(1.0);
-        let uniform = |width: f64, unit: &str| format!("uniform {} {unit}", tidy(width, 4));
+        let of_drawing =
+            |length: f64, unit| format!("{} {}", drawn(length, unit, units), units.unit(unit));
+        let uniform = |width: f64, unit| format!("uniform {}", units.text(width, unit, 4));
         for at in 0..2 {
-            let (amount, mut length) = (um(reliefs.amounts[at]), mm(reliefs.lengths[at]));
-            if reliefs.amounts[at] <= 0.0 {
-                length.clear();
-            }
-            let ends =
-                [(&amount, self.demand.tolerance, "um"), (&length, self.tolerance_length(), "mm")];
+            let has_relief = reliefs.amounts[at] > 0.0;
+            let length = if has_relief { reliefs.lengths[at] } else { 0.0 };
+            let ends = [
+                (reliefs.amounts[at], self.demand.tolerance, "um"),
+                (length, self.tolerance_length(), "mm"),
+            ];
             for (keys, (nominal, tolerance, unit)) in SPREADS.iter().zip(ends) {
-                let width = in_unit(tolerance, unit);
-                let is_larger = nominal.parse().is_ok_and(|nominal: f64| nominal > width);
                 if tolerance > 0.0 {
-                    let text = if is_larger { uniform(width, unit) } else { String::new() };
+                    let is_larger = nominal > tolerance;
+                    let text = if is_larger { uniform(tolerance, unit) } else { String::new() };
                     settings.push((keys[at], text));
                 }
             }
-            settings.push((amounts[at], format!("{amount} um")));
-            let length = if length.is_empty() { length } else { format!("{length} mm") };
+            settings.push((amounts[at], of_drawing(reliefs.amounts[at], "um")));
+            let length = if has_relief { of_drawing(length, "mm") } else { String::new() };
             settings.push((lengths[at], length));
         }
         if self.is_over_face {
-            settings.push((CROWNING, format!("{} um", um(reliefs.crowning))));
+            settings.push((CROWNING, of_drawing(reliefs.crowning, "um")));
         }
         if self.demand.misalignment > 0.0 {
-            let width = in_unit(self.demand.misalignment, "um");
-            settings.push(("spread.deviations.misalignment", uniform(width, "um")));
+            let text = uniform(self.demand.misalignment, "um");
+            settings.push(("spread.deviations.misalignment", text));
         }
         settings
     }
@@ -441,7 +465,7 @@ impl Results for Specification {
     fn lines(&self, case: Named) -> Vec<String> {
         // Rows of tables fit; only sentences are wrapped.
         let is_short = |line: &String| line.chars().count() <= WIDTH;
-        let lines = self.of_choice(self.best, true).into_iter();
+        let lines = self.of_choice(self.best, true, System::Metric).into_iter();
         let lines =
             lines.flat_map(|line| if is_short(&line) { vec![line] } else { item("", &line) });
         std::iter::once(case.heading()).chain(lines).collect()
@@ -450,7 +474,7 @@ impl Results for Specification {
     fn json(&self) -> Json {
         // The reliefs have members of their own.
         let results: Vec<usize> = (7..3 + self.numbers().len()).collect();
-        let results = self.choices().of(&results).objects();
+        let results = self.choices(System::Metric).of(&results).objects();
         let choice = |(choice, results): (&Choice, Json)| {
             let line = json!({
                 "name": choice.name,
@@ -489,7 +513,7 @@ impl Results for Specification {
 
     /// The choices, then the map over amount and length.
     fn table(&self) -> Table {
-        let mut table = self.choices();
+        let mut table = self.choices(System::Metric);
         for MapPoint { reliefs, error, margin } in self.map.iter().flatten() {
             let begins = reliefs.begins(&self.geometry);
             let known = [
@@ -515,7 +539,7 @@ impl Results for Specification {
     }
 }
 
-/// A column of numbers: key, header, unit in SI, unit and digits in text, value in SI.
+/// A column of numbers: key, header, unit in SI, metric unit and digits in text, value in SI.
 type Numbers = (
     &'static str,
     &'static str,
@@ -526,25 +550,25 @@ type Numbers = (
 
 /// The columns of numbers.
 const NUMBERS: [Numbers; 24] = [
-    ("driver.tip_relief", "Ca1 um", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[0])),
-    ("driver.tip_relief_length", "La1 mm", "m", ("mm", 4), |_, of| of.length(0)),
-    ("driven.tip_relief", "Ca2 um", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[1])),
-    ("driven.tip_relief_length", "La2 mm", "m", ("mm", 4), |_, of| of.length(1)),
-    ("transmission_error", "TE um", "m", ("um", 3), |_, of| Some(of.nominal.error)),
-    ("margin", "gap um", "m", ("um", 2), |_, of| Some(of.worst.gap)),
+    ("driver.tip_relief", "Ca1", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[0])),
+    ("driver.tip_relief_length", "La1", "m", ("mm", 4), |_, of| of.length(0)),
+    ("driven.tip_relief", "Ca2", "m", ("um", 3), |_, of| Some(of.reliefs.amounts[1])),
+    ("driven.tip_relief_length", "La2", "m", ("mm", 4), |_, of| of.length(1)),
+    ("transmission_error", "TE", "m", ("um", 3), |_, of| Some(of.nominal.error)),
+    ("margin", "gap", "m", ("um", 2), |_, of| Some(of.worst.gap)),
     ("change", "vs case", "1", ("%", 2), |all, of| {
         Some(of.nominal.error / all.choices[0].nominal.error - 1.0)
     }),
-    ("worst_transmission_error", "worst um", "m", ("um", 3), |_, of| Some(of.worst.error)),
-    ("least_load_error", "TE um", "m", ("um", 3), |_, of| of.errors.first().copied()),
+    ("worst_transmission_error", "worst", "m", ("um", 3), |_, of| Some(of.worst.error)),
+    ("least_load_error", "TE", "m", ("um", 3), |_, of| of.errors.first().copied()),
     ("least_load_change", "vs case", "1", ("%", 2), |all, of| {
         Some(of.errors.first()? / all.choices[0].errors.first()? - 1.0)
     }),
     ("unloaded_contact_ratio", "ratio", "1", ("1", 3), |all, of| {
         Some(of.reliefs.unloaded_contact_ratio(&all.geometry))
     }),
-    ("worst_entry_force", "entry N", "N", ("N", 3), |_, of| Some(of.worst.entry)),
-    ("worst_peak_force", "peak N", "N", ("N", 4), |_, of| Some(of.worst.peak)),
+    ("worst_entry_force", "entry", "N", ("N", 3), |_, of| Some(of.worst.entry)),
+    ("worst_peak_force", "peak", "N", ("N", 4), |_, of| Some(of.worst.peak)),
     ("dynamic_factor", "K", "1", ("1", 3), |_, of| of.nominal.factor),
     ("greatest_load", "load", "1", ("% load", 0), |_, of| of.greatest_load.map(floor)),
     ("entry_force", "", "N", ("N", 3), |_, of| Some(of.nominal.entry)),
@@ -557,7 +581,7 @@ const NUMBERS: [Numbers; 24] = [
     }),
     ("static_te_peak_to_peak", "", "m", ("um", 4), |_, of| Some(of.nominal.own_errors?[0])),
     ("static_transmission_error", "", "m", ("um", 4), |_, of| Some(of.nominal.own_errors?[1])),
-    (CROWNING, "Cβ1 um", "m", ("um", 3), |_, of| Some(of.reliefs.crowning)),
+    (CROWNING, "Cβ1", "m", ("um", 3), |_, of| Some(of.reliefs.crowning)),
     ("peak_line_load", "", "N/m", ("N/mm", 4), |_, of| of.nominal.line_load),
     ("worst_peak_line_load", "", "N/m", ("N/mm", 4), |_, of| of.worst.line_load),
 ];
@@ -574,14 +598,14 @@ const SPREADS: [[&str; 2]; 2] = [
     ["spread.driver.tip_relief_length", "spread.driven.tip_relief_length"],
 ];
 const CROWNING: &str = "driver.crowning";
-const BOTH_GAPS: &str = "gap before E and after B at rest, um";
+const BOTH_GAPS: &str = "gap before E and after B at rest";
 
 type PlaceOf = fn(&Begin) -> f64;
 
-/// Where a tip relief begins: label, symbols, unit and place.
+/// Where a tip relief begins: label, symbols, metric unit and place in SI.
 pub(super) const BEGINS: [(&str, &str, &str, PlaceOf); 2] = [
-    ("begins at roll angle", "ξ1 / ξ2", "deg", |at| at.roll_angle.to_degrees()),
-    ("begins at diameter dCa", "dCa1 / dCa2", "mm", |at| at.diameter * 1e3),
+    ("begins at roll angle", "ξ1 / ξ2", "deg", |at| at.roll_angle),
+    ("begins at diameter dCa", "dCa1 / dCa2", "mm", |at| at.diameter),
 ];
 
 /// The places at which the reliefs of both gears begin, and their tolerances by those of the reliefs.
@@ -683,12 +707,17 @@ fn name(shape: ReliefShape) -> &'static str {
     }
 }
 
-fn um(length: f64) -> String {
-    shortest((length * 1e7).round() / 10.0)
-}
-
-fn mm(length: f64) -> String {
-    format!("{:.2}", length * 1e3)
+/// A length or an angle in SI as a drawing states it, in the unit that corresponds to a metric unit:
+/// 51 um, 6.10 mm, 2.008 thou, 0.2402 in.
+pub(super) fn drawn(value: f64, metric: &str, units: System) -> String {
+    let unit = units.unit(metric);
+    let number = value / units::factor(unit).unwrap_or(1.0);
+    match unit {
+        "um" => shortest((number * 10.0).round() / 10.0),
+        "thou" => shortest((number * 1000.0).round() / 1000.0),
+        "in" => format!("{number:.4}"),
+        _ => format!("{number:.2}"),
+    }
 }
 
 fn percent(part: f64) -> String {

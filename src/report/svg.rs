@@ -370,7 +370,7 @@ const APART: f64 = 14.0;
 const BAR: f64 = 110.0;
 
 /// Draws the teeth at the first contact, or at E without corner contact.
-pub fn teeth(inputs: &Inputs, solution: &Solution, pair: &str) -> String {
+pub fn teeth(inputs: &Inputs, solution: &Solution, pair: &str, units: System) -> String {
     let contact = first_contact_of_driver(solution);
     let title = if contact.is_some() {
         "Teeth at the first contact D"
@@ -428,7 +428,7 @@ pub fn teeth(inputs: &Inputs, solution: &Solution, pair: &str) -> String {
                  halo\">{name}</text>"
         );
     }
-    let (length, name) = scale_bar(BAR / scale, System::Metric);
+    let (length, name) = scale_bar(BAR / scale, units);
     let (dots, base) = (length * scale, HEIGHT - 14.0);
     let (first, bar, above) = (base - 21.0, WIDTH - left - dots, base - 8.0);
     let middle = bar + dots / 2.0;

@@ -10,16 +10,12 @@ use crate::case::fields::{Absent, FIELDS, Field, Kind, index_of};
 use crate::case::units::{self, Dimension, Open, System};
 use crate::case::{Case, Limit, MISSING, Problem, Spread, changes};
 use crate::model::Quantity;
-use crate::model::explanation::tidy;
 use crate::numeric::decimal::significant;
 
 pub(crate) use search::{COMMAND, Entry, HELP, LABEL, query};
 
 /// Significant digits of the ends of a range that is not printed as in the table of fields.
 const RANGE_DIGITS: usize = 3;
-
-/// Significant digits of a derived value.
-const DIGITS: usize = 5;
 
 /// Quotes: a file needs them around a value, and a message has them around typed text.
 const MARKS: [char; 2] = ['"', TYPED];
@@ -38,25 +34,6 @@ impl Field {
             Absent::Default(text) => self.text_in(text, system),
             _ => String::new(),
         }
-    }
-
-    /// A default or an example of the field in the units of the system, as a bare number gets them.
-    pub(crate) fn text_in(&self, text: &str, system: System) -> String {
-        let unit = self.usual_unit();
-        let value = match self.kind {
-            Kind::Number(dimension, ..) if system.unit(unit) != unit => {
-                units::parse(text, dimension, "").ok()
-            }
-            _ => None,
-        };
-        value.map_or_else(|| text.to_owned(), |value| self.in_usual_unit(value, system))
-    }
-
-    /// A value in SI in the usual unit of the field, with the digits of a hint.
-    pub(crate) fn in_usual_unit(&self, value: f64, system: System) -> String {
-        let unit = system.unit(self.usual_unit());
-        let number = tidy(value / units::factor(unit).unwrap_or(1.0), DIGITS);
-        format!("{number} {unit}").trim_end().to_owned()
     }
 
     /// The least and the greatest value as in [`Field::range_text`]; in inch units they are

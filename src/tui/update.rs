@@ -132,7 +132,8 @@ fn step_page(app: &mut App, by: isize) {
 /// Closes the topmost dialog. Returns false if there is none.
 fn close(app: &mut App) -> bool {
     let prompt = app.prompts.pop();
-    if matches!(prompt, Some(Prompt::Relief(_))) {
+    if let Some(Prompt::Relief(dialog)) = &prompt {
+        app.tab.demand = Some(dialog.input.value().to_owned());
         app.cancel(Slot::Relief);
     }
     prompt.is_some()

@@ -32,6 +32,8 @@ fn the_report_of_the_form_is_written_and_the_status_line_shows_its_path() {
     assert!(page.contains("<html") && page.contains("24 um"), "the edit is in the page");
     assert!(desk.shows("exported to ") && desk.shows("sent.html") && desk.app.prompts.is_empty());
     assert!(desk.app.tab.is_unsaved(), "an export saves no case");
+    desk.keys(&["Esc", ":", "units", "Enter", "Alt-X", "inch", "Enter"]);
+    assert!(desk.read("inch.html").contains("<td class=\"unit\">lbf</td>"), "inch units");
 }
 
 #[test]

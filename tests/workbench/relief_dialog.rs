@@ -28,7 +28,8 @@ fn a_typed_demand_starts_a_search_and_an_invalid_one_gets_a_reason() {
     desk.keys(&["Ctrl-U", "50..100 %, 2 um"]).assert_shows("Results of the earlier input");
     desk.keys(&["Enter"]).has(&["for 50 to 100 %", "tolerances 2 um"]);
     desk.keys(&["PageDown", "Down", "Esc"]);
-    assert!(!desk.app.tab.is_unsaved() && desk.app.prompts.is_empty());
+    desk.assert(!desk.app.tab.is_unsaved() && desk.app.prompts.is_empty());
+    desk.keys(&[":", "relief", "Enter"]).has(&["50..100 %, 2 um", "for 50 to 100 %"]);
 }
 
 #[test]
@@ -41,22 +42,20 @@ fn a_search_shows_its_progress() {
     // Without the relief and the end of the work.
     sent.truncate(sent.len() - 2);
     desk.keys(&["F1"]).take(sent);
-    desk.keys(&["Esc"]);
-    desk.assert_shows("Searching: ");
-    desk.lacks(&["Searching: 0 %"]);
+    desk.keys(&["Esc"]).has(&["Searching: "]).lacks(&["Searching: 0 %"]);
 }
 
 #[test]
 fn any_relief_of_the_list_is_written_into_the_case() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "relief", "Enter"]);
-    desk.keys(&["Up"; 9]);
-    desk.keys(&["Down", "Enter"]);
+    desk.keys(&["Up"; 9]).keys(&["Down", "Enter"]);
     assert_eq!(desk.text("model.relief_shape"), "linear");
-    desk.keys(&["Ctrl-Z", "Esc", ":", "relief", "Enter"]);
-    desk.keys(&["Up"; 9]);
-    desk.keys(&["Down", "Down", "Enter"]);
+    desk.keys(&["Ctrl-Z", "Esc", ":", "units", "Enter", ":", "relief", "Enter"]);
+    desk.has(&["Ca, TE (transmission error) in thou, La in in", "lbf ft"]).lacks(&[" mm", " N "]);
+    desk.keys(&["Up"; 9]).keys(&["Down", "Down", "Enter"]);
     assert_eq!(desk.text("model.relief_shape"), "parabolic");
+    desk.assert(desk.text("driven.tip_relief").ends_with(" thou"));
 }
 
 #[test]

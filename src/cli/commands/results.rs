@@ -334,7 +334,7 @@ impl Plot {
         } else {
             let opened = cli::open(source, &self.changes.edits(), &[], streams)?;
             let source = opened.unsolved();
-            let drawn = follow("parts", |go_on| chart.of_case(source, go_on))?;
+            let drawn = follow("parts", |go_on| chart.of_case(source, System::Metric, go_on))?;
             let drawn = drawn.map_err(|refusal| opened.refused(&refusal))?;
             drawn.map_err(|reason| opened.failed(&reason))?
         };

@@ -4,7 +4,7 @@ use std::array::from_fn;
 use std::fmt;
 
 use super::{Off, decimal};
-use crate::case::units::{self, Dimension};
+use crate::case::units::{self, Dimension, System};
 use crate::numeric::decimal::shortest;
 
 /// Number of loads of a range.
@@ -169,13 +169,20 @@ impl Demand {
         Ok(demand)
     }
 
+    /// The demand of the dialog before a demand is typed: the tolerance is round in these units.
+    pub fn usual(units: System) -> Demand {
+        let tolerance = if units == System::Inch { "0.2 thou" } else { "5 um" };
+        Demand { tolerance: self::tolerance(tolerance).unwrap_or_default(), ..Demand::default() }
+    }
+
     /// The text that [`Demand::parse`] reads.
-    pub fn text(&self) -> String {
+    pub fn text(&self, units: System) -> String {
+        let text = |length, unit| units::text(length, units.unit(unit));
         let tolerances = [(Some(self.tolerance), "um"), (self.tolerance_length, "mm")];
         let tolerances = tolerances.into_iter();
-        let tolerances = tolerances.filter_map(|(length, unit)| Some(units::text(length?, unit)));
+        let tolerances = tolerances.filter_map(|(length, unit)| Some(text(length?, unit)));
         let tilt = Some(self.misalignment).filter(|tilt| *tilt > 0.0);
-        let tilt = tilt.map(|tilt| format!("{MISALIGNMENT} {}", units::text(tilt, "um")));
+        let tilt = tilt.map(|tilt| format!("{MISALIGNMENT} {}", text(tilt, "um")));
         let all = std::iter::once(self.loads_text()).chain(tolerances).chain(tilt);
         all.chain([self.minimise.name().to_owned()]).collect::<Vec<_>>().join(", ")
     }
@@ -253,7 +260,7 @@ mod tests {
 
     #[test]
     fn a_demand_is_parsed_from_its_text() {
-        assert_eq!(Demand::default().text(), "25..110 %, 5 um, te");
+        assert_eq!(Demand::usual(System::Metric).text(System::Metric), "25..110 %, 5 um, te");
         let own = Demand::parse("50..100%").expect("a range");
         assert_eq!((own.loads, own.tolerance), ((0.5, 1.0), 5e-6));
         let own = Demand::parse("50%:1, 130%:3, 4 um, 0.2 mm, misalignment 8 um, peak");
@@ -261,7 +268,7 @@ mod tests {
         assert!((own.misalignment - 8e-6).abs() < 1e-18);
         assert_eq!(own.loads(), [(0.5, 0.25), (1.3, 0.75)]);
         assert_eq!((own.minimise, own.tolerance_length), (Criterion::Peak, Some(2e-4)));
-        assert_eq!(Demand::parse(&own.text()), Ok(own));
+        assert_eq!(Demand::parse(&own.text(System::Metric)), Ok(own));
         for (wrong, part) in [
             ("", ": write a range"),
             ("110..25 %", "110..25 %: the range is reversed"),

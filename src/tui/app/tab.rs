@@ -71,6 +71,8 @@ pub struct Tab {
     pub(crate) has_failed: bool,
     /// The benchmark.
     pub traded: Option<Traded>,
+    /// The last typed demand on a relief.
+    pub(crate) demand: Option<String>,
     /// The solved variants.
     pub(crate) variants: Option<Variants>,
     /// The study of the case.
@@ -124,6 +126,7 @@ impl Tab {
             refusal: None,
             has_failed: false,
             traded: None,
+            demand: None,
             variants: None,
             study: Study::default(),
             chart_work: ChartWork::default(),

@@ -8,6 +8,7 @@ use crate::case::{Case, FIELDS, Field, Limit, changes};
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::report;
+use crate::study::relief::Demand;
 use crate::tui::app::App;
 use crate::tui::app::actions::Choice;
 use crate::tui::app::dialogs::picker::{Item, Picker};
@@ -366,19 +367,22 @@ pub(super) fn set_about(app: &mut App, text: &str) {
     replace_saying(app, case, &format!("about: {name} = {}", session::shown(Some(value))));
 }
 
-/// Opens the dialog and starts the search with the default demand.
+/// Opens the dialog and starts the search with the last demand of the tab.
 pub(super) fn ask_relief(app: &mut App) {
     let Some(inputs) = app.tab.inputs().cloned() else {
         return app.complain("no search: fix the fields marked with ! first");
     };
-    let mut dialog = ReliefDialog::new(inputs, take_relief);
+    let units = app.settings.units;
+    let demand = app.tab.demand.clone();
+    let demand = demand.unwrap_or_else(|| Demand::usual(units).text(units));
+    let mut dialog = ReliefDialog::new(inputs, demand, take_relief);
     app.start_all(dialog.search());
     app.prompts.push(Prompt::Relief(Box::new(dialog)));
 }
 
 /// Writes the relief and its tolerances into the form as one edit.
 fn take_relief(app: &mut App, values: &[(&'static str, String)]) {
-    app.prompts.pop();
+    super::close(app);
     let words = values.iter().filter_map(|(key, text)| {
         let Field { symbol, label, .. } = FIELDS[index_of(key)?];
         let name = if symbol.is_empty() { label } else { symbol };

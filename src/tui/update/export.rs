@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::{key_of, studies};
 use crate::case::Document;
 use crate::case::file::{self, SaveError};
+use crate::case::units::System;
 use crate::model::Refusal;
 use crate::report::charts::{Picture, find};
 use crate::report::page as exports;
@@ -107,16 +108,17 @@ fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
         ));
     }
     let inputs = app.tab.inputs().cloned().ok_or("a field has an error")?;
-    let (name, document) = (app.tab.name(), app.tab.as_edited());
+    let (name, document, units) = (app.tab.name(), app.tab.as_edited(), app.settings.units);
     let subject = picture.map_or_else(String::new, |picture| format!(" {picture}"));
     let content = move |running: &Running<'_>| {
         let source = Unsolved { name: &name, case: &document.case, inputs: &inputs };
         let go_on = |_, _| running.is_wanted();
         match picture {
-            Some(picture) => {
-                picture.of_case(source, &go_on).map_err(|refusal| refused(&refusal)).flatten()
-            }
-            None => report_text(source, &document, running.path, &go_on),
+            Some(picture) => picture
+                .of_case(source, units, &go_on)
+                .map_err(|refusal| refused(&refusal))
+                .flatten(),
+            None => report_text(source, &document, running.path, units, &go_on),
         }
     };
     Ok((subject, Box::new(content)))
@@ -130,6 +132,7 @@ fn report_text(
     source: Unsolved<'_>,
     document: &Document,
     path: &Path,
+    units: System,
     go_on: &dyn Fn(usize, usize) -> bool,
 ) -> Result<String, String> {
     let format = exports::format_of(path).ok_or_else(|| {
@@ -138,7 +141,8 @@ fn report_text(
     })?;
     let subject = source.subject(document.render(), format, go_on);
     let subject = subject.map_err(|refusal| refused(&refusal))?;
-    exports::render(format, &[subject], &Settings::default()).map_err(|error| error.to_string())
+    let settings = Settings { units, ..Settings::default() };
+    exports::render(format, &[subject], &settings).map_err(|error| error.to_string())
 }
 
 /// Writes the content. The error is the reason, or `None` if the file exists.
@@ -226,11 +230,11 @@ pub(super) fn copy_results(app: &mut App) {
     };
     let (name, case, inputs) = (app.tab.name(), app.tab.case.clone(), answer.inputs.clone());
     let report = Report::of(name, case, inputs, solution.clone(), Selection::default());
-    let file = app.tab.as_edited().render();
+    let (file, units) = (app.tab.as_edited().render(), app.settings.units);
     app.say("preparing the report of the results");
-    let markdown = |_: &Running<'_>| {
+    let markdown = move |_: &Running<'_>| {
         let subjects = [Subject::of(report.with_others(), file)];
-        let page = Page::of(&subjects, &Settings::default());
+        let page = Page::of(&subjects, &Settings { units, ..Settings::default() });
         Some(page.markdown().unwrap_or_else(|error| error.to_string()))
     };
     app.start(Work::new(Slot::Report, markdown, |app, text| {

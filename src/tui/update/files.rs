@@ -36,8 +36,7 @@ pub(super) fn quit(app: &mut App) {
         let only = app.tabs().position(Tab::is_unsaved).unwrap_or(app.place_of_tab);
         // A dialog belongs to the case that is shown.
         if only != app.place_of_tab {
-            app.prompts.clear();
-            app.cancel(Slot::Relief);
+            while super::close(app) {}
         }
         go_to_tab(app, only);
         return ask_or_go(app, Next::Quit);

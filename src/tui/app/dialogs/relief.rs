@@ -19,10 +19,8 @@ use crate::tui::text::Line;
 
 /// The label of the input line.
 const LABEL: &str = "Loads, tolerances, te|peak|entry: ";
-/// The meaning of the columns of the list.
-const COLUMNS: &str = "TE: transmission error without deviations; worst: within the tolerances";
-/// Rows above the list: input, state, meaning of the columns, headers.
-const HEAD: u16 = 4;
+/// Rows beside the list and its legend: input, state, headers, and one below the list.
+const BESIDE: usize = 4;
 
 /// The search and its result.
 #[derive(Debug, Clone)]
@@ -46,13 +44,14 @@ pub struct ReliefDialog {
 }
 
 impl ReliefDialog {
-    /// The dialog on a pair, before its first search.
+    /// The dialog on a pair with a demand, before its first search.
     pub(crate) fn new(
         inputs: Inputs,
+        demand: String,
         take_over: fn(&mut App, &[(&'static str, String)]),
     ) -> ReliefDialog {
         ReliefDialog {
-            input: Line::whole(Demand::default().text()),
+            input: Line::whole(demand),
             inputs,
             searched: None,
             percent: 0,
@@ -123,6 +122,7 @@ impl ReliefDialog {
 
     fn state(&self) -> String {
         let state = match &self.answer {
+            None if self.searched.is_none() => "Enter searches.",
             None => return format!("Searching: {} %. Esc ends the search.", self.percent),
             Some(_) if !self.is_searched() => "Results of the earlier input. Enter searches again.",
             Some(Ok(_)) => {
@@ -141,11 +141,17 @@ impl ReliefDialog {
     fn lines(&self, app: &App) -> Vec<Words<'static>> {
         let width = app.room().width;
         let lines = match (self.found(), &self.answer) {
-            (Some(found), _) => found.of_choice(self.selected, false),
+            (Some(found), _) => found.of_choice(self.selected, false, app.settings.units),
             (None, Some(Err(reason))) => vec![reason.clone()],
             _ => Vec::new(),
         };
         lines.iter().flat_map(|line| wrapped(line, width)).map(Words::from).collect()
+    }
+
+    /// The meaning of the list.
+    fn legend(&self, app: &App) -> Vec<String> {
+        let legend = self.found().map(|found| found.legend(app.settings.units));
+        legend.map_or_else(Vec::new, |legend| wrapped(&legend, app.room().width))
     }
 
     fn count(&self) -> usize {
@@ -174,19 +180,19 @@ impl Dialog for ReliefDialog {
     }
 
     fn turn(&mut self, by: isize, app: &App) {
-        let above = self.count() + usize::from(HEAD) + 1;
+        let above = self.count() + self.legend(app).len() + BESIDE;
         let page = app.page_height() - above.cast_signed();
         let count = self.lines(app).len() + above;
         self.top = app.scrolled(self.top, by * page.max(1), count);
     }
 
-    fn accept(&mut self, _: &App) -> Option<Change> {
+    fn accept(&mut self, app: &App) -> Option<Change> {
         if !self.is_searched() {
             let search = self.search()?;
             return Some(Change::of(|app| app.start_all([search])));
         }
         let report = self.found()?;
-        let values = report.settings(self.selected);
+        let values = report.settings(self.selected, app.settings.units);
         let take_over = self.take_over;
         Some(Change::of(move |app| take_over(app, &values)))
     }
@@ -195,13 +201,14 @@ impl Dialog for ReliefDialog {
         let theme = app.look.theme;
         let inner = app.frame("Tip relief", app.room(), buffer);
         let count = self.count();
-        let has_list = u16::from(count > 0);
-        let heights = [1, 1, 1, has_list, count as u16, has_list].map(Constraint::Length);
-        let rows = Layout::vertical(heights.into_iter().chain([Constraint::Fill(1)]));
-        let [line, state, columns, head, list, _, below] = rows.areas(inner);
+        let (has_list, legend) = (u16::from(count > 0), self.legend(app));
+        let heights = [1, 1, legend.len() as u16, has_list, count as u16, has_list];
+        let rows = heights.map(Constraint::Length).into_iter().chain([Constraint::Fill(1)]);
+        let [line, state, columns, head, list, _, below] = Layout::vertical(rows).areas(inner);
         if let Some(found) = self.found() {
-            let rows = found.gains().lines();
-            Span::styled(COLUMNS, theme.faint).render(columns, buffer);
+            let rows = found.gains(app.settings.units).lines();
+            let legend: Text<'_> = legend.into_iter().map(Words::from).collect();
+            legend.style(theme.faint).render(columns, buffer);
             Span::raw(format!("  {}", rows[0])).render(head, buffer);
             let row = |at: usize| rows[at + 1].clone();
             Window { count, selected: Some(self.selected), area: list }.draw(row, theme, buffer);

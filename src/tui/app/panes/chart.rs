@@ -11,7 +11,7 @@ use ratatui::style::Style;
 use ratatui::symbols::Marker;
 
 use super::plot::{LABEL_COLUMNS, Look as SeriesLook, Plot, TerminalChart, Words};
-use crate::case::units;
+use crate::case::units::{self, System};
 pub use crate::model::contact_state::first_touch_of_driver as first_contact;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity, Solution};
@@ -297,7 +297,13 @@ impl<'a> Charts<'a> {
                 let chart = pattern.chart(angle, self.window(), self.0.settings.units);
                 Some(Cow::Owned(Chart { across: self.across(), ..chart }))
             }
-            chart => self.0.tab.chart_work.drawn(chart).map(Cow::Borrowed),
+            chart => {
+                let drawn = self.0.tab.chart_work.drawn(chart)?;
+                Some(match self.0.settings.units {
+                    System::Metric => Cow::Borrowed(drawn),
+                    System::Inch => Cow::Owned(drawn.clone().in_units(System::Inch)),
+                })
+            }
         }
     }
 
@@ -533,7 +539,7 @@ impl<'a> Charts<'a> {
         let missing = || match self.answer() {
             Some(answer) if is_pattern => {
                 let solution: Vec<_> = self.solution().into_iter().collect();
-                let reason = pattern_chart(&answer.inputs, &solution).err();
+                let reason = pattern_chart(&answer.inputs, &solution, self.0.settings.units).err();
                 let words = reason.map(|reason| format!("No chart: {reason}. j: next chart."));
                 words.unwrap_or_default()
             }
