@@ -31,9 +31,9 @@ fn a_gap_shows_where_no_tooth_strikes() {
     let desk = study(SMALL, "driven.tip_relief");
     desk.assert_shows("_ no contact");
     let shown = desk.app.tab.study.shown.as_ref().expect("a study");
-    let found = &shown.layers[0];
-    assert!(found.values[0].is_some() && found.values[100].is_none());
-    assert_eq!((found.values.len(), &shown.end), (101, &Some(End::Whole)));
+    let found: Vec<_> = shown.layers[0].points().map(|(_, value)| value).collect();
+    assert!(found[0].is_some() && found[100].is_none());
+    assert_eq!((found.len(), &shown.end), (101, &Some(End::Whole)));
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn a_table_in_a_narrow_pane_has_fewer_columns_and_whole_numbers() {
     let mut desk = study(Size::new(60, 20), "operation.speed");
     desk.keys(&["v"]).has(&["n1 in rpm", "exact F_S in N"]).lacks(&["F_d,DE in"]);
     let found = &desk.app.tab.study.shown.as_ref().expect("a study").layers[0];
-    let value = found.values[50].expect("a value");
+    let value = found.points().nth(50).and_then(|(_, value)| value).expect("a value");
     let row = desk.line_with(" 2000  ");
     desk.assert(row.contains(&format!(" {value:.1} ")));
 }
@@ -135,7 +135,7 @@ fn a_table_in_a_narrow_pane_has_fewer_columns_and_whole_numbers() {
 #[test]
 fn the_shown_points_are_exported_as_by_the_command_that_is_named() {
     for (name, part) in [
-        ("a.csv", "[N],dynamic_peak_approach_force [N],outcome,method\n1000,1092.22"),
+        ("a.csv", "outcome,method,static outcome,static method,static exit_outcome,"),
         ("a.json", "{\"varied\":{\"operation.speed\":{\"value\":1000.0"),
         ("a.svg", "<svg"),
     ] {
@@ -370,8 +370,7 @@ fn the_number_of_refused_points_is_that_of_the_marks() {
     let mut desk = study(LARGE, "driven.addendum");
     desk.keys(&["-"]);
     let shown = desk.app.tab.study.shown.as_ref().expect("a study");
-    let refused = shown.layers[0].values.iter().filter(|value| value.is_none());
-    let count = refused.count();
+    let count = shown.layers[0].points().filter(|(_, value)| value.is_none()).count();
     desk.assert_at(count, count > 1 && desk.shows(&format!("{count} points refused")));
 }
 

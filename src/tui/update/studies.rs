@@ -15,7 +15,7 @@ use crate::report::page::{format_of, is_picture};
 use crate::report::solve::common_method;
 use crate::report::studies::{Take, table_of, write};
 use crate::report::svg;
-use crate::report::table::Named;
+use crate::report::table::{Named, Table};
 use crate::report::tolerance::ToleranceReport;
 use crate::report::trade::conclusion;
 use crate::study::axis::Grid;
@@ -32,8 +32,8 @@ use crate::tui::app::dialogs::question::PathDialog;
 use crate::tui::app::panes::results;
 use crate::tui::app::panes::study::range::{self, MOST_ZOOM, RangeOf, Steps};
 use crate::tui::app::panes::study::{
-    self, CURVE_POINTS, End, GridParameters, Layer, LayerFound, StudyParameters, StudyRequest,
-    StudyResults, StudyState, ToleranceParameters, map_points,
+    self, CURVE_POINTS, End, GridParameters, Layer, LayerFound, StudyParameters, StudyRequest, StudyResults,
+    StudyState, ToleranceParameters, map_points,
 };
 use crate::tui::app::panes::trade::{Traded, nearest, stepped};
 use crate::tui::layout::{Pane, is_too_small};
@@ -351,59 +351,81 @@ pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), Strin
     }
     let format = format_of(path).unwrap_or(Format::Csv);
     let (request, command) = repeated(app, format)?;
-    let shown = app.tab.study.request.as_ref().map(|request| &request.parameters);
-    let curves = match shown {
-        Some(StudyParameters::Grid(grid)) if format == Format::Csv => {
-            grid.layers.get(1..).unwrap_or_default().to_vec()
-        }
-        _ => Vec::new(),
-    };
-    let beside = if curves.is_empty() { "" } else { " with the other curves" };
+    let mut curves = app.tab.study.curves();
+    curves.truncate(if format == Format::Csv { usize::MAX } else { 1 });
+    let beside = if curves.len() > 1 { " with the other curves" } else { "" };
     let content = move |running: &Running<'_>| {
         let refused = |problem: Problem| format!("{}: {}", problem.cause, problem.fix);
         let mut study = Study::restore(&request).map_err(refused)?;
-        let needed: Vec<_> = study.quantities.iter().map(|quantity| quantity.stage).collect();
+        let needed = study.quantities.iter().map(|quantity| quantity.stage);
         study.inputs = study.inputs.needing(needed);
-        let text = if curves.is_empty() {
-            text_of(&study, running)
-        } else {
-            text_of_curves(study, &curves, running)
+        let text = match &curves[..] {
+            [_, _, ..] => text_of_curves(study, &curves, running),
+            [curve] => text_of(&study, &curve.rows, running),
+            [] => text_of(&study, &[], running),
         };
         text.map_err(|error| error.to_string())
     };
     Ok((format!(" the study, as `{command}`{beside},"), Box::new(content)))
 }
 
-/// The points of a study as CSV, with a column of each other curve behind that of the study. A name that
-/// the table has already gets the name of the curve before it.
-fn text_of_curves(mut study: Study, curves: &[Layer], running: &Running<'_>) -> io::Result<String> {
-    let solved = |study: &Study| {
+/// The rows of a study; those of a curve that the pane has solved are not solved again.
+fn rows_of(
+    study: &Study,
+    running: &Running<'_>,
+    known: &[batch::Row],
+    take: Take,
+) -> io::Result<()> {
+    let count = study.points().count();
+    if known.len() == count {
+        return take(0, known);
+    }
+    let mut written = Ok(());
+    let solved = solve(&study.batch(), count, running, &mut |first, rows| {
+        written = take(first, rows);
+        written.is_ok()
+    });
+    written?;
+    solved.map_err(|_| io::ErrorKind::Interrupted.into())
+}
+
+/// The points of a study as CSV, with a column of each other curve behind that of the study, and its
+/// outcome and method at the end. These, and a name that the table has already, have the name of the
+/// curve before them.
+fn text_of_curves(
+    mut study: Study,
+    curves: &[LayerFound],
+    running: &Running<'_>,
+) -> io::Result<String> {
+    let own = study.points().columns().len();
+    let mut table: Option<Table> = None;
+    for (at, LayerFound { layer, rows, .. }) in curves.iter().enumerate() {
+        study.quantities = layer.quantity().into_iter().collect();
+        let needed = study.quantities.iter().map(|quantity| quantity.stage);
+        study.inputs = layer.inputs.clone().needing(needed);
         let mut all = Vec::new();
-        let found = solve(&study.batch(), study.points().count(), running, &mut |_, rows| {
+        rows_of(&study, running, rows, &mut |_, rows| {
             all.extend_from_slice(rows);
-            true
-        });
-        found.map_err(|_| io::Error::from(io::ErrorKind::Interrupted))?;
-        Ok::<_, io::Error>(table_of(study, 0, &all))
-    };
-    let (mut table, own) = (solved(&study)?, study.points().columns().len());
-    for (place, curve) in (own + 1..).zip(curves) {
-        let quantities: Vec<_> = curve.quantity().into_iter().collect();
-        study.inputs =
-            curve.inputs.clone().needing(quantities.iter().map(|quantity| quantity.stage));
-        study.quantities = quantities;
-        let other = solved(&study)?;
-        let mut column = other.columns[own].clone();
-        if table.columns.iter().any(|known| known.key == column.key) {
-            column.key = format!("{} {}", curve.name(), column.key).into();
-        }
-        table.columns.insert(place, column);
-        for (row, other) in table.rows.iter_mut().zip(other.rows) {
-            row.insert(place, other[own].clone());
+            Ok(())
+        })?;
+        let other = table_of(&study, 0, &all);
+        let Some(table) = &mut table else {
+            table = Some(other);
+            continue;
+        };
+        for (index, mut column) in other.columns.into_iter().enumerate().skip(own) {
+            if index > own || table.columns.iter().any(|known| known.key == column.key) {
+                column.key = format!("{} {}", layer.name(), column.key).into();
+            }
+            let place = if index == own { own + at } else { table.columns.len() };
+            table.columns.insert(place, column);
+            for (row, other) in table.rows.iter_mut().zip(&other.rows) {
+                row.insert(place, other[index].clone());
+            }
         }
     }
     let mut out = Vec::new();
-    table.write_csv(&mut out)?;
+    table.unwrap_or_default().write_csv(&mut out)?;
     String::from_utf8(out).map_err(io::Error::other)
 }
 
@@ -439,19 +461,10 @@ fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
     Ok((Request { name: app.tab.name(), case, quantities, format, points }, command))
 }
 
-/// The output of the command of a study.
-fn text_of(of: &Study, running: &Running<'_>) -> io::Result<String> {
+/// The output of the command of a study, from the known points if they are complete.
+fn text_of(of: &Study, known: &[batch::Row], running: &Running<'_>) -> io::Result<String> {
     let mut out = Vec::new();
-    let rows = |take: Take| {
-        let mut written = Ok(());
-        let solved = solve(&of.batch(), of.points().count(), running, &mut |first, rows| {
-            written = take(first, rows);
-            written.is_ok()
-        });
-        written?;
-        solved.map_err(|_| io::ErrorKind::Interrupted.into())
-    };
-    write(of, rows, &mut out)?;
+    write(of, |take| rows_of(of, running, known, take), &mut out)?;
     String::from_utf8(out).map_err(io::Error::other)
 }
 
@@ -521,8 +534,7 @@ fn solve_grid(
         let mut sent = Instant::now();
         let solved = solve(&batch, grid.count(), running, &mut |first, rows| {
             refusals.count(first, rows);
-            waiting.outcomes.extend(rows.iter().map(|row| row.outcome));
-            waiting.values.extend(rows.iter().map(|row| row.values.first().copied().flatten()));
+            waiting.rows.extend_from_slice(rows);
             if sent.elapsed() > STEP {
                 sent = Instant::now();
                 waiting.refusals = refusals.clone();

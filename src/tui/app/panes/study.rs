@@ -22,7 +22,7 @@ use crate::report::charts::pieces;
 use crate::report::table::{Cell, Column, Table};
 use crate::report::{self, common_unit, shown_in, shown_with};
 use crate::study::axis::Axis as StudyAxis;
-use crate::study::batch::{PointOutcome, Refusals, Refused};
+use crate::study::batch::{PointOutcome, Refusals, Refused, Row};
 use crate::study::tolerance::USUAL_SAMPLES;
 use crate::tui::app::App;
 use crate::tui::layout::Pane;
@@ -140,10 +140,8 @@ pub enum End {
 pub struct LayerFound {
     /// The layer.
     pub(crate) layer: Layer,
-    /// How each point ended.
-    pub(crate) outcomes: Vec<PointOutcome>,
-    /// The value of each point in SI.
-    pub values: Vec<Option<f64>>,
+    /// The results of each point.
+    pub rows: Vec<Row>,
     /// The refused points.
     pub(crate) refusals: Refusals,
 }
@@ -198,13 +196,27 @@ impl LayerFound {
 
     /// No points of a layer yet.
     pub(crate) fn of(layer: &Layer) -> LayerFound {
-        let (layer, outcomes, values) = (layer.clone(), Vec::new(), Vec::new());
-        LayerFound { layer, outcomes, values, refusals: Refusals::default() }
+        LayerFound { layer: layer.clone(), rows: Vec::new(), refusals: Refusals::default() }
+    }
+
+    /// How each point ended, and its value in SI.
+    pub fn points(&self) -> impl Iterator<Item = (PointOutcome, Option<f64>)> {
+        (0..).map_while(|at| self.point(at))
+    }
+
+    /// How a point ended, and its value in SI.
+    fn point(&self, at: usize) -> Option<(PointOutcome, Option<f64>)> {
+        self.rows.get(at).map(|row| (row.outcome, row.values.first().copied().flatten()))
+    }
+
+    /// The values in SI.
+    fn values(&self) -> impl Iterator<Item = f64> {
+        self.points().filter_map(|(_, value)| value)
     }
 
     /// The unit for all values of the layer.
     fn unit(&self, units: System) -> Option<&'static str> {
-        Some(common_unit(self.layer.quantity()?, self.values.iter().flatten().copied(), units))
+        Some(common_unit(self.layer.quantity()?, self.values(), units))
     }
 }
 
@@ -238,6 +250,13 @@ impl Study {
             self.shown = Some(StudyResults::of(self.request.clone()?));
         }
         self.shown.as_mut()
+    }
+
+    /// The curves of the present request, with the points that are solved.
+    pub(crate) fn curves(&self) -> Vec<LayerFound> {
+        let shown = self.shown.as_ref().filter(|_| self.is_shown());
+        let unsolved = || Some(StudyResults::of(self.request.clone()?).layers);
+        shown.map(|shown| shown.layers.clone()).or_else(unsolved).unwrap_or_default()
     }
 
     /// Whether the present request has ended.
@@ -299,8 +318,7 @@ impl StudyResults {
     pub(crate) fn add(&mut self, layer: usize, found: LayerFound, progress: (f64, String)) {
         self.progress = progress;
         if let Some(known) = self.layers.get_mut(layer) {
-            known.outcomes.extend(found.outcomes);
-            known.values.extend(found.values);
+            known.rows.extend(found.rows);
             known.refusals = found.refusals;
         }
     }
@@ -525,9 +543,9 @@ fn values_at_cursor(app: &App, shown: &StudyResults) -> String {
 /// The value of a point, with its unit if wanted, or why there is none.
 fn value_words(found: &LayerFound, at: usize, units: System, has_unit: bool) -> Option<String> {
     let known = found.layer.quantity()?;
-    Some(match (found.outcomes.get(at)?, found.values.get(at)?) {
-        (_, Some(value)) if has_unit => shown_in(known, *value, units).to_string(),
-        (_, Some(value)) => shown_with(known, *value, found.unit(units)?).number,
+    Some(match found.point(at)? {
+        (_, Some(value)) if has_unit => shown_in(known, value, units).to_string(),
+        (_, Some(value)) => shown_with(known, value, found.unit(units)?).number,
         (PointOutcome::Refused, None) => "refused".to_owned(),
         (PointOutcome::Solved(Outcome::NoCornerContact), None) => "no contact".to_owned(),
         (PointOutcome::Solved(_), None) => "no value".to_owned(),
@@ -606,7 +624,7 @@ fn chart(app: &App, shown: &StudyResults) -> Option<(Chart, Vec<SeriesLook>)> {
 /// value, and signs where the active method has no value.
 fn curves(app: &App, shown: &StudyResults, axis: &StudyAxis) -> Option<(Chart, Vec<SeriesLook>)> {
     let (theme, known) = (app.look.theme, shown.quantity()?);
-    let all = shown.layers.iter().flat_map(|found| found.values.iter().flatten().copied());
+    let all = shown.layers.iter().flat_map(LayerFound::values);
     let unit = common_unit(known, all, app.settings.units);
     let factor = units::factor(unit).unwrap_or(1.0);
     let is_joined = axis.points.iter().all(|point| point.number.is_some());
@@ -614,8 +632,9 @@ fn curves(app: &App, shown: &StudyResults, axis: &StudyAxis) -> Option<(Chart, V
     let mut series: Vec<(Series, SeriesLook)> = Vec::new();
     for (at, found) in shown.layers.iter().enumerate() {
         let layer = &found.layer;
-        let points = found.values.iter().enumerate();
-        let points = points.map(|(at, value)| (x(axis, at), value.map(|value| value / factor)));
+        let points = found.points().enumerate();
+        let points =
+            points.map(|(at, (_, value))| (x(axis, at), value.map(|value| value / factor)));
         let pieces = pieces(points, longest);
         let look = match (at, layer.is_baseline) {
             (0, _) => (app.settings.marker, theme.active),
@@ -636,7 +655,7 @@ fn curves(app: &App, shown: &StudyResults, axis: &StudyAxis) -> Option<(Chart, V
     let of_point = || {
         let at = range::nearest(axis, &app.tab.case)?;
         let is_present = (x(axis, at) - now?).abs() <= SAME * now?.abs();
-        shown.layers.first()?.values.get(at).copied().flatten().filter(|_| is_present)
+        shown.layers.first()?.point(at)?.1.filter(|_| is_present)
     };
     let now =
         now.zip(present_value(app, shown).or_else(of_point)).map(|(x, value)| (x, value / factor));
@@ -649,8 +668,8 @@ fn curves(app: &App, shown: &StudyResults, axis: &StudyAxis) -> Option<(Chart, V
         (PointOutcome::Solved(Outcome::NoCornerContact), NO_CONTACT, "no contact"),
         (PointOutcome::Refused, REFUSED, "refused"),
     ] {
-        let points = own.outcomes.iter().zip(&own.values).enumerate();
-        let points = points.filter(|(_, (outcome, value))| **outcome == sought && value.is_none());
+        let points = own.points().enumerate();
+        let points = points.filter(|(_, (outcome, value))| *outcome == sought && value.is_none());
         // Below every value: at the axis.
         let points: Vec<Point> = points.map(|(at, _)| (x(axis, at), f64::NEG_INFINITY)).collect();
         if !points.is_empty() {
@@ -671,18 +690,17 @@ fn map(
     (across, up): (&StudyAxis, &StudyAxis),
 ) -> Option<(Chart, Vec<SeriesLook>)> {
     let (theme, known, found) = (app.look.theme, shown.quantity()?, shown.layers.first()?);
-    let all = || found.values.iter().flatten().copied();
-    let unit = common_unit(known, all(), app.settings.units);
+    let unit = common_unit(known, found.values(), app.settings.units);
     let worded = |value| (value, shown_with(known, value, unit).to_string());
-    let cell = |(outcome, value): (&PointOutcome, &Option<f64>)| match (outcome, value) {
+    let cell = |point| match point {
         (PointOutcome::Refused, _) => MapCell::Refused,
-        (_, Some(value)) => MapCell::Value(*value),
+        (_, Some(value)) => MapCell::Value(value),
         (PointOutcome::Solved(Outcome::NoCornerContact), None) => MapCell::NoContact,
         (PointOutcome::Solved(_), None) => MapCell::Blank,
     };
     let limit = app.tab.case.limits.iter().find(|limit| limit.quantity == known);
     let limit = limit.and_then(|limit| limit.bound(|_| None)).filter(|value| value.is_finite());
-    let values = Span::of(all());
+    let values = Span::of(found.values());
     let numbers = |axis: &StudyAxis| (0..axis.points.len()).map(|at| at as f64).collect();
     let labelled = |axis: &StudyAxis| {
         let last = axis.points.len().saturating_sub(1);
@@ -700,7 +718,7 @@ fn map(
         map: Some(Map {
             value: up_axis(shown, unit),
             places: [numbers(across), numbers(up)],
-            cells: found.outcomes.iter().zip(&found.values).map(cell).collect(),
+            cells: found.points().map(cell).collect(),
             ends: (values.from <= values.to).then(|| [values.from, values.to].map(worded)),
             limit: limit.map(|limit| (limit, format!("limit {}", worded(limit).1))),
         }),
@@ -739,7 +757,9 @@ fn place_of_present(app: &App, axis: &StudyAxis) -> Option<f64> {
         (now - from) / (to - from)
     };
     let mut pieces = (0..axis.points.len().saturating_sub(1)).map(|at| (at as f64, part(at)));
-    pieces.find(|(_, part)| (-SAME..=1.0 + SAME).contains(part)).map(|(at, part)| at + part)
+    pieces
+        .find(|(_, part)| (-SAME..=1.0 + SAME).contains(part))
+        .map(|(at, part)| at + part)
 }
 
 /// The position of a point on the axis: its number, or the index of a choice.
