@@ -15,19 +15,22 @@ use super::chart::curves::sign_of;
 use super::plot::{Look as SeriesLook, NO_CONTACT, REFUSED, TerminalChart};
 use crate::case::units::{self, System};
 use crate::case::{Case, FIELDS};
+use crate::model::explanation::tidy;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity};
 use crate::report::chart::{Axis, Cell as MapCell, Chart, Kind, Labels, Map, Point, Series, Span};
 use crate::report::charts::pieces;
 use crate::report::table::{Cell, Column, Table};
 use crate::report::{self, common_unit, shown_in, shown_with};
-use crate::study::axis::Axis as StudyAxis;
-use crate::study::batch::{PointOutcome, Refusals, Refused, Row};
+use crate::study::axis::{Axis as StudyAxis, AxisPoint};
+use crate::study::batch::{self, PointOutcome, Refusals, Refused, Row};
 use crate::study::tolerance::USUAL_SAMPLES;
 use crate::tui::app::App;
 use crate::tui::layout::Pane;
 use crate::tui::text::{self, symbol};
 
+/// Significant digits of the values of a varied field.
+const DIGITS: usize = 5;
 /// Points of a curve over a range.
 pub(crate) const CURVE_POINTS: usize = 101;
 /// Greatest number of points of a map, horizontally and vertically.
@@ -528,7 +531,7 @@ fn values_at_cursor(app: &App, shown: &StudyResults) -> String {
     let settings = places.iter().map(|(axis, at)| {
         let known = &FIELDS[axis.field];
         let name = if known.symbol.is_empty() { known.label } else { known.symbol };
-        format!("{name} = {}", axis.with_unit(*at))
+        format!("{name} = {}", batch::with_unit(&short(axis, *at), &axis.unit))
     });
     let settings: Vec<String> = settings.collect();
     let index = places.iter().rev().fold(0, |index, (axis, at)| index * axis.points.len() + at);
@@ -706,7 +709,7 @@ fn map(
         let last = axis.points.len().saturating_sub(1);
         let mut points = vec![0, last / 2, last];
         points.dedup();
-        let labels = points.into_iter().map(|at| (at as f64, axis.points[at].text.clone()));
+        let labels = points.into_iter().map(|at| (at as f64, short(axis, at)));
         Axis { labels: labels.collect(), ..field_axis(axis) }
     };
     let now = place_of_present(app, across).zip(place_of_present(app, up));
@@ -762,6 +765,12 @@ fn place_of_present(app: &App, axis: &StudyAxis) -> Option<f64> {
         .map(|(at, part)| at + part)
 }
 
+/// The text of a point with the digits of a result.
+fn short(axis: &StudyAxis, at: usize) -> String {
+    let AxisPoint { text, number, .. } = &axis.points[at];
+    number.map_or_else(|| text.clone(), |number| tidy(number, DIGITS))
+}
+
 /// The position of a point on the axis: its number, or the index of a choice.
 fn x(axis: &StudyAxis, at: usize) -> f64 {
     axis.points.get(at).and_then(|point| point.number).unwrap_or(at as f64)
@@ -794,7 +803,7 @@ fn draw_table(app: &App, shown: &StudyResults, area: Rect, buffer: &mut Buffer) 
         let row = |at: usize| {
             let places = [at / width, at % width];
             let axes = axes.iter().zip(&places[2 - axes.len()..]);
-            let fields = axes.map(|(axis, at)| axis.points[*at].text.clone());
+            let fields = axes.map(|(axis, at)| short(axis, *at));
             let values = layers
                 .iter()
                 .map(|found| value_words(found, at, app.settings.units, false).unwrap_or_default());
