@@ -30,9 +30,9 @@ use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::picker::{Item, Picker};
 use crate::tui::app::dialogs::question::PathDialog;
 use crate::tui::app::panes::results;
-use crate::tui::app::panes::study::range::{self, MOST_ZOOM, RangeOf, Steps};
+use crate::tui::app::panes::study::range::{self, CURVE_POINTS, MOST_ZOOM, RangeOf, Steps};
 use crate::tui::app::panes::study::{
-    self, CURVE_POINTS, End, GridParameters, Layer, LayerFound, StudyParameters, StudyRequest, StudyResults,
+    self, End, GridParameters, Layer, LayerFound, StudyParameters, StudyRequest, StudyResults,
     StudyState, ToleranceParameters, map_points,
 };
 use crate::tui::app::panes::trade::{Traded, nearest, stepped};

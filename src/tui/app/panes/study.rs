@@ -31,14 +31,10 @@ use crate::tui::text::{self, symbol};
 
 /// Significant digits of the values of a varied field.
 const DIGITS: usize = 5;
-/// Points of a curve over a range.
-pub(crate) const CURVE_POINTS: usize = 101;
 /// Greatest number of points of a map, horizontally and vertically.
 const MOST_CELLS: (u16, u16) = (60, 30);
 /// Columns and rows of a map outside its cells.
 const MAP_MARGIN: (u16, u16) = (12, 6);
-/// Relative difference of a point from the present value by rounding.
-const SAME: f64 = 1e-5;
 /// Least height of a pane with two rows for the texts.
 const TALL: u16 = 8;
 /// The texts below a plot get at most this fraction of the rows.
@@ -657,7 +653,7 @@ fn curves(app: &App, shown: &StudyResults, axis: &StudyAxis) -> Option<(Chart, V
     // A quantity that only the study computes has its present value at the point of the case.
     let of_point = || {
         let at = range::nearest(axis, &app.tab.case)?;
-        let is_present = (x(axis, at) - now?).abs() <= SAME * now?.abs();
+        let is_present = (x(axis, at) - now?).abs() <= range::SAME * now?.abs();
         shown.layers.first()?.point(at)?.1.filter(|_| is_present)
     };
     let now =
@@ -761,7 +757,7 @@ fn place_of_present(app: &App, axis: &StudyAxis) -> Option<f64> {
     };
     let mut pieces = (0..axis.points.len().saturating_sub(1)).map(|at| (at as f64, part(at)));
     pieces
-        .find(|(_, part)| (-SAME..=1.0 + SAME).contains(part))
+        .find(|(_, part)| (-range::SAME..=1.0 + range::SAME).contains(part))
         .map(|(at, part)| at + part)
 }
 

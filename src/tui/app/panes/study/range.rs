@@ -6,10 +6,13 @@ use crate::case::units::{self, System};
 use crate::case::{Case, Problem, field_range};
 use crate::model::{Inputs, Quantity};
 use crate::numeric::decimal::significant;
-use crate::report::chart::Span;
 use crate::study::axis::{Axis, AxisRange, Sampling};
 use crate::tui::rows;
 
+/// Points of a curve over a range.
+pub(crate) const CURVE_POINTS: usize = 101;
+/// Relative difference of a point from the present value by rounding.
+pub(crate) const SAME: f64 = 1e-5;
 /// Greatest number of halvings or doublings of a range.
 pub(crate) const MOST_ZOOM: i32 = 12;
 /// Distance of both ends from the value, relative to the value.
@@ -33,7 +36,7 @@ const ROUND_DIGITS: usize = 14;
 pub(crate) enum Steps {
     /// A number of equal steps between the ends.
     Equal(usize),
-    /// About this many points at most, at multiples of 1, 2 or 5 times a power of ten.
+    /// At most this many points with steps of few digits.
     Round(usize),
 }
 
@@ -66,7 +69,9 @@ impl RangeOf<'_> {
             }
             Kind::Number(..) => {
                 let range = self.number_range(field);
-                let axis = |steps| Ok(with_present(stepped(&range, steps)?, &range, self.case));
+                let now = value(self.case, field) / units::factor(&range.unit).unwrap_or(1.0);
+                let axis =
+                    |steps| Ok(with_present(stepped(&range, now, steps)?, &range, self.case));
                 let found = match (axis(steps), steps) {
                     (Ok(found), Steps::Round(most)) if found.points.len() > most => {
                         axis(Steps::Round(most - 1))
@@ -76,9 +81,11 @@ impl RangeOf<'_> {
                 found.map_err(|problem: Problem| worded(known, &problem.cause))
             }
             Kind::Count(from, to, _) => {
-                let (Steps::Equal(points) | Steps::Round(points)) = steps;
-                let range = count_range(self.case, field, self.zoom, points, (from, to));
-                let axis = range.axis(Sampling::default());
+                let range = count_range(self.case, field, self.zoom, (from, to));
+                let axis = match steps {
+                    Steps::Equal(_) => range.axis(Sampling::default()),
+                    Steps::Round(most) => thinned(&range, value(self.case, field), most),
+                };
                 axis.map_err(|problem| worded(known, &problem.cause))
             }
         }
@@ -127,10 +134,10 @@ impl RangeOf<'_> {
 }
 
 /// The equal or round steps of a range.
-fn stepped(range: &AxisRange, steps: Steps) -> Result<Axis, Problem> {
-    let (range, points) = match steps {
-        Steps::Equal(points) => (range.clone(), points),
-        Steps::Round(most) => round(range, most).unwrap_or((range.clone(), most)),
+fn stepped(range: &AxisRange, present: f64, steps: Steps) -> Result<Axis, Problem> {
+    let points = match steps {
+        Steps::Equal(points) => points,
+        Steps::Round(most) => round(range, present, most),
     };
     range.axis(Sampling { points: Some(points.max(2)), is_log: false })
 }
@@ -155,19 +162,21 @@ fn with_present(mut axis: Axis, range: &AxisRange, case: &Case) -> Axis {
     axis
 }
 
-/// The round numbers within a range, as a range and their number.
-fn round(range: &AxisRange, most: usize) -> Option<(AxisRange, usize)> {
-    let intervals = u16::try_from(most).unwrap_or(u16::MAX).saturating_sub(1);
-    let ticks = Span::new(range.from, range.to).ticks(intervals);
-    let numbers = ticks.into_iter().map(|(number, _)| {
-        let text = significant(number, ROUND_DIGITS);
-        text.parse::<f64>().unwrap_or(number)
-    });
-    // A tick next to the end of the range may be outside the limits of the field.
-    let numbers: Vec<f64> = numbers.filter(|number| range.at(*number).is_ok()).collect();
-    let (from, to) = (*numbers.first()?, *numbers.last()?);
-    let own = AxisRange { from, to, ..range.clone() };
-    (numbers.len() > 1).then_some((own, numbers.len()))
+/// The number of points of the whole range, at most `most` and at least half of that: one of them is the
+/// present number if possible, and the steps have few digits.
+fn round(range: &AxisRange, present: f64, most: usize) -> usize {
+    let intervals = most.saturating_sub(1).max(1);
+    let digits = |steps: usize| {
+        let step = significant((range.to - range.from) / steps as f64, ROUND_DIGITS);
+        step.trim_end_matches('0').trim_matches(['0', '.']).len()
+    };
+    let counts = intervals.div_ceil(2)..=intervals;
+    let part = (present - range.from) / (range.to - range.from);
+    let is_off = |steps: usize| {
+        let place = part * steps as f64;
+        (place - place.round()).abs() > SAME
+    };
+    1 + counts.rev().min_by_key(|&steps| (is_off(steps), digits(steps))).unwrap_or(1)
 }
 
 fn worded(field: &Field, cause: &str) -> String {
@@ -217,24 +226,31 @@ fn around_zero(case: &Case, field: usize) -> f64 {
     }
 }
 
-fn count_range(
-    case: &Case,
-    field: usize,
-    zoom: i32,
-    points: usize,
-    (least, most): (u32, u32),
-) -> AxisRange {
+fn count_range(case: &Case, field: usize, zoom: i32, (least, most): (u32, u32)) -> AxisRange {
     const REACH: f64 = 10.0;
     let value = value(case, field).clamp(least.into(), most.into());
-    let widest = (points.max(3) / 2 - usize::from(points.is_multiple_of(2))) as f64;
     let reach = (REACH * 2f64.powi(-zoom.clamp(-MOST_ZOOM, MOST_ZOOM))).round();
-    let reach = reach.clamp(1.0, widest.max(1.0));
+    let reach = reach.clamp(1.0, (CURVE_POINTS / 2) as f64);
     AxisRange {
         field,
         unit: String::new(),
         from: (value - reach).max(least.into()),
         to: (value + reach).min(most.into()),
     }
+}
+
+/// At most `most` whole numbers of a range, but its ends and the present number in any case.
+fn thinned(range: &AxisRange, present: f64, most: usize) -> Result<Axis, Problem> {
+    let [from, to, present] = [range.from, range.to, present].map(|number| number as u32);
+    let numbers = |step: u32| {
+        let is_point = |number: &u32| {
+            [from, to].contains(number) || number.abs_diff(present).is_multiple_of(step)
+        };
+        (from..=to).filter(is_point).map(|number| number.to_string()).collect::<Vec<_>>()
+    };
+    let mut all = (1..=to).map(numbers);
+    let numbers = all.find(|numbers| numbers.len() <= most.max(3)).unwrap_or_default();
+    Axis::parse(&format!("{}={}", FIELDS[range.field].key, numbers.join(",")), Sampling::default())
 }
 
 /// Greatest number of points of typed ranges.
@@ -391,13 +407,15 @@ mod tests {
     }
 
     #[test]
-    fn the_points_of_a_map_are_round_numbers_within_the_range() {
+    fn a_map_has_the_whole_range_in_round_steps_for_any_number_of_cells() {
         let case = Case::table_1();
         for (key, zoom, most, expected) in [
             ("operation.speed", 0, 30, ["1000 rpm", "1100 rpm", "3000 rpm"]),
-            ("operation.speed", 2, 30, ["1760 rpm", "1780 rpm", "2240 rpm"]),
+            ("operation.speed", 0, 60, ["1000 rpm", "1040 rpm", "3000 rpm"]),
+            ("operation.speed", 2, 30, ["1750 rpm", "1775 rpm", "2250 rpm"]),
             ("driven.tip_relief", 0, 60, ["0 um", "1 um", "50 um"]),
-            ("operation.power", 3, 7, ["14.5 kW", "15 kW", "15.5 kW"]),
+            ("driver.teeth", 0, 30, ["10", "11", "30"]),
+            ("driver.teeth", 0, 8, ["10", "12", "30"]),
         ] {
             let field = index_of(key).expect("a field");
             let axis = range_of(&case, zoom).axis(field, Steps::Round(most)).expect("a range");
