@@ -54,7 +54,7 @@ pub use impact::{Band, Friction, Impact};
 pub use inputs::Inputs;
 pub use limits::Refusal;
 pub use mesh::Mesh;
-pub use notes::{About, Note, notes};
+pub use notes::{Note, notes};
 pub use outline::Outline;
 pub use position::{Position, Velocity};
 pub use quantities::{QUANTITIES, Quantity};

@@ -25,7 +25,7 @@ use crate::case::Case;
 use crate::case::fields::index_of;
 use crate::case::units::{self, System};
 use crate::model::inputs::Method;
-use crate::model::{self, About, Inputs, Note, QUANTITIES, Quantity, Solution, Stage, Stages};
+use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Solution, Stage, Stages};
 use crate::numeric::decimal::significant;
 use serde::{Serialize, Serializer};
 #[cfg(all(unix, feature = "tui"))]
@@ -150,7 +150,7 @@ fn is_default(at: usize, case: &Case) -> bool {
 
 /// The notes that do not say the same for almost every case.
 fn case_notes(notes: &[Note]) -> impl Iterator<Item = &Note> {
-    notes.iter().filter(|note| note.about != About::General)
+    notes.iter().filter(|note| !note.is_general)
 }
 
 /// Label and symbol of a quantity.

@@ -20,21 +20,13 @@ use crate::numeric::decimal::significant;
 pub struct Note {
     /// A short name for scripts.
     pub code: &'static str,
-    /// What the note is about.
-    pub about: About,
+    /// Whether the note is on almost every case by a closed form: JSON has the note; elsewhere it is a
+    /// finding of `explain`.
+    pub is_general: bool,
     /// One sentence with the value and the limit.
     pub message: String,
     /// What the user of the program can do.
     pub fix: Option<&'static str>,
-}
-
-/// What a note is about: this decides where the note is shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum About {
-    /// This case.
-    Case,
-    /// Almost every case by a closed form: JSON has the note; elsewhere it is a finding of `explain`.
-    General,
 }
 
 impl std::fmt::Display for Note {
@@ -47,11 +39,11 @@ impl std::fmt::Display for Note {
 impl Note {
     /// A note on this case.
     pub fn case(code: &'static str, message: String) -> Note {
-        Note { code, about: About::Case, message, fix: None }
+        Note { code, is_general: false, message, fix: None }
     }
 
     fn general(code: &'static str, message: String) -> Note {
-        Note { about: About::General, ..Note::case(code, message) }
+        Note { is_general: true, ..Note::case(code, message) }
     }
 }
 

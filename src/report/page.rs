@@ -9,7 +9,7 @@ use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
 use crate::case::{Case, FIELDS};
 use crate::model::quantities::conditions::helical;
-use crate::model::{About, Inputs, Quantity};
+use crate::model::{Inputs, Quantity};
 use crate::report::charts::NamedCase;
 use crate::report::charts::{PATTERN, Picture, find, pictures};
 use crate::report::compare::{ComparedCase, Comparison};
@@ -321,7 +321,7 @@ impl PageCase<'_> {
 
 /// The notes on the gears, without advice for the user of the program.
 fn notes(report: &Report) -> Vec<String> {
-    let notes = report.notes.iter().filter(|note| note.about == About::Case);
+    let notes = report.notes.iter().filter(|note| !note.is_general);
     notes.map(|note| with_labels(&note.message)).collect()
 }
 

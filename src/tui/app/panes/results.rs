@@ -17,7 +17,7 @@ use crate::case::units::{self, named};
 use crate::case::{Case, FIELDS, Field, changes};
 use crate::model::inputs::Method;
 use crate::model::quantities::Need;
-use crate::model::{About, QUANTITIES, Quantity, Solution, Stage, Stages};
+use crate::model::{QUANTITIES, Quantity, Solution, Stage, Stages};
 use crate::report::compare::difference;
 use crate::report::trade::duration;
 use crate::report::verdict::{Standing, Verdict, verdict, verdicts};
@@ -311,7 +311,7 @@ fn sentences(app: &App) -> Vec<Sentence> {
         add(format!("Variant {name}: {inputs}{refused}."), fresh(theme.note), place);
     }
     for note in &answer.notes {
-        let place = if note.about == About::Case { Place::Room } else { Place::Page };
+        let place = if note.is_general { Place::Page } else { Place::Room };
         add(format!("Note: {note}."), fresh(theme.note), place);
     }
     all
