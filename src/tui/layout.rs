@@ -6,7 +6,9 @@ use ratatui::layout::{Layout as Layouts, Rect, Size};
 use crate::model::{Stage, Stages};
 
 /// The smallest useful terminal.
-pub(crate) const SMALLEST: Size = Size { width: 60, height: 16 };
+pub(crate) const SMALLEST: Size = Size { width: 60, height: 12 };
+/// Least height of a terminal with the results beside the form.
+const RESULTS_FROM: u16 = 16;
 /// Least height of a terminal with a lower area in addition to form and results.
 const LOWER_FROM: u16 = 20;
 /// Least size with the teeth beside the chart.
@@ -127,7 +129,8 @@ impl Layout {
         let mut plan = Plan { header, hint, keys, ..Plan::default() };
         // The pane of the lower area beside the teeth, if these have an area of their own.
         let beside = if self.lower == Pane::Teeth { Pane::Chart } else { self.lower };
-        if self.is_zoomed || (size.height < LOWER_FROM && self.focus.is_lower()) {
+        let is_lower = size.height < LOWER_FROM && self.focus.is_lower();
+        if self.is_zoomed || size.height < RESULTS_FROM || is_lower {
             plan.place([self.focus], [body]);
         } else if size.height < LOWER_FROM {
             plan.place([Pane::Form, Pane::Results], split(body));
@@ -334,6 +337,7 @@ mod tests {
     fn the_visible_panes_at_common_sizes() {
         use Pane::{Chart, Form, Results, Teeth, Trade};
         assert_eq!(seen((59, 16), Form, Chart, false), []);
+        assert_eq!(seen((60, 12), Results, Chart, false), [Results]);
         assert_eq!(seen((60, 16), Form, Chart, false), [Form, Results]);
         assert_eq!(seen((60, 16), Teeth, Chart, false), [Teeth]);
         assert_eq!(seen((80, 24), Form, Chart, false), [Form, Results, Chart]);
