@@ -149,8 +149,7 @@ impl Question for Seek {
         condition.check(inputs.method).map_err(|problem| self.wrong_condition(problem))?;
         let scan = range.axis(Sampling { points: Some(self.points), is_log: false });
         let scan = scan.map_err(|problem| self.wrong_range(problem))?;
-        let found = seek(&inputs, &range, &condition, &scan, &self.threads.control(go_on));
-        let found = found.map_err(|_| Refusal::Stopped)?;
+        let found = seek(&inputs, &range, &condition, &scan, &self.threads.control(go_on))?;
         Ok(Box::new(SeekReport { method: inputs.method.name(), range, condition, found }))
     }
 }

@@ -333,8 +333,7 @@ impl Unsolved<'_> {
         };
         let size = Size { samples, seed: SEED, ranked: Some(0) };
         let Ok(study) = Tolerance::of(self.case, self.inputs, &[], size) else { return Ok(None) };
-        let samples = study.run(self.inputs, &Control { jobs: None, go_on });
-        let samples = samples.map_err(|_| Refusal::Stopped)?;
+        let samples = study.run(self.inputs, &Control { jobs: None, go_on })?;
         Ok(Some((study, samples)))
     }
 }

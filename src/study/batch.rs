@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use crate::case::{Evaluator, Problem, violated_rule};
 use crate::model::inputs::Method;
-use crate::model::{Inputs, Outcome, Quantity, Stages};
+use crate::model::{Inputs, Outcome, Quantity, Refusal, Stages};
 use serde::{Deserialize, Serialize};
 use smallvec::{SmallVec, smallvec};
 
@@ -143,22 +143,18 @@ pub struct Row {
     pub refusal: Option<Box<Problem>>,
 }
 
-/// The study was stopped before its end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stopped;
-
 /// Solves the points of a range and passes their rows, with the index of the first of them, to
 /// `take` in order, as soon as they are ready. The rows do not depend on the number of threads.
 /// `take` returns whether to continue.
 ///
 /// # Errors
-/// [`Stopped`] if [`Control::go_on`] or `take` returns false.
+/// [`Refusal::Stopped`] if [`Control::go_on`] or `take` returns false.
 pub fn solve_all(
     batch: &Batch,
     range: Range<usize>,
     control: &Control,
     take: &mut dyn FnMut(usize, &[Row]) -> bool,
-) -> Result<(), Stopped> {
+) -> Result<(), Refusal> {
     let jobs = jobs(control.jobs);
     let size = (range.len() / (jobs * CHUNKS)).clamp(1, LONGEST);
     let (next, is_stopped) = (AtomicUsize::new(range.start), AtomicBool::new(false));
@@ -170,7 +166,7 @@ pub fn solve_all(
             let first = next.fetch_add(size, Ordering::Relaxed);
             let chunk = first..range.end.min(first + size);
             let rows = chunk.map(|index| solver.solve(index, &goes_on));
-            let Ok(rows) = rows.collect::<Result<Vec<Row>, Stopped>>() else { return };
+            let Ok(rows) = rows.collect::<Result<Vec<Row>, Refusal>>() else { return };
             if rows.is_empty() || send.send((first, rows)).is_err() {
                 return;
             }
@@ -180,7 +176,7 @@ pub fn solve_all(
         let (mut early, mut next, mut done) = (BTreeMap::new(), range.start, 0);
         while next < range.end {
             if !(control.go_on)(done, range.len()) {
-                return Err(Stopped);
+                return Err(Refusal::Stopped);
             }
             match receive.recv_timeout(TICK) {
                 Ok((first, rows)) => {
@@ -188,11 +184,11 @@ pub fn solve_all(
                     early.insert(first, rows);
                 }
                 Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => return Err(Stopped),
+                Err(RecvTimeoutError::Disconnected) => return Err(Refusal::Stopped),
             }
             while let Some(rows) = early.remove(&next) {
                 if !take(next, &rows) {
-                    return Err(Stopped);
+                    return Err(Refusal::Stopped);
                 }
                 next += rows.len();
             }
@@ -239,9 +235,9 @@ impl<'a> PointSolver<'a> {
         }
     }
 
-    fn solve(&mut self, index: usize, goes_on: &dyn Fn() -> bool) -> Result<Row, Stopped> {
+    fn solve(&mut self, index: usize, goes_on: &dyn Fn() -> bool) -> Result<Row, Refusal> {
         match self.row(index, goes_on) {
-            _ if !goes_on() => Err(Stopped),
+            _ if !goes_on() => Err(Refusal::Stopped),
             Ok(row) => Ok(row),
             Err(problem) => Ok(Row {
                 outcome: PointOutcome::Refused,

@@ -3,9 +3,9 @@
 use crate::case::sanitize::quoted;
 use crate::case::{self, Case, Limit, Problem};
 use crate::model::inputs::Method;
-use crate::model::{Inputs, Outcome, Quantity, Stage};
+use crate::model::{Inputs, Outcome, Quantity, Refusal, Stage};
 use crate::study::axis::{Axis, AxisRange, Grid};
-use crate::study::batch::{Batch, Control, PointOutcome, Points, Row, Stopped, solve_all};
+use crate::study::batch::{Batch, Control, PointOutcome, Points, Row, solve_all};
 
 /// A relation of a quantity to its limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -286,14 +286,14 @@ impl Found {
 /// quantity turns back close to its limit, so that it finds two crossings close to each other.
 ///
 /// # Errors
-/// [`Stopped`] if the user stops the search.
+/// [`Refusal::Stopped`] if the user stops the search.
 pub fn seek(
     inputs: &Inputs,
     range: &AxisRange,
     condition: &Condition,
     scan: &Axis,
     control: &Control,
-) -> Result<Found, Stopped> {
+) -> Result<Found, Refusal> {
     let quantities = condition.quantities();
     let solve = |axis: Axis| {
         let grid = Grid { axes: vec![axis] };

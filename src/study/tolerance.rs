@@ -5,10 +5,10 @@ use crate::case::spread::Shape;
 use crate::case::{Case, Limit, Problem, Spread, field_range, units};
 use crate::model::deviation::Origin;
 use crate::model::inputs::{Combination, Gear};
-use crate::model::{Inputs, Outcome, Quantity};
+use crate::model::{Inputs, Outcome, Quantity, Refusal};
 use crate::numeric::decimal::{shortest, significant};
 use crate::study::batch::{
-    Batch, Control, PointOutcome, Points, Refusals, Row, Stopped, Writer, solve_all, with_unit,
+    Batch, Control, PointOutcome, Points, Refusals, Row, Writer, solve_all, with_unit,
 };
 use crate::study::seek::{distinct, headline};
 use crate::study::statistics::{Estimate, Figures, Indices, Ranked, figures, indices, probability};
@@ -90,8 +90,8 @@ impl Tolerance {
     /// Solves every point.
     ///
     /// # Errors
-    /// [`Stopped`] if the user stops the study.
-    pub fn run(&self, inputs: &Inputs, control: &Control) -> Result<Samples, Stopped> {
+    /// [`Refusal::Stopped`] if the user stops the study.
+    pub fn run(&self, inputs: &Inputs, control: &Control) -> Result<Samples, Refusal> {
         let mut samples = Samples::of(self);
         let batch = Batch { inputs, points: &self.design, quantities: &self.quantities };
         solve_all(&batch, 0..self.design.count(), control, &mut |first, rows| {

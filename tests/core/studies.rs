@@ -3,9 +3,9 @@
 use tipstrike::case::spread::Shape;
 use tipstrike::case::{Case, Spread};
 use tipstrike::model::inputs::Method;
-use tipstrike::model::{Inputs, QUANTITIES, Quantity, Stage, Stages, solve};
+use tipstrike::model::{Inputs, QUANTITIES, Quantity, Refusal, Stage, Stages, solve};
 use tipstrike::study::axis::{AxisRange, Grid, Sampling};
-use tipstrike::study::batch::{Batch, Control, PointOutcome, Points, Row, Stopped, solve_all};
+use tipstrike::study::batch::{Batch, Control, PointOutcome, Points, Row, solve_all};
 use tipstrike::study::seek::{Condition, Found, State, seek};
 use tipstrike::study::statistics::{Estimate, Indices, Ranked, indices};
 use tipstrike::study::tolerance::{Design, Distribution, Member, Samples, Size, Tolerance};
@@ -103,11 +103,11 @@ fn the_user_or_the_reader_can_stop_a_study() {
         rows += arrived.len();
         false
     });
-    assert_eq!(by_reader, Err(Stopped));
+    assert_eq!(by_reader, Err(Refusal::Stopped));
     assert!(0 < rows && rows < grid.count());
     let control = Control { go_on: &|_, _| false, ..Control::PLAIN };
     let by_user = solve_all(&batch, 0..grid.count(), &control, &mut |_, _| true);
-    assert_eq!(by_user, Err(Stopped));
+    assert_eq!(by_user, Err(Refusal::Stopped));
 }
 
 fn sought(inputs: &Inputs, range: &str, condition: &str) -> Found {

@@ -8,7 +8,7 @@ use super::{
     AMOUNT_STEP, Criterion, MOST_AMOUNT, NoRelief, SEARCH, TipReliefs, WholeSolves, decimal, loaded,
 };
 use crate::model::inputs::ReliefShape;
-use crate::model::{Inputs, Outcome, Quantity, Refusal};
+use crate::model::{Inputs, Outcome, Quantity};
 use crate::study::batch::{Batch, Control, PointOutcome, Points, Row, Writer, solve_all};
 
 /// Amount on both gears and crowning in um, length in steps: the axes of the search.
@@ -65,7 +65,7 @@ type Named = Vec<(&'static str, TipReliefs)>;
 /// number of evaluated reliefs.
 ///
 /// # Errors
-/// [`NoRelief::Beyond`] if no relief prevents corner contact, [`Refusal::Stopped`] if the user stops.
+/// [`NoRelief::Beyond`] if no relief prevents corner contact, [`NoRelief::Refused`] if the user stops.
 pub(super) fn search(pair: &WholeSolves<'_>) -> Result<(Named, u64), NoRelief> {
     let (mut found, mut least, mut tries) = (Vec::new(), None, 0);
     pair.part.set(0.0);
@@ -249,8 +249,7 @@ impl Search<'_> {
         solve_all(&batch, 0..trials.count(), &control, &mut |_, rows| {
             found.extend_from_slice(rows);
             true
-        })
-        .map_err(|_| NoRelief::Refused(Refusal::Stopped))?;
+        })?;
         Ok(found)
     }
 }

@@ -19,7 +19,7 @@ use crate::report::table::{Named, Table};
 use crate::report::tolerance::ToleranceReport;
 use crate::report::trade::conclusion;
 use crate::study::axis::Grid;
-use crate::study::batch::{self, Batch, Control, Points, Refusals, Stopped, solve_all};
+use crate::study::batch::{self, Batch, Control, Points, Refusals, solve_all};
 use crate::study::shard::{Format, PointsRequest, Request, Study};
 use crate::study::tolerance::Design;
 use crate::study::tolerance::{Samples, Size, Tolerance, USUAL_RANKED};
@@ -490,7 +490,7 @@ fn compute(tab: usize, parameters: &StudyParameters, running: &Running<'_>) {
     };
     let end = match solved {
         Ok(Ok(())) => End::Whole,
-        Ok(Err(Stopped)) => return,
+        Ok(Err(_)) => return,
         Err(problem) => End::Failed(format!("{}: {}", problem.cause, problem.fix)),
     };
     running.send(move |app| ended(app, tab, end));
@@ -502,7 +502,7 @@ fn solve(
     count: usize,
     running: &Running<'_>,
     take: &mut dyn FnMut(usize, &[batch::Row]) -> bool,
-) -> Result<(), Stopped> {
+) -> Result<(), Refusal> {
     // One core stays free for the main loop and the solver.
     let jobs = Some(batch::jobs(None).saturating_sub(1).max(1));
     solve_all(batch, 0..count, &Control { jobs, go_on: &|_, _| running.is_wanted() }, take)
@@ -519,7 +519,7 @@ fn solve_grid(
     tab: usize,
     parameters: &GridParameters,
     running: &Running<'_>,
-) -> Result<Result<(), Stopped>, Problem> {
+) -> Result<Result<(), Refusal>, Problem> {
     let (grid, begun) = (Grid::of(parameters.axes.clone())?, Instant::now());
     let all = grid.count() * parameters.layers.len();
     for (at, layer) in parameters.layers.iter().enumerate() {
@@ -556,7 +556,7 @@ fn sample(
     tab: usize,
     parameters: &ToleranceParameters,
     running: &Running<'_>,
-) -> Result<Result<(), Stopped>, Problem> {
+) -> Result<Result<(), Refusal>, Problem> {
     let ToleranceParameters { case, inputs, quantity, samples } = parameters;
     let size = Size { samples: *samples, seed: 1, ranked: None };
     let only: Vec<&'static Quantity> = Quantity::find(quantity).into_iter().collect();
