@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::{edit, key_of, panes};
 use crate::case::fields::FIELDS;
 use crate::case::fields::index_of;
-use crate::case::{Evaluator, Problem, Variant};
+use crate::case::{Case, Evaluator, Problem, Variant};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Solution};
 use crate::report::page::{format_of, is_picture};
@@ -39,7 +39,7 @@ use crate::tui::app::panes::trade::{Traded, nearest, stepped};
 use crate::tui::layout::{Pane, is_too_small};
 use crate::tui::rows::{self, Row};
 use crate::tui::session::age;
-use crate::tui::solver::{self, Answer, Baseline, Request as CaseRequest, Variants, Wanted};
+use crate::tui::solver::{Answer, Baseline, Variants};
 use crate::tui::text::Line;
 
 /// The title and the instruction of the dialog for a range.
@@ -758,17 +758,15 @@ pub(super) fn request_variants(app: &mut App) {
     if !is_wanted || is_known || runs || waits {
         return;
     }
-    let (case, inputs) = (tab.case.clone(), tab.inputs_so_far.clone());
-    let chosen = tab.chosen.filter(|_| inputs.method == Method::Auto);
+    let (case, own) = (tab.case.clone(), tab.inputs_so_far.method);
+    let (chosen, answer) = (tab.chosen.filter(|_| own == Method::Auto), tab.answer.clone());
     app.comparing = Some(serial);
     let solve = move |running: &Running<'_>| {
-        let stages = Pane::Results.needs();
-        let go_on = |_| running.is_wanted();
-        let solved = |variant: &Variant, by_auto: Method| {
-            let inputs = case.with(variant).inputs();
-            let found = inputs.map(|inputs| {
+        let solved = |case: &Case, by_auto: Method| {
+            let found = case.inputs().map(|inputs| {
                 let is_auto = inputs.method == Method::Auto;
                 let method = if is_auto { by_auto } else { inputs.method };
+                let (stages, go_on) = (Pane::Results.needs(), |_| running.is_wanted());
                 Evaluator::default().solve(&inputs, method, stages, &go_on)
             });
             Some(match found {
@@ -777,25 +775,27 @@ pub(super) fn request_variants(app: &mut App) {
                 Ok(found) => found.map_err(|refusal| format!("{refusal}: {}", refusal.fix())),
             })
         };
-        let all = case.variants.iter().map(|variant| solved(variant, Method::Auto));
+        let variants = case.variants.iter().map(|variant| (&variant.name, case.with(variant)));
+        let variants: Vec<_> = variants.collect();
+        let all = variants.iter().map(|(_, variant)| solved(variant, Method::Auto));
         let mut all = all.collect::<Option<Vec<_>>>()?;
-        let own = chosen.or(Some(inputs.method).filter(|own| *own != Method::Auto));
+        let own = chosen.or(Some(own).filter(|own| *own != Method::Auto));
         let methods = all.iter().flatten().map(|solution| solution.method);
         let method = common_method(methods.chain(own));
-        for (found, variant) in all.iter_mut().zip(&case.variants) {
+        for (found, (_, variant)) in all.iter_mut().zip(&variants) {
             let is_other = |own: &Solution| own.choice.is_some() && own.method != method;
             if found.as_ref().is_ok_and(is_other) {
                 *found = solved(variant, method)?;
             }
         }
-        let wanted = Wanted { stages, ..Wanted::NOTHING };
-        let request = CaseRequest { serial, inputs: Inputs { method, ..inputs }, wanted };
-        let mut again = None;
-        if chosen.is_some_and(|chosen| chosen != method) {
-            let keep = &mut |answer: &Answer| again = Some(answer.clone());
-            solver::solve(&mut Evaluator::default(), &request, keep, &go_on)?;
-        }
-        let names = case.variants.iter().map(|variant| variant.name.clone());
+        let again = match answer.filter(|_| chosen.is_some_and(|chosen| chosen != method)) {
+            Some(answer) => {
+                let own = solved(&case, method)?.ok();
+                own.map(|own| Answer { active: method, methods: vec![(method, Ok(own))], ..answer })
+            }
+            None => None,
+        };
+        let names = variants.iter().map(|(name, _)| (*name).clone());
         Some(Variants { serial, case: again, columns: names.zip(all).collect() })
     };
     app.start(Work::new(Slot::Variants, solve, move |app, found| {
