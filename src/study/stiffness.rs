@@ -6,9 +6,10 @@ use crate::model::field::{Field, body_twist};
 use crate::model::geometry::{Circles, Geometry, geometry, mesh_force};
 use crate::model::inputs::{Gear, ToothCompliance};
 use crate::model::masses::Masses;
+use crate::model::pair_forces::{Pair, PairSet};
 use crate::model::profile::Profile;
 use crate::model::{Inputs, Refusal};
-use nalgebra::{DMatrix, DVector};
+use std::array::from_fn;
 
 /// The name of the finite elements among the models; a model of the list with this name has no column
 /// of its own.
@@ -261,12 +262,12 @@ fn compare_along_path(
     points: usize,
 ) -> PathComparison {
     let models = ToothCompliance::ALL.to_vec();
-    let meshes: Vec<_> = models
+    let teeth: Vec<_> = models
         .iter()
         .map(|&tooth| {
             let inputs = Inputs { tooth_compliance: Some(tooth), ..inputs.clone() };
             let covers = (tooth.model().covers)(&inputs);
-            covers.then(|| Mesh::of(&inputs.elasticity(), geometry, mesh_force).ok()).flatten()
+            covers.then(|| Teeth::of(&inputs.elasticity(), geometry).ok()).flatten()
         })
         .collect();
     let length = geometry.end - geometry.start;
@@ -276,8 +277,8 @@ fn compare_along_path(
         let way = if step == last { length } else { length * step as f64 / last as f64 };
         PathPoint {
             way,
-            pair: meshes.iter().map(|mesh| mesh.as_ref()?.pair(way)).collect(),
-            mesh: meshes.iter().map(|mesh| mesh.as_ref()?.whole(way)).collect(),
+            pair: teeth.iter().map(|teeth| pair(teeth.as_ref()?, way, mesh_force)).collect(),
+            mesh: teeth.iter().map(|teeth| whole(teeth.as_ref()?, way, mesh_force)).collect(),
         }
     };
     PathComparison {
@@ -299,70 +300,36 @@ impl PathComparison {
     }
 }
 
-/// The pairs of a mesh by one model.
-struct Mesh<'a> {
-    teeth: Teeth,
-    gears: [Tooth; 2],
-    geometry: &'a Geometry,
-    force: f64,
+/// Stiffness of a pair alone per unit width, with the contact under a force.
+fn pair(teeth: &Teeth, way: f64, force: f64) -> Option<f64> {
+    Some(1.0 / teeth.pair_at_load(&place(teeth, way), force).ok()?)
 }
 
-impl<'a> Mesh<'a> {
-    fn of(
-        elasticity: &Elasticity,
-        geometry: &'a Geometry,
-        force: f64,
-    ) -> Result<Mesh<'a>, Refusal> {
-        let Elasticity { tooth, driver, driven, .. } = elasticity;
-        let gears = [
-            Tooth::of(*tooth, driver, &geometry.driver)?,
-            Tooth::of(*tooth, driven, &geometry.driven)?,
-        ];
-        Ok(Mesh { teeth: Teeth::of(elasticity, geometry)?, gears, geometry, force })
-    }
+fn place(teeth: &Teeth, way: f64) -> ContactPlace {
+    let geometry = teeth.geometry();
+    ContactPlace::on_line_of_action(geometry, geometry.start + way)
+}
 
-    fn place(&self, way: f64) -> ContactPlace {
-        let place = ContactPlace::on_line_of_action(self.geometry, self.geometry.start + way);
-        self.teeth.under(&place, self.force)
-    }
-
-    fn pair(&self, way: f64) -> Option<f64> {
-        let compliance = self.teeth.pair_at_load(&self.place(way), self.force);
-        Some(1.0 / compliance.ok()?)
-    }
-
-    /// 1ᵀ Q⁻¹ 1, where Q is the compliance matrix of all pairs on the line of action.
-    fn whole(&self, way: f64) -> Option<f64> {
-        let (pitch, length) = (self.geometry.base_pitch, self.geometry.end - self.geometry.start);
-        let first = (-way / pitch).ceil() as i32;
-        let last = ((length - way) / pitch).floor() as i32;
-        let place = |ahead: i32| (ahead, self.place(way + f64::from(ahead) * pitch));
-        let pairs: Vec<(i32, ContactPlace)> = (first..=last).map(place).collect();
-        let mut matrix = DMatrix::zeros(pairs.len(), pairs.len());
-        for (row, measured) in pairs.iter().enumerate() {
-            for (column, loaded) in pairs.iter().enumerate() {
-                matrix[(row, column)] = self.compliance(loaded, measured)?;
-            }
-        }
-        let ones = DVector::from_element(pairs.len(), 1.0);
-        Some(matrix.lu().solve(&ones)?.sum())
-    }
-
-    /// The force deflects the teeth of the driver towards later pairs and those of the driven gear
-    /// towards earlier pairs.
-    fn compliance(
-        &self,
-        (of, loaded): &(i32, ContactPlace),
-        (at, measured): &(i32, ContactPlace),
-    ) -> Option<f64> {
-        if of == at {
-            return self.teeth.pair_at_load(loaded, self.force).ok();
-        }
-        let [driver, driven] = &self.gears;
-        let on_driver = driver.neighbour(loaded.radius_driver, measured.radius_driver, of - at);
-        let on_driven = driven.neighbour(loaded.radius_driven, measured.radius_driven, at - of);
-        Some(on_driver.ok()? + on_driven.ok()?)
-    }
+/// Stiffness of all pairs on the line of action per unit width.
+fn whole(teeth: &Teeth, way: f64, force: f64) -> Option<f64> {
+    let Geometry { base_pitch, start, end, .. } = *teeth.geometry();
+    let first = (-way / base_pitch).ceil() as i32;
+    let last = ((end - start - way) / base_pitch).floor() as i32;
+    let way = |ahead: i32| way + f64::from(ahead) * base_pitch;
+    let pair = |ahead| {
+        let stiffness = pair(teeth, way(ahead), force)?;
+        Some(Pair { ahead, stiffness, gap: 0.0, weight: 1.0 })
+    };
+    let pairs = (first..=last).map(pair).collect::<Option<Vec<_>>>()?;
+    let loaded = |ahead| teeth.under(&place(teeth, way(ahead)), force);
+    let places: Vec<_> = (first..=last).map(loaded).collect();
+    let coupling = |front: usize, apart: usize| {
+        let rear = places.get(front.checked_sub(apart)?)?;
+        teeth.coupling(rear, &places[front], apart as i32).ok()
+    };
+    let behind = |front| from_fn(|at| coupling(front, at + 1).unwrap_or(0.0));
+    let set = PairSet::new(pairs, (0..places.len()).map(behind));
+    Some(set.forces(1.0).iter().sum())
 }
 
 #[cfg(test)]
@@ -432,8 +399,8 @@ mod tests {
             gear.points.iter().min_by_key(nearest).unwrap().field.unwrap().surface
         });
         let (geometry, force) = loaded(&inputs).unwrap();
-        let mesh = Mesh::of(&inputs.elasticity(), &geometry, force).unwrap();
-        let pair = 1.0 / mesh.pair(geometry.approach_length).unwrap();
+        let teeth = Teeth::of(&inputs.elasticity(), &geometry).unwrap();
+        let pair = 1.0 / pair(&teeth, geometry.approach_length, force).unwrap();
         let sum = at_pitch[0] + at_pitch[1];
         assert!((sum / pair - 1.0).abs() < 5e-3, "{sum} {pair}");
     }
@@ -476,9 +443,7 @@ mod tests {
     fn compare_at(inputs: &Inputs, geometry: &Geometry, way: f64) -> Vec<Option<f64>> {
         let by = |tooth: ToothCompliance| {
             let inputs = Inputs { tooth_compliance: Some(tooth), ..inputs.clone() };
-            let elasticity = inputs.elasticity();
-            let mesh = Mesh::of(&elasticity, geometry, 2e3).ok()?;
-            mesh.pair(way)
+            pair(&Teeth::of(&inputs.elasticity(), geometry).ok()?, way, 2e3)
         };
         ToothCompliance::ALL.into_iter().map(by).collect()
     }
