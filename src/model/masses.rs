@@ -8,7 +8,6 @@ use super::geometry::{Circles, Geometry};
 use super::inputs::{Gear, GearSide, InertiaModel, Inputs, Method};
 use super::position::TipContact;
 use super::profile::{Profile, Rack};
-use crate::numeric::root::last_where;
 use crate::numeric::{Real, quadrature};
 
 /// Masses of the two gears at their base circles J/r_b², in kg.
@@ -175,37 +174,25 @@ pub fn polar_moment(profile: &Profile, teeth: u32, bore_radius: f64) -> Option<f
 /// rb⁴ [θ (1 + φ²)²/4 + φ³/12 + φ⁵/20]
 /// ```
 fn flank_moment(profile: &Profile) -> Option<f64> {
-    let base = profile.circles().base;
-    let half_angle = |roll: f64| profile.base_half_angle() - roll + roll.atan();
-    let (start, tip) = (profile.junction.roll, profile.circles().tip_curvature / base);
-    if half_angle(start) <= 0.0 {
+    let start = profile.junction.roll;
+    if profile.half_angle(start) <= 0.0 {
         return None;
     }
-    if tip <= start {
+    if profile.tip_roll() <= start {
         return Some(0.0);
     }
-    let end = if half_angle(tip) < 0.0 {
-        last_where(start, tip, |roll| half_angle(roll) > 0.0)
-    } else {
-        tip
-    };
     let primitive = |roll: f64| {
         let square = roll * roll;
-        half_angle(roll) * (1.0 + square) * (1.0 + square) / 4.0
+        profile.half_angle(roll) * (1.0 + square) * (1.0 + square) / 4.0
             + square * roll * (1.0 / 12.0 + square / 20.0)
     };
-    Some(base.powi(4) * (primitive(end) - primitive(start)))
+    Some(profile.circles().base.powi(4) * (primitive(profile.flank_end()) - primitive(start)))
 }
 
 /// ∫ θ r³ dr over the fillet, at most to the tip circle. `None` if both sides of the fillet meet.
 fn fillet_moment(profile: &Profile) -> Option<f64> {
-    let tip = profile.circles().tip;
-    let end = -last_where(-FRAC_PI_2, -profile.junction.normal, |normal| {
-        let section = profile.fillet_at(-normal);
-        section.along.hypot(section.half_thickness) <= tip
-    });
     let is_whole = std::cell::Cell::new(true);
-    let moment = quadrature::adaptive(FRAC_PI_2, end, TOLERANCE, |normal| {
+    let moment = quadrature::adaptive(FRAC_PI_2, profile.fillet_end(), TOLERANCE, |normal| {
         let section = profile.fillet_at(normal);
         if section.half_thickness <= 0.0 {
             is_whole.set(false);

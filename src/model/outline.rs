@@ -60,7 +60,7 @@ impl Outline {
     /// reduced to the largest possible rounding.
     pub fn of(inputs: &Inputs, gear: &Gear, circles: &Circles) -> Outline {
         let profile = Profile::of(&Rack::of(inputs, gear), circles);
-        let (fillet_end, flank_end) = (fillet_end(&profile), flank_end(&profile));
+        let (fillet_end, flank_end) = (profile.fillet_end(), profile.flank_end());
         let edge = gear.tip_radius.and_then(|radius| widest_edge(&profile, flank_end, radius));
         let sharp = if flank_end > profile.junction.roll {
             profile.involute_at(flank_end)
@@ -68,7 +68,7 @@ impl Outline {
             profile.fillet_at(fillet_end)
         };
         let corner = edge.map_or(sharp.point(), |edge| edge.centre);
-        let pointed = edge.is_none() && flank_end < tip_roll(&profile);
+        let pointed = edge.is_none() && flank_end < profile.tip_roll();
         let bevel = (edge.is_none() && !pointed && gear.tip_chamfer > 0.0)
             .then(|| bevel(corner, circles.tip + gear.tip_chamfer));
         let end = bevel.map_or(corner, |bevel| bevel.to);
@@ -144,27 +144,6 @@ impl Outline {
         let lower = half.iter().map(|point| Point2::new(point.x, -point.y));
         lower.chain(half.iter().rev().copied()).collect()
     }
-}
-
-/// Roll angle of the involute on the tip circle, in rad.
-fn tip_roll(profile: &Profile) -> f64 {
-    profile.circles().tip_curvature / profile.circles().base
-}
-
-/// Roll angle at which the involute ends, in rad: on the tip circle, or before at the intersection
-/// of the flanks.
-fn flank_end(profile: &Profile) -> f64 {
-    let (start, tip) = (profile.junction.roll, tip_roll(profile));
-    last_where(start.min(tip), tip, |roll| profile.involute_at(roll).half_thickness >= 0.0)
-}
-
-/// Angle of the rack's normal at which the fillet ends, in rad: at the junction, or before on the
-/// tip circle.
-fn fillet_end(profile: &Profile) -> f64 {
-    let tip = profile.circles().tip;
-    -last_where(-FRAC_PI_2, -profile.junction.normal, |normal| {
-        profile.fillet_at(-normal).point().coords.norm() <= tip
-    })
 }
 
 /// The unit vector at an angle to the centre line.

@@ -6,6 +6,7 @@ use nalgebra::Point2;
 
 use super::geometry::Circles;
 use super::inputs::{Gear, Inputs};
+use crate::numeric::root::last_where;
 
 /// A tooth's profile in a frame whose x axis is the tooth's centre line, from the gear's centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -124,10 +125,35 @@ impl Profile {
         self.circles.base.hypot(self.circles.base * self.junction.roll)
     }
 
+    /// Half of the tooth's angle at the involute's roll angle, in rad; negative beyond the
+    /// intersection of the flanks.
+    pub(super) fn half_angle(&self, roll: f64) -> f64 {
+        self.base_half_angle - roll + roll.atan()
+    }
+
+    /// Roll angle of the involute on the tip circle, in rad.
+    pub(super) fn tip_roll(&self) -> f64 {
+        self.circles.tip_curvature / self.circles.base
+    }
+
     /// Thickness of the tooth at its tip circle, in m; negative if the flanks meet below.
     pub fn tip_thickness(&self) -> f64 {
-        let roll = self.circles.tip_curvature / self.circles.base;
-        2.0 * self.circles.tip * (self.base_half_angle - roll + roll.atan())
+        2.0 * self.circles.tip * self.half_angle(self.tip_roll())
+    }
+
+    /// Roll angle at which the involute ends, in rad: on the tip circle, or before at the
+    /// intersection of the flanks.
+    pub(super) fn flank_end(&self) -> f64 {
+        let tip = self.tip_roll();
+        last_where(self.junction.roll.min(tip), tip, |roll| self.half_angle(roll) >= 0.0)
+    }
+
+    /// Angle of the rack's normal at which the fillet ends, in rad: at the junction, or before on
+    /// the tip circle.
+    pub(super) fn fillet_end(&self) -> f64 {
+        -last_where(-FRAC_PI_2, -self.junction.normal, |normal| {
+            self.fillet_at(-normal).radius() <= self.circles.tip
+        })
     }
 
     /// The involute at a roll angle: the point at the end of the tangent unwound from the base
@@ -191,11 +217,7 @@ impl Profile {
         }
         let normal = self.crossing(alpha);
         let section = self.fillet_at(normal);
-        Junction {
-            normal,
-            roll: self.roll_at(section.along.hypot(section.half_thickness)),
-            undercut: true,
-        }
+        Junction { normal, roll: self.roll_at(section.radius()), undercut: true }
     }
 
     /// The angle of the rack's normal where the fillet of an undercut tooth crosses the involute,
@@ -222,11 +244,9 @@ impl Profile {
     /// Whether the fillet is above the base circle and outside of the involute.
     fn outside_involute(&self, normal: f64) -> bool {
         let section = self.fillet_at(normal);
-        let radius = section.along.hypot(section.half_thickness);
-        let roll = self.roll_at(radius);
+        let radius = section.radius();
         radius > self.circles.base
-            && section.half_thickness.atan2(section.along)
-                > self.base_half_angle - roll + roll.atan()
+            && section.half_thickness.atan2(section.along) > self.half_angle(self.roll_at(radius))
     }
 }
 
@@ -305,6 +325,10 @@ pub struct Section {
 }
 
 impl Section {
+    fn radius(&self) -> f64 {
+        self.along.hypot(self.half_thickness)
+    }
+
     /// The end of the section on the flank, y above 0.
     pub fn point(&self) -> Point2<f64> {
         Point2::new(self.along, self.half_thickness)
