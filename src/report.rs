@@ -29,7 +29,7 @@ use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Solution, Stage, St
 use crate::numeric::decimal::significant;
 use serde::{Serialize, Serializer};
 #[cfg(all(unix, feature = "tui"))]
-pub(crate) use table::with_units;
+pub(crate) use table::{flow_by, with_units};
 
 /// A value as text with its unit.
 #[derive(Debug, Clone, PartialEq, Eq)]

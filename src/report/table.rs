@@ -568,12 +568,23 @@ pub(super) const WIDTH: usize = 80;
 
 /// Wraps words into lines of at most `width` characters; a longer word is cut.
 pub(super) fn flow<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -> Vec<String> {
+    flow_by(|_| 1, words.into_iter().filter(|word| !word.is_empty()), width)
+}
+
+/// Wraps words into lines of at most `width`, the sum of the sizes of their characters; a longer
+/// word is cut.
+pub(crate) fn flow_by<'a>(
+    size: fn(char) -> usize,
+    words: impl Iterator<Item = &'a str>,
+    width: usize,
+) -> Vec<String> {
+    let count = |text: &str| text.chars().map(size).sum::<usize>();
     let mut lines: Vec<String> = Vec::new();
-    for piece in words.into_iter().flat_map(|word| pieces(word, width)) {
+    for piece in words.flat_map(|word| pieces(size, word, width)) {
+        let space = if lines.last().is_none_or(String::is_empty) { "" } else { " " };
         match lines.last_mut() {
-            Some(line) if count(line) + 1 + count(piece) <= width => {
-                line.push(' ');
-                line.push_str(piece);
+            Some(line) if count(line) + space.len() + count(piece) <= width => {
+                line.extend([space, piece]);
             }
             _ => lines.push(piece.to_owned()),
         }
@@ -648,13 +659,18 @@ pub(super) fn count(text: &str) -> usize {
     text.chars().count()
 }
 
-fn pieces(word: &str, width: usize) -> impl Iterator<Item = &str> {
-    let mut rest = word;
+fn pieces(size: fn(char) -> usize, word: &str, width: usize) -> impl Iterator<Item = &str> {
+    let mut rest = Some(word);
     std::iter::from_fn(move || {
-        let cut = rest.char_indices().nth(width.max(1)).map_or(rest.len(), |(at, _)| at);
-        let (piece, after) = rest.split_at(cut);
-        rest = after;
-        (!piece.is_empty()).then_some(piece)
+        let (text, mut used) = (rest?, 0);
+        // A character wider than the line has a line of its own.
+        let end = text.char_indices().find(|&(at, letter)| {
+            used += size(letter);
+            used > width && at > 0
+        });
+        let (piece, after) = text.split_at(end.map_or(text.len(), |(at, _)| at));
+        rest = Some(after).filter(|after| !after.is_empty());
+        Some(piece)
     })
 }
 

@@ -16,7 +16,7 @@ use tui_input::{Input, InputRequest, StateChanged};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use crate::case::sanitize::{is_hidden, spelled};
-use crate::report::with_units;
+use crate::report::{flow_by, with_units};
 use crate::tui::settings::Theme;
 
 /// The width of a text in columns.
@@ -58,12 +58,8 @@ pub(super) fn padded(text: &str, width: usize) -> String {
 /// before it.
 pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     let width = width.max(1);
-    let text = printable(text);
-    let mut lines = vec![String::new()];
-    for word in with_units(&text, width) {
-        append(&mut lines, &word, width);
-    }
-    lines
+    let words = with_units(&printable(text), width);
+    flow_by(width_of, words.iter().map(String::as_str), width)
 }
 
 /// The text in at most `rows` lines; the last line of a longer text is cut.
@@ -143,29 +139,6 @@ pub(super) fn ending(
     let after = Rect { x: area.x.saturating_add(typed as u16), ..area }.intersection(area);
     let style = theme.faint.remove_modifier(Modifier::BOLD | Modifier::UNDERLINED);
     Span::styled(ending.unwrap_or_default(), style).render(after, buffer);
-}
-
-fn append(lines: &mut Vec<String>, word: &str, width: usize) {
-    let (Some(line), of_word) = (lines.last_mut(), self::width(word)) else { return };
-    let space = usize::from(!line.is_empty());
-    if self::width(line) + space + of_word <= width {
-        line.extend((space == 1).then_some(' '));
-        line.push_str(word);
-        return;
-    }
-    let mut rest = word;
-    if of_word <= width {
-        lines.push(std::mem::take(&mut rest).to_owned());
-    }
-    while !rest.is_empty() {
-        let piece = take(rest, width);
-        // A character wider than the line has a line of its own, so that the loop ends.
-        let first = rest.chars().next().map_or(0, char::len_utf8);
-        let piece = if piece.is_empty() { &rest[..first] } else { piece };
-        lines.push(piece.to_owned());
-        rest = &rest[piece.len()..];
-    }
-    lines.retain(|line| !line.is_empty());
 }
 
 fn take(text: &str, width: usize) -> &str {
