@@ -2,25 +2,8 @@
 //! of a Greek letter.
 
 use crate::case::fields::{Field, GROUPS};
+use crate::case::sanitize::spelled;
 use crate::model::Quantity;
-
-/// Greek letters and their names.
-const GREEK: [(char, &str); 14] = [
-    ('α', "alpha"),
-    ('β', "beta"),
-    ('γ', "gamma"),
-    ('δ', "delta"),
-    ('ε', "epsilon"),
-    ('ζ', "zeta"),
-    ('η', "eta"),
-    ('θ', "theta"),
-    ('μ', "mu"),
-    ('ν', "nu"),
-    ('ρ', "rho"),
-    ('σ', "sigma"),
-    ('τ', "tau"),
-    ('ω', "omega"),
-];
 
 /// Least similarity of a mistyped word.
 const LIKE: f64 = 0.75;
@@ -134,17 +117,13 @@ fn words(text: &str) -> Vec<String> {
 
 /// Lower-case letters and digits of the keyboard: `α_w` is alphaw, `f_pb` is fpb, `ha*1` is ha1.
 fn plain(text: &str) -> String {
-    let mut plain = String::with_capacity(text.len());
-    for letter in
-        text.chars().flat_map(char::to_lowercase).filter(|letter| letter.is_alphanumeric())
-    {
-        let letter = if letter == 'µ' { 'μ' } else { letter };
-        match GREEK.iter().find(|(greek, _)| *greek == letter) {
-            Some((_, name)) => plain.push_str(name),
-            None => plain.push(letter),
-        }
+    let letters = text.chars().flat_map(char::to_lowercase);
+    let plain: String = letters.filter(|letter| letter.is_alphanumeric()).collect();
+    if plain.is_ascii() {
+        return plain;
     }
-    plain
+    // The search knows full names; symbols in ASCII use short ones.
+    spelled(&plain.replace('ε', "epsilon").replace('σ', "sigma")).replace('^', "")
 }
 
 #[cfg(test)]
