@@ -59,13 +59,14 @@ pub enum Saved {
 }
 
 impl Document {
-    /// Reads a complete case from its text. Each fault begins with `name`.
+    /// Reads a complete case from its text, or from bytes that may not be text. Each fault begins
+    /// with `name`.
     ///
     /// # Errors
-    /// All faults of the text and all missing required values, sorted by place. A syntax error is
-    /// reported alone.
-    pub fn parse(name: &str, text: &str) -> Result<Document, Vec<Fault>> {
-        Document::parse_draft(name, text)?.complete()
+    /// All faults of the text and all missing required values, sorted by place. A syntax error, and
+    /// the first byte that is not UTF-8, is reported alone.
+    pub fn parse(name: &str, text: impl AsRef<[u8]>) -> Result<Document, Vec<Fault>> {
+        Document::of(name, text.as_ref(), false)?.complete()
     }
 
     /// Reads a case that can lack required values. [`Case::inputs`] names the missing values.
@@ -74,14 +75,6 @@ impl Document {
     /// All faults of the text, sorted by place.
     pub fn parse_draft(name: &str, text: &str) -> Result<Document, Vec<Fault>> {
         Document::of(name, text.as_bytes(), false)
-    }
-
-    /// Reads a complete case from bytes that may not be text.
-    ///
-    /// # Errors
-    /// As [`Document::parse`], and at the first byte that is not UTF-8.
-    pub fn parse_bytes(name: &str, bytes: &[u8]) -> Result<Document, Vec<Fault>> {
-        Document::of(name, bytes, false)?.complete()
     }
 
     /// A draft, or the known part of a text of a newer format.

@@ -344,7 +344,7 @@ fn bytes_that_are_no_text_are_placed() {
     let mut bytes = GOOD.as_bytes().to_vec();
     let at = GOOD.find("5 mm\"").unwrap_or(0) + "5 ".len();
     bytes[at] = 0xff;
-    let found = Document::parse_bytes("bad.toml", &bytes).map(|_| ()).unwrap_err();
+    let found = Document::parse("bad.toml", &bytes).map(|_| ()).unwrap_err();
     let message = "bad.toml:11:13: toml: byte 0xff is not UTF-8 text: save the file as UTF-8";
     assert_eq!(found[0].to_string(), message);
 }

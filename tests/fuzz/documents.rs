@@ -221,7 +221,7 @@ fn assert_bytes(bytes: &[u8]) {
     if let Ok(text) = std::str::from_utf8(bytes) {
         read_and_solve(text);
     } else {
-        let faults = Document::parse_bytes("bytes", bytes).expect_err("no text");
+        let faults = Document::parse("bytes", bytes).expect_err("no text");
         assert_placed(&faults, &String::from_utf8_lossy(bytes));
     }
 }
