@@ -74,11 +74,11 @@ pub fn clearing(
     let at_rest = solution.static_load.as_ref();
     let at_exit = match at_rest.and_then(|load| load.last_contact_angle) {
         None => None,
-        Some(_) => match exit.least(&inputs.mesh(), None, inputs.face(), solution, go_on) {
-            Err(Refusal::Stopped) => return Err(Refusal::Stopped),
-            Ok(relief) if relief > 0.0 => Some((of_driver, enough(relief, of_driver))),
-            _ => None,
-        },
+        Some(_) => {
+            let found = exit.least(&inputs.mesh(), None, inputs.face(), solution, go_on);
+            let relief = Refusal::unless_stopped(found)?.ok().filter(|relief| *relief > 0.0);
+            relief.map(|relief| (of_driver, enough(relief, of_driver)))
+        }
     };
     let found = match (solution.outcome, inputs.method) {
         (Outcome::NoCornerContact, _) => Ok(None),
@@ -90,9 +90,8 @@ pub fn clearing(
             entry.least(&inputs.mesh(), motion.as_ref(), inputs.face(), solution, go_on).map(Some)
         }
     };
-    let (relief, withheld) = match found {
+    let (relief, withheld) = match Refusal::unless_stopped(found)? {
         Ok(relief) => (relief.map(|relief| enough(relief, given)), None),
-        Err(Refusal::Stopped) => return Err(Refusal::Stopped),
         Err(refusal) => (None, Some(refusal)),
     };
     let runs = entry.runs() + exit.runs();

@@ -330,6 +330,17 @@ impl Refusal {
         self
     }
 
+    /// A stop as an error, any other refusal as a result.
+    ///
+    /// # Errors
+    /// [`Refusal::Stopped`].
+    pub fn unless_stopped<T>(found: Result<T, Refusal>) -> Result<Result<T, Refusal>, Refusal> {
+        match found {
+            Err(Refusal::Stopped) => Err(Refusal::Stopped),
+            found => Ok(found),
+        }
+    }
+
     /// A short name for scripts.
     pub fn code(&self) -> &'static str {
         self.row().code

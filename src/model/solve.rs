@@ -503,10 +503,7 @@ impl Auto<'_> {
         let wanted = missing.iter().map(Stages::of).fold(Stages::NONE, Stages::and);
         // A trial motion, or the motion of an earlier solve.
         let known = solution.beside.as_ref().and_then(|known| known.as_deref().ok());
-        let beside = match self.solve(method, wanted, known) {
-            Err(Refusal::Stopped) => return Err(Refusal::Stopped),
-            found => found.map(Box::new),
-        };
+        let beside = Refusal::unless_stopped(self.solve(method, wanted, known))?.map(Box::new);
         let ran = beside.as_ref().map_or(Stages::NONE, |beside| beside.ran);
         Ok(Solution { ran: solution.ran.and(ran), beside: Some(beside), ..solution })
     }

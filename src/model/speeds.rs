@@ -192,14 +192,10 @@ impl Runs<'_> {
             None => steady(&mesh, settings, last_start, &meter, &|_| true),
         };
         self.work.spend(meter.spent());
-        let steady = match found {
-            Ok(steady) => steady,
-            Err(Refusal::Stopped) => return Err(Refusal::Stopped),
+        let Ok(steady) = Refusal::unless_stopped(found)? else {
             // The next speed starts at rest.
-            Err(_) => {
-                *last = None;
-                return Ok(None);
-            }
+            *last = None;
+            return Ok(None);
         };
         *last = Some(steady.start);
         Ok(Some(AtSpeed {

@@ -107,10 +107,9 @@ pub fn digest(
     let is_slow = matches!(inputs.method, Method::Dynamic | Method::Auto);
     let relief = if is_slow { Stages::NONE } else { Stages::of(Stage::Clearing) };
     let stages = verdict::stages(case).and(STAGES).and(relief);
-    match Evaluator::default().solve(inputs, inputs.method, stages, go_on) {
-        Err(Refusal::Stopped) => None,
-        found => Some(Digest::of(case, inputs, found.as_ref(), system)),
-    }
+    let found = Evaluator::default().solve(inputs, inputs.method, stages, go_on);
+    let found = Refusal::unless_stopped(found).ok()?;
+    Some(Digest::of(case, inputs, found.as_ref(), system))
 }
 
 /// Samples of a closed form, as in the command `tolerance`.
@@ -286,10 +285,7 @@ impl Unsolved<'_> {
             return Ok(page);
         }
         // A pair without steady motion has no chart over speed.
-        let speeds = match self.speeds(go_on) {
-            Err(Refusal::Stopped) => return Err(Refusal::Stopped),
-            found => found.ok(),
-        };
+        let speeds = Refusal::unless_stopped(self.speeds(go_on))?.ok();
         let path = Some(compare_path(self.inputs, PATH_POINTS));
         Ok(Subject { path, speeds, ..page.with_other_method() })
     }

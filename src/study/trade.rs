@@ -113,7 +113,7 @@ pub fn trade(
     let own = own.filter(|_| !is_over_face);
     let finest = distinct(finest.into_iter().chain(own));
     let answer = |setting: Setting| {
-        let solution = stopped(solve(&setting.inputs(inputs), go_on))?;
+        let solution = Refusal::unless_stopped(solve(&setting.inputs(inputs), go_on))?;
         Ok((setting, solution.map(|solution| Answer::of(&solution))))
     };
     let finest = finest.into_iter().map(answer).collect::<Result<Vec<_>, Refusal>>()?;
@@ -146,7 +146,7 @@ pub fn trade(
     show(&trade);
     for setting in settings {
         let of_setting = setting.inputs(inputs);
-        let found = stopped(timed(patience, || solve(&of_setting, go_on)))?;
+        let found = Refusal::unless_stopped(timed(patience, || solve(&of_setting, go_on)))?;
         let found = found.map(|(solution, time)| {
             let answer = Answer::of(&solution);
             let by_taken = Inputs { method: answer.method, ..of_setting };
@@ -173,14 +173,6 @@ pub fn trade(
 /// The index of the reference among the finest settings.
 fn reference(is_over_face: bool) -> usize {
     if is_over_face { 0 } else { METHODS.len() - 1 }
-}
-
-/// Passes on a stop as an error, and any other refusal as a result.
-fn stopped<T>(found: Result<T, Refusal>) -> Result<Result<T, Refusal>, Refusal> {
-    match found {
-        Err(Refusal::Stopped) => Err(Refusal::Stopped),
-        other => Ok(other),
-    }
 }
 
 /// Solves once, then repeats the solve for a time. The first run fills the caches: it counts only

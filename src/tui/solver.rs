@@ -197,7 +197,9 @@ pub(super) fn solve(
         };
         // A slow method is solved without its late stages.
         let stages = wanted.stages.except(Stages::LATE);
-        let found = unless_stopped(evaluator.solve(&request.inputs, method, stages, &go_on))?;
+        let found =
+            Refusal::unless_stopped(evaluator.solve(&request.inputs, method, stages, &go_on))
+                .ok()?;
         // If the program chose the method, the chosen method is active.
         let active = found.as_ref().map_or(method, |solution| solution.method);
         // The edit did not change the late stages that are present.
@@ -212,7 +214,7 @@ pub(super) fn solve(
             // of the motion.
             let stages = wanted.stages.without(Stage::StaticSpectrum);
             let rest = evaluator.solve(&request.inputs, Method::Static, stages, &|_| go_on(1.0));
-            answer.methods.push((Method::Static, unless_stopped(rest)?));
+            answer.methods.push((Method::Static, Refusal::unless_stopped(rest).ok()?));
         }
         answer.methods.push((active, found));
         answer.cost = Cost { stages: stages_run(&answer.methods), micros: micros(begun) };
@@ -235,7 +237,7 @@ pub(super) fn solve(
         }
         show(&answer);
         let (inputs, method) = (&request.inputs, request.inputs.method);
-        let found = unless_stopped(evaluator.solve(inputs, method, stages, go_on))?;
+        let found = Refusal::unless_stopped(evaluator.solve(inputs, method, stages, go_on)).ok()?;
         answer.cost.stages += found.as_ref().map_or(0, |solution| solution.ran.iter().count());
         answer.cost.micros = micros(begun);
         answer.methods.retain(|(known, _)| *known != answer.active);
@@ -245,12 +247,6 @@ pub(super) fn solve(
     answer.stages = wanted.stages;
     show(&answer);
     Some(())
-}
-
-type Solved = Result<Solution, Refusal>;
-
-fn unless_stopped(found: Solved) -> Option<Solved> {
-    if matches!(found, Err(Refusal::Stopped)) { None } else { Some(found) }
 }
 
 /// The answer of the closed forms.

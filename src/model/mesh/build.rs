@@ -414,9 +414,8 @@ pub(crate) fn late<T>(
     found: Result<T, Refusal>,
 ) -> Result<Result<T, Refusal>, Refusal> {
     match found {
-        Err(Refusal::Stopped) => Err(Refusal::Stopped),
         Err(Refusal::BeyondReach) if !mesh.is_whole => Err(Refusal::BeyondReach),
-        found => Ok(found),
+        found => Refusal::unless_stopped(found),
     }
 }
 
