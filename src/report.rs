@@ -220,7 +220,7 @@ pub fn value_as_in(quantity: &Quantity, solution: &Solution, other: Method) -> O
 
 /// Formats a value in SI in another unit, with `digits` significant digits.
 pub fn number(value: f64, unit: &str, digits: usize) -> String {
-    significant(value / units::factor(unit).unwrap_or(1.0), digits)
+    significant(units::per(value, unit), digits)
 }
 
 fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {

@@ -755,8 +755,8 @@ pub fn unit_for(value: f64, metric: &'static str, digits: usize, system: System)
     unit
 }
 
-/// A value in SI divided by a unit.
-fn per(value: f64, unit: &str) -> f64 {
+/// A value in SI as a number of a unit, with the rounding error of the division.
+pub fn per(value: f64, unit: &str) -> f64 {
     value / factor(unit).unwrap_or(1.0)
 }
 

@@ -642,7 +642,7 @@ impl<'a> Pattern<'a> {
     /// lines at an angle of the middle of the face, in rad.
     pub fn chart(&self, angle: f64, window: Span, system: System) -> Chart {
         let unit = system.unit("mm");
-        let height = |z: f64| z / units::factor(unit).unwrap_or(1.0);
+        let height = |z: f64| units::per(z, unit);
         let step = window.length() / COLUMNS as f64;
         let across: Vec<f64> = (0..=COLUMNS).map(|at| window.from + at as f64 * step).collect();
         let loads = self

@@ -249,14 +249,14 @@ fn required(more: f64, given: f64, gear: &str, system: System) -> String {
 fn rounded_up(least: f64, given: f64, system: System) -> [String; 2] {
     /// Rounding error of the factor of the unit and of the sum, relative to a digit.
     const ROUNDING: f64 = 1e-9;
-    let factor = units::factor(system.unit(RELIEF_UNIT)).unwrap_or(1.0);
+    let [least, given] = [least, given].map(|relief| units::per(relief, system.unit(RELIEF_UNIT)));
     // Decimal places of um and of thou.
     let last = if system == System::Inch { 4 } else { 3 };
-    let before_point = (least / factor).log10().floor() as i32 + 1;
+    let before_point = least.log10().floor() as i32 + 1;
     let places = (RELIEF_DIGITS - before_point).clamp(0, last);
     let (digits, scale) = (places as usize, 10f64.powi(places));
-    let more = (least / factor * scale * (1.0 + ROUNDING)).ceil();
-    let all = (more + given / factor * scale - ROUNDING).ceil();
+    let more = (least * scale * (1.0 + ROUNDING)).ceil();
+    let all = (more + given * scale - ROUNDING).ceil();
     [more, all].map(|number| format!("{:.digits$}", number / scale))
 }
 

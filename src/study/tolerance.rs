@@ -494,7 +494,7 @@ impl Distribution {
         let is_outside = |end: &f64| *end < from - slack || *end > to + slack;
         let end = [self.centre - reach, self.centre + reach].into_iter().find(is_outside)?;
         let unit = FIELDS[self.field].usual_unit();
-        let rounded = significant(end / units::factor(unit).unwrap_or(1.0), 6);
+        let rounded = significant(units::per(end, unit), 6);
         let rounded = rounded.parse().map_or(rounded, shortest);
         Some(with_unit(&rounded, unit) + &by)
     }

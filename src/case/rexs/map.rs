@@ -729,7 +729,7 @@ impl Reading {
     /// The reading times a factor, with words after its source.
     fn derived(&self, factor: f64, unit: &str, after: &str) -> Reading {
         let value = self.value * factor;
-        let number = rounded(value / units::factor(unit).unwrap_or(1.0));
+        let number = rounded(units::per(value, unit));
         Reading {
             text: format!("{} {unit}", units::text(number, "")).trim_end().to_owned(),
             value,

@@ -546,7 +546,7 @@ impl<'a> Charts<'a> {
             _ => self.0.tab.chart_work.missing(of, is_running),
         };
         let up = chart.as_ref().map_or("", |chart| &chart.up.unit);
-        let height = self.0.chart.z / units::factor(up).unwrap_or(1.0);
+        let height = units::per(self.0.chart.z, up);
         let in_pattern = |cursor: f64| (self.ahead() - cursor.to_degrees(), Some(height));
         Shown {
             title: format!("{}{words}", if running { "computing: " } else { "" }),

@@ -112,10 +112,10 @@ impl Curve<'_> {
     /// The value in SI at the cursor, from the same evaluation as in the teeth pane, not from the
     /// drawn line, with its number of significant digits.
     fn reading(&self, graph: &Graph, cursor: f64) -> Option<(f64, usize)> {
-        let (column, factor) = (self.column, units::factor(self.unit).unwrap_or(1.0));
+        let column = self.column;
         let Some((inputs, solution)) = self.solved else {
             let value = value_at(&self.pieces, 0.0 - cursor.to_degrees())?;
-            return Some((value * factor, column.digits));
+            return Some((value * units::factor(self.unit).unwrap_or(1.0), column.digits));
         };
         let interpolated = Interpolated::at(inputs, solution, cursor)?;
         let station = &interpolated.station;
@@ -130,7 +130,7 @@ impl Curve<'_> {
             }
         };
         let most = self.pieces.iter().flatten().map(|(_, y)| y.abs()).fold(0.0, f64::max);
-        let is_zero = (value / factor).abs() < ROUNDING * most;
+        let is_zero = units::per(value, self.unit).abs() < ROUNDING * most;
         Some((if is_zero { 0.0 } else { value }, digits))
     }
 }
