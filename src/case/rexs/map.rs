@@ -297,6 +297,9 @@ struct Turning<'m> {
     torque: Option<f64>,
 }
 
+/// The kind of a load on a shaft.
+const LOAD: &str = "external_load";
+
 impl<'m> Pair<'m> {
     /// The pair of a stage.
     ///
@@ -506,7 +509,8 @@ impl<'m> Pair<'m> {
         let [sun, planet] = self.gears;
         let ring = self.ring(planet)?;
         let teeth = self.value(ring, TEETH).ok()??.value.abs();
-        let is_loaded = self.shafts(ring).iter().any(|shaft| self.loads_on(shaft).next().is_some());
+        let is_loaded =
+            self.shafts(ring).iter().any(|shaft| self.parts_on(shaft, LOAD).next().is_some());
         let (still, relative) = if is_loaded {
             ("the carrier", 1.0)
         } else {
@@ -557,8 +561,8 @@ impl<'m> Pair<'m> {
         while let Some(&Turning { gear, speed, torque }) = train.get(at) {
             at += 1;
             for shaft in self.shafts(gear) {
-                let gears: Vec<&Node> = self.gears_on(shaft).collect();
-                let passes = gears.len() == 2 && self.loads_on(shaft).next().is_none();
+                let gears: Vec<&Node> = self.parts_on(shaft, "gear").collect();
+                let passes = gears.len() == 2 && self.parts_on(shaft, LOAD).next().is_none();
                 for &other in gears.iter().filter(|other| other.id != gear.id) {
                     for mate in self.mates(other) {
                         let is_new = train.iter().all(|known| known.gear.id != mate.id);
@@ -602,11 +606,11 @@ impl<'m> Pair<'m> {
         for Turning { gear, speed, torque } in train {
             let Some(factor) = torque else { continue };
             for shaft in self.shafts(gear) {
-                if self.gears_on(shaft).count() != 1 {
+                if self.parts_on(shaft, "gear").count() != 1 {
                     continue;
                 }
                 let mut loads = Vec::new();
-                for part in self.loads_on(shaft) {
+                for part in self.parts_on(shaft, LOAD) {
                     if let Some(torque) = self.acting(part, TORQUE_OF_LOAD, factor)? {
                         loads.push((TORQUE, torque));
                     } else if let Some(power) = self.acting(part, POWER_OF_LOAD, speed * factor)? {
@@ -654,14 +658,10 @@ impl<'m> Pair<'m> {
         assemblies.filter(|assembly| &*assembly.kind == "shaft").collect()
     }
 
-    fn gears_on(&self, shaft: &Node) -> impl Iterator<Item = &'m Node> {
+    /// The gears or the loads on a shaft, by the end of the name of their kind.
+    fn parts_on(&self, shaft: &Node, kind: &'static str) -> impl Iterator<Item = &'m Node> {
         let parts = self.index.related("assembly", ("assembly", &shaft.id), "part");
-        parts.filter(|part| part.kind.ends_with("gear"))
-    }
-
-    fn loads_on(&self, shaft: &Node) -> impl Iterator<Item = &'m Node> {
-        let parts = self.index.related("assembly", ("assembly", &shaft.id), "part");
-        parts.filter(|part| &*part.kind == "external_load")
+        parts.filter(move |part| part.kind.ends_with(kind))
     }
 }
 
