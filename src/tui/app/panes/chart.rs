@@ -432,11 +432,8 @@ impl<'a> Charts<'a> {
     }
 
     fn count(self) -> usize {
-        if self.area().is_empty() {
-            0
-        } else {
-            usize::from((self.area().height / ROWS).clamp(1, MOST))
-        }
+        let height = self.area().height;
+        if height == 0 { 0 } else { usize::from((height / ROWS).clamp(1, MOST)) }
     }
 
     /// The factor from deg after E to the x axis, and its quantity: the driver's angle before E, after E
@@ -507,13 +504,8 @@ impl<'a> Charts<'a> {
         // The contact lines lean as the teeth do.
         let lean = match self.shown_pattern().map_or(0.0, |pattern| pattern.ahead(1.0)) {
             0.0 => '|',
-            ahead => {
-                if ahead > 0.0 {
-                    '/'
-                } else {
-                    '\\'
-                }
-            }
+            ahead if ahead > 0.0 => '/',
+            _ => '\\',
         };
         let look = |(at, series): (usize, &Series)| {
             let style = if at == 0 { theme.active } else { theme.other };
