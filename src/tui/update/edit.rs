@@ -345,12 +345,18 @@ pub(super) fn set_spread(app: &mut App, text: &str) {
     let Some(field) = spread_field(app) else {
         return app.complain(no_spread(app));
     };
-    let mut case = app.tab.case.clone();
     let key = format!("spread.{}", FIELDS[field].key);
-    if let Err(problem) = case.apply(&key, Some(text).filter(|text| *text != "none")) {
-        return app.complain(problem.for_form().to_string());
+    let said = format!("spread of {}: {text}", FIELDS[field].full_label());
+    apply(app, &key, Some(text).filter(|text| *text != "none"), &said);
+}
+
+/// Writes a value of the file that has no row in the form.
+fn apply(app: &mut App, key: &str, text: Option<&str>, said: &str) {
+    let mut case = app.tab.case.clone();
+    match case.apply(key, text) {
+        Ok(_) => replace_saying(app, case, said),
+        Err(problem) => app.complain(problem.for_form().to_string()),
     }
-    replace_saying(app, case, &format!("spread of {}: {text}", FIELDS[field].full_label()));
 }
 
 /// Writes a line of `[about]`, such as `project = GB 12`; an empty text removes it.
@@ -360,11 +366,8 @@ pub(super) fn set_about(app: &mut App, text: &str) {
     if name.is_empty() || !text.contains('=') {
         return app.complain("type NAME = TEXT, such as drawing number = GB 12");
     }
-    let mut case = app.tab.case.clone();
-    if let Err(problem) = case.apply(&format!("about.{name}"), Some(value)) {
-        return app.complain(problem.for_form().to_string());
-    }
-    replace_saying(app, case, &format!("about: {name} = {}", session::shown(Some(value))));
+    let said = format!("about: {name} = {}", session::shown(Some(value)));
+    apply(app, &format!("about.{name}"), Some(value), &said);
 }
 
 /// Opens the dialog and starts the search with the last demand of the tab.
