@@ -8,7 +8,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use directories::ProjectDirs;
-use ratatui::style::{Color, Modifier, Style};
+use ratatui::style::Style;
 use ratatui::symbols::Marker;
 use toml_edit::{DocumentMut, Item, Value};
 
@@ -220,46 +220,46 @@ pub struct Look {
 /// Attributes and a few of the terminal's own colours.
 pub(crate) static QUIET: Theme = Theme {
     name: "quiet",
-    title: Style::new().fg(Color::Cyan).add_modifier(Modifier::BOLD),
+    title: Style::new().cyan().bold(),
     rule: Style::new(),
-    focus: Style::new().add_modifier(Modifier::BOLD),
-    faint: Style::new().add_modifier(Modifier::DIM),
-    problem: Style::new().fg(Color::Red).add_modifier(Modifier::BOLD),
-    note: Style::new().fg(Color::Yellow),
-    active: Style::new().fg(Color::Green).add_modifier(Modifier::BOLD),
-    other: Style::new().fg(Color::Magenta),
-    key: Style::new().add_modifier(Modifier::REVERSED),
+    focus: Style::new().bold(),
+    faint: Style::new().dim(),
+    problem: Style::new().red().bold(),
+    note: Style::new().yellow(),
+    active: Style::new().green().bold(),
+    other: Style::new().magenta(),
+    key: Style::new().reversed(),
     // Plain blue is hard to read on black.
-    baseline: Style::new().fg(Color::LightBlue),
-    driver: Style::new().fg(Color::Cyan),
-    driven: Style::new().fg(Color::Yellow),
-    path: Style::new().fg(Color::Magenta),
+    baseline: Style::new().light_blue(),
+    driver: Style::new().cyan(),
+    driven: Style::new().yellow(),
+    path: Style::new().magenta(),
 };
 
 /// Bright colours and bold letters, for terminals on which the quiet ones are hard to read.
 pub static CONTRAST: Theme = Theme {
     name: "contrast",
-    title: Style::new().fg(Color::LightCyan).add_modifier(Modifier::BOLD),
-    focus: Style::new().add_modifier(Modifier::BOLD).add_modifier(Modifier::UNDERLINED),
+    title: Style::new().light_cyan().bold(),
+    focus: Style::new().bold().underlined(),
     faint: Style::new(),
-    problem: Style::new().fg(Color::LightRed).add_modifier(Modifier::BOLD),
-    note: Style::new().fg(Color::LightYellow).add_modifier(Modifier::BOLD),
-    active: Style::new().fg(Color::LightGreen).add_modifier(Modifier::BOLD),
-    other: Style::new().fg(Color::LightMagenta).add_modifier(Modifier::BOLD),
-    baseline: Style::new().fg(Color::LightBlue).add_modifier(Modifier::BOLD),
-    driver: Style::new().fg(Color::LightCyan),
-    driven: Style::new().fg(Color::LightYellow),
-    path: Style::new().fg(Color::LightMagenta),
+    problem: Style::new().light_red().bold(),
+    note: Style::new().light_yellow().bold(),
+    active: Style::new().light_green().bold(),
+    other: Style::new().light_magenta().bold(),
+    baseline: Style::new().light_blue().bold(),
+    driver: Style::new().light_cyan(),
+    driven: Style::new().light_yellow(),
+    path: Style::new().light_magenta(),
     ..QUIET
 };
 
 /// Attributes only.
 pub static MONO: Theme = Theme {
     name: "mono",
-    title: Style::new().add_modifier(Modifier::BOLD),
-    problem: Style::new().add_modifier(Modifier::BOLD),
+    title: Style::new().bold(),
+    problem: Style::new().bold(),
     note: Style::new(),
-    active: Style::new().add_modifier(Modifier::BOLD),
+    active: Style::new().bold(),
     other: Style::new(),
     baseline: Style::new(),
     driver: Style::new(),

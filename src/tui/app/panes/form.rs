@@ -3,7 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::layout::{Layout, Position, Rect};
-use ratatui::style::{Modifier, Style};
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
@@ -233,7 +233,7 @@ fn draw_line(app: &App, index: usize, line: Rect, buffer: &mut Buffer) -> Option
     put(symbol, of_symbol, style, buffer);
     put(label, of_label, style, buffer);
     if is_typed {
-        let (input, style) = (&app.tab.form.input, style.add_modifier(Modifier::UNDERLINED));
+        let (input, style) = (&app.tab.form.input, style.underlined());
         let cursor = text::edited(input, area, style, buffer);
         text::ending(app.ending().as_deref(), text::width(input.value()), area, theme, buffer);
         return cursor;

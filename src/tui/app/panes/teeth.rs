@@ -5,7 +5,7 @@ use std::fmt;
 use nalgebra::{Point2, Vector2};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Position, Rect, Size};
-use ratatui::style::{Modifier, Style};
+use ratatui::style::Style;
 use ratatui::symbols::Marker;
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
@@ -255,7 +255,6 @@ impl<'a> Painter<'a> {
     /// the named points and of the contacts.
     fn layers(&self, scene: &Scene) -> Vec<(Vec<Vec<Point>>, Style)> {
         let theme = self.picture.look.theme;
-        let bold = |style: Style| style.add_modifier(Modifier::BOLD);
         let [driven, driver] = [theme.driven, theme.driver];
         let styles = [
             theme.faint,
@@ -263,9 +262,9 @@ impl<'a> Painter<'a> {
             theme.path,
             theme.path,
             driven,
-            bold(driven),
+            driven.bold(),
             driver,
-            bold(driver),
+            driver.bold(),
             theme.focus,
             theme.active,
         ];
