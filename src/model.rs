@@ -242,14 +242,7 @@ impl Solution {
 
     /// The stations of its method.
     pub fn own_stations(&self) -> &[Station] {
-        let load = self.static_load.as_ref().map(|load| &load.stations);
-        let motion = self.dynamic.as_ref().map(|motion| &motion.stations);
-        let own = match self.method {
-            Method::Paper | Method::Exact | Method::Auto => Some(&self.stations),
-            Method::Static => load,
-            Method::Dynamic => motion,
-        };
-        own.map_or(&[], Vec::as_slice)
+        self.shared_stations().unwrap_or(&self.stations)
     }
 
     /// The solve that computes a stage: this one, or that by a slower method beside it.
