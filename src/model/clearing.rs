@@ -14,6 +14,7 @@ use super::relief::Reliefs;
 use super::slices::{self, Face};
 use super::static_load::{lead_at_rest, lead_work};
 use super::{Outcome, Refusal, Solution, Stage};
+use crate::numeric::steps;
 
 /// Limit of the search, relative to the sum of deflection, deviation and given relief.
 const MOST: f64 = 8.0;
@@ -204,7 +205,7 @@ impl<'a> Search<'a> {
 const BEYOND: [f64; 4] = [1.05, 1.25, 1.5, 2.0];
 /// Number of evenly spaced larger reliefs tested if contact is lost, because small changes then
 /// have large effects.
-const BEYOND_RATTLE: u32 = 50;
+const BEYOND_RATTLE: usize = 50;
 
 /// A tested relief and its result.
 #[derive(Debug, Clone, Copy)]
@@ -231,8 +232,7 @@ fn least(tried: Try<'_>, is_monotonic: bool, most: f64) -> Result<f64, Refusal> 
 /// The greatest of the tested larger reliefs with contact.
 fn touching_beyond(tried: Try<'_>, clear: Tried) -> Result<Option<Tried>, Refusal> {
     let [.., last] = BEYOND;
-    let even = (1..=BEYOND_RATTLE)
-        .map(|step| 1.0 + (last - 1.0) * f64::from(step) / f64::from(BEYOND_RATTLE));
+    let even = steps(1.0, last, BEYOND_RATTLE).skip(1);
     let beyond: Vec<f64> = if clear.contact_lost { even.collect() } else { BEYOND.to_vec() };
     for part in beyond.into_iter().rev() {
         let found = tried(part * clear.relief)?;

@@ -171,12 +171,8 @@ impl Teeth {
     /// The table of the case, if it gives the compliance, and the part of the path.
     fn given_at(&self, place: &ContactPlace) -> Option<(GivenCompliance, f64)> {
         let Geometry { driver, driven, .. } = &self.geometry;
-        let curvature =
-            |radius: f64, base: f64| ((radius - base) * (radius + base)).max(0.0).sqrt();
-        let arms = (
-            curvature(place.radius_driver, driver.base),
-            curvature(place.radius_driven, driven.base),
-        );
+        let arms =
+            (driver.curvature_at(place.radius_driver), driven.curvature_at(place.radius_driven));
         Some((self.elasticity.given?, self.geometry.part_of_path(arms)))
     }
 

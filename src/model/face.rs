@@ -3,6 +3,7 @@
 use super::Refusal;
 use super::geometry::Geometry;
 use super::inputs::{Gear, GearSide, Inputs};
+use crate::numeric::distinct;
 
 /// The inputs of the face width. z is the place along the axis from the middle of the common face, in
 /// m; the driver turns positively about +z.
@@ -169,10 +170,8 @@ impl FaceInputs {
             let places = [(minus, flank.middle - inner), (plus, flank.middle + inner)];
             places.into_iter().filter(|(is_given, _)| *is_given).map(|(_, z)| z)
         });
-        let mut borders: Vec<f64> =
-            begins.filter(|z| *z > first && *z < last).chain([first, last]).collect();
-        borders.sort_by(f64::total_cmp);
-        borders.dedup_by(|one, other| *one - *other <= 1e-9 * self.width);
+        let borders = begins.filter(|z| *z > first && *z < last).chain([first, last]);
+        let borders = distinct(borders.collect(), 1e-9 * self.width);
         let step = self.width / (count - 1) as f64;
         let mut places = vec![first];
         for ends in borders.windows(2) {

@@ -379,9 +379,7 @@ impl Geometry {
         let centre = self.driver.tip - self.driver.edge;
         let polar = (self.driver.base / centre).acos() - self.working_pressure_angle + angle;
         let away = self.centre_distance - centre * polar.cos();
-        let radius = away.hypot(centre * polar.sin());
-        ((radius - self.driven.base) * (radius + self.driven.base)).max(0.0).sqrt()
-            - self.driver.edge
+        self.driven.curvature_at(away.hypot(centre * polar.sin())) - self.driver.edge
     }
 }
 

@@ -256,7 +256,6 @@ impl Geometry {
     /// is the working pressure angle without backlash. A negative value means that the teeth jam
     /// (ISO 21771).
     pub fn backlash(&self, shape: &PairShape) -> f64 {
-        let involute = |angle: f64| angle.tan() - angle;
         let alpha = shape.pressure_angle;
         let shifts = shape.driver.profile_shift + shape.driven.profile_shift;
         let without = involute(alpha)
@@ -264,6 +263,11 @@ impl Geometry {
         2.0 * (self.driver.base + self.driven.base)
             * (involute(self.working_pressure_angle) - without)
     }
+}
+
+/// inv t = tan t − t.
+pub(super) fn involute(angle: f64) -> f64 {
+    angle.tan() - angle
 }
 
 impl<T: Real> Geometry<T> {
@@ -512,11 +516,12 @@ impl Circles {
         if self.edge <= 0.0 {
             return *self;
         }
-        Circles {
-            tip_curvature: ((self.tip - self.base) * (self.tip + self.base)).sqrt(),
-            edge: 0.0,
-            ..*self
-        }
+        Circles { tip_curvature: self.curvature_at(self.tip), edge: 0.0, ..*self }
+    }
+
+    /// Radius of curvature of the involute at a radius, √(radius² − r_b²), in m.
+    pub(super) fn curvature_at(&self, radius: f64) -> f64 {
+        ((radius - self.base) * (radius + self.base)).max(0.0).sqrt()
     }
 
     /// Radius at which the involute ends, in m: the tip radius for a sharp tip.
@@ -553,10 +558,9 @@ fn tip_losses(shape: &PairShape, driver: &Circles, driven: &Circles) -> TipLosse
 
 /// The parts that the chamfer and the rounding of one gear remove, in m.
 fn losses(gear: &GearShape, circles: &Circles) -> [f64; 2] {
-    let curvature = |radius: f64| ((radius - circles.base) * (radius + circles.base)).sqrt();
-    let chamfered = curvature(circles.tip);
-    [curvature(circles.tip + gear.tip_chamfer) - chamfered, chamfered - circles.tip_curvature]
-        .map(|loss| loss.max(0.0))
+    let [whole, chamfered] =
+        [circles.tip + gear.tip_chamfer, circles.tip].map(|radius| circles.curvature_at(radius));
+    [whole - chamfered, chamfered - circles.tip_curvature].map(|loss| loss.max(0.0))
 }
 
 /// Mesh force F₀ = T₁/r_b1, in N.

@@ -142,7 +142,7 @@ impl Inertia {
 /// The circles of the gear without chamfer and rounding of the tip.
 fn whole(circles: &Circles, rack: &Rack, addendum: f64) -> Circles {
     let tip = circles.reference + rack.module * (addendum + rack.profile_shift);
-    Circles { tip, tip_curvature: ((tip - circles.base) * (tip + circles.base)).sqrt(), ..*circles }
+    Circles { tip, tip_curvature: circles.curvature_at(tip), ..*circles }
 }
 
 /// Polar moment of area of the gear's section, in m⁴. J is this moment times density and face

@@ -17,7 +17,7 @@ use super::pair_forces::{OfPairs, PITCHES, Pair, PairSet, Place};
 use super::relief::Reliefs;
 use crate::numeric::chebyshev::{Series, TERMS};
 use crate::numeric::polynomial::Polynomial;
-use crate::numeric::{quadrature, root};
+use crate::numeric::{distinct, quadrature, root, steps};
 use sharing::Couplings;
 use sharing::Sharing;
 pub use sharing::{Meeting, Of, Shares};
@@ -241,9 +241,7 @@ impl Mesh {
         for place in found.iter_mut().filter(|place| place.abs() <= same) {
             *place = 0.0;
         }
-        found.sort_by(f64::total_cmp);
-        found.dedup_by(|one, other| *one - *other <= same);
-        found
+        distinct(found, same)
     }
 }
 
@@ -317,10 +315,8 @@ impl Mesh {
 
     /// Greatest stiffness of one pair from E to B, in N/m.
     pub fn single_stiffness(&self) -> f64 {
-        const PLACES: u32 = 32;
         let stiffness = |s: f64| self.incoming(s).0.stiffness;
-        let place = |step| self.length * f64::from(step) / f64::from(PLACES);
-        let known: Vec<_> = (0..=PLACES).map(place).map(|s| (s, stiffness(s))).collect();
+        let known: Vec<_> = steps(0.0, self.length, 32).map(|s| (s, stiffness(s))).collect();
         root::greatest(&known, stiffness).1
     }
 

@@ -611,8 +611,7 @@ impl TipContact {
         if geometry.driven.edge <= 0.0 {
             return geometry.driven.tip_curvature;
         }
-        let (radius, base) = (self.radius_driven, geometry.driven.base);
-        ((radius - base) * (radius + base)).max(0.0).sqrt()
+        geometry.driven.curvature_at(self.radius_driven)
     }
 
     /// Whether f64 loses digits because the tip nearly rolls, is nearly on the centre line, or its

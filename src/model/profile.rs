@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Point2;
 
-use super::geometry::Circles;
+use super::geometry::{Circles, involute};
 use super::inputs::{Gear, Inputs};
 use crate::numeric::root::last_where;
 
@@ -248,11 +248,6 @@ impl Profile {
         radius > self.circles.base
             && section.half_thickness.atan2(section.along) > self.half_angle(self.roll_at(radius))
     }
-}
-
-/// inv t = tan t − t.
-fn involute(angle: f64) -> f64 {
-    angle.tan() - angle
 }
 
 /// Tip rounding of the standard basic rack, in modules (ISO 53, profile A).

@@ -7,10 +7,10 @@ mod tests;
 use super::Refusal;
 use super::budget::{CURVE_WORK, STATIONS};
 use super::mesh::Mesh;
-use super::pair_forces::Balance;
+use super::pair_forces::{Balance, Carrying};
 use super::stations::{Spacing, Station};
 use crate::numeric::root::greatest;
-use crate::numeric::{quadrature, root};
+use crate::numeric::{distinct, quadrature, root, steps};
 use std::f64::consts::TAU;
 
 /// Samples in a base pitch in the search for the incoming pair.
@@ -397,40 +397,21 @@ pub fn static_spectrum(mesh: &Mesh) -> Result<StaticSpectrum, Refusal> {
 
 /// The greatest value of a smooth function.
 fn peak_between((from, to): (f64, f64), value: impl Fn(f64) -> f64) -> f64 {
-    const PLACES: usize = 8;
-    let known: Vec<(f64, f64)> = (0..=PLACES)
-        .map(|step| from + (to - from) * step as f64 / PLACES as f64)
-        .map(|s| (s, value(s)))
-        .collect();
+    let known: Vec<(f64, f64)> = steps(from, to, 8).map(|s| (s, value(s))).collect();
     greatest(&known, value).1
 }
 
 /// The borders of the pieces with the same touching pairs, between two borders of the mesh.
 pub(crate) fn pieces(mesh: &Mesh, (from, to): (f64, f64), inside: f64) -> Vec<f64> {
-    let touching = |s: f64| {
-        let pairs = mesh.pair_set(s, inside);
-        let (_, forces) = pairs.shared(mesh.force);
-        let carries = pairs.pairs().iter().zip(forces);
-        let carries = carries.filter(|(_, force)| *force > 0.0);
-        carries.map(|(pair, _)| pair.ahead).collect::<Vec<i32>>()
-    };
-    let places: Vec<f64> =
-        (0..=LOOKS).map(|step| from + (to - from) * step as f64 / LOOKS as f64).collect();
-    let sets: Vec<Vec<i32>> = places.iter().map(|&s| touching(s)).collect();
+    let places: Vec<(f64, Carrying)> =
+        steps(from, to, LOOKS).map(|s| (s, balance(mesh, s, inside).carrying)).collect();
     let mut cuts = vec![from, to];
-    for (ends, sets) in places.windows(2).zip(sets.windows(2)) {
-        let turned = sets[0].iter().chain(&sets[1]);
-        let turned = turned.filter(|pair| sets[0].contains(pair) != sets[1].contains(pair));
-        cuts.extend(turned.map(|&pair| {
-            root::between(ends[0], ends[1], |s| {
-                let lead = mesh.pair_set(s, inside).lead(pair, mesh.force);
-                lead.clamp(-mesh.length, mesh.length)
-            })
-        }));
+    for ends in places.windows(2) {
+        let [(from, before), (to, after)] = [ends[0], ends[1]];
+        let cut = |pair| root::between(from, to, |s| lead_of(mesh, pair, (s, inside)));
+        cuts.extend(before.differences(after).map(cut));
     }
-    cuts.sort_by(f64::total_cmp);
-    cuts.dedup_by(|one, other| *one - *other <= 1e-12 * mesh.base_pitch);
-    cuts
+    distinct(cuts, 1e-12 * mesh.base_pitch)
 }
 
 /// Frequencies of a pair, in Hz.

@@ -144,9 +144,7 @@ impl<const N: usize> Bernstein<N> {
 
     /// A lower and an upper bound of the values from 0 to 1.
     pub fn bounds(&self) -> (f64, f64) {
-        self.0.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
-            (low.min(value), high.max(value))
-        })
+        super::bounds(self.0)
     }
 
     /// The forms on the first and the second half of the interval, by de Casteljau's algorithm.

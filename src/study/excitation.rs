@@ -13,7 +13,7 @@ use crate::model::slices::Face;
 use crate::model::slices::balance::Until;
 use crate::model::static_load::pieces;
 use crate::model::{Geometry, Inputs, Mesh, Refusal, Solution, Stage, Stages, solve};
-use crate::numeric::quadrature;
+use crate::numeric::{quadrature, steps};
 
 /// Number of values of a [`Sample`].
 pub const VALUES: usize = 6;
@@ -256,7 +256,7 @@ impl At {
         const LOOKS: usize = 16;
         let (mesh, pitch) = (&self.equal, self.equal.base_pitch);
         if self.face.is_some() {
-            return (0..=LOOKS).map(|step| pitch * step as f64 / LOOKS as f64).collect();
+            return steps(0.0, pitch, LOOKS).collect();
         }
         let borders = mesh.borders(0.0, pitch);
         let between =

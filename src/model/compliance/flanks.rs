@@ -7,7 +7,7 @@ use super::{ContactPlace, Elasticity, Teeth};
 use crate::model::Refusal;
 use crate::model::geometry::{Circles, Geometry};
 use crate::numeric::chebyshev::Series;
-use crate::numeric::root;
+use crate::numeric::{root, steps};
 
 /// Tolerance of the last terms of a series, relative to the compliance at the tip. Smaller than the
 /// tolerances of the callers.
@@ -41,7 +41,7 @@ struct Flank {
 impl Flank {
     fn of(tooth: &Tooth, circles: &Circles, (from, to): (f64, f64)) -> Result<Flank, Refusal> {
         let (base, radius) = (circles.base, tooth.last_radius(0.0));
-        let last = ((radius - base) * (radius + base)).sqrt().min(to);
+        let last = circles.curvature_at(radius).min(to);
         let at = |curvature: f64| {
             let radius = base.hypot(curvature);
             let contact = tooth.contact(radius)?.map_or(0.0, |contact| contact.offset);
@@ -76,16 +76,14 @@ impl Flank {
 
     /// Places between the ends at which another limit begins to determine the load.
     fn bends(&self, (from, to): (f64, f64), load: impl Fn(f64) -> (f64, f64)) -> Vec<f64> {
-        const LOOKS: u32 = 8;
         if self.corner.is_infinite() || from >= to {
             return Vec::new();
         }
-        let place = |look: u32| from + (to - from) * f64::from(look) / f64::from(LOOKS);
         let limit = |place: f64| self.limit(load(place)).0;
         let mut bends = Vec::new();
         let mut before = (from, limit(from));
-        for look in 1..=LOOKS {
-            let here = (place(look), limit(place(look)));
+        for place in steps(from, to, 8).skip(1) {
+            let here = (place, limit(place));
             if before.1 != here.1 {
                 let difference = |at: f64| {
                     let (_, places) = self.limit(load(at));
@@ -153,22 +151,23 @@ impl Flanks {
         Flanks { series: self.series.clone().map(swapped), slope: self.slope }
     }
 
-    /// Compliances of a pair under a given force, in m²/N: of driver and driven gear without the
+    /// Compliances of a pair under a given force, in m²/N: of driver and of driven gear without the
     /// contact, and of the contact. The load points are at the distances `arms` from N₁ and N₂.
     ///
     /// # Errors
     /// Those of the contact.
-    pub fn parts_at_load(
+    pub fn at_load(
         &self,
         elasticity: &Elasticity,
         geometry: &Geometry,
         place: &ContactPlace,
         arms: (f64, f64),
         force: f64,
-    ) -> Result<([f64; 2], f64), Refusal> {
+    ) -> Result<[f64; 3], Refusal> {
         if let Some(table) = elasticity.given {
             let part = geometry.part_of_path(arms);
-            return Ok((table.teeth(part), table.contact.at(part)));
+            let [driver, driven] = table.teeth(part);
+            return Ok([driver, driven, table.contact.at(part)]);
         }
         let half_width = elasticity.half_width(place, force);
         let [driver, driven] = [(0, arms.0), (1, arms.1)].map(|(gear, curvature)| {
@@ -182,24 +181,7 @@ impl Flanks {
             }
             None => elasticity.contact_spring(geometry, place)?,
         };
-        Ok(([driver[TOOTH], driven[TOOTH]], spring.compliance(force)?))
-    }
-
-    /// Compliance of a pair under a given force, in m²/N, see [`Flanks::parts_at_load`].
-    ///
-    /// # Errors
-    /// Those of the contact.
-    pub fn pair_at_load(
-        &self,
-        elasticity: &Elasticity,
-        geometry: &Geometry,
-        place: &ContactPlace,
-        arms: (f64, f64),
-        force: f64,
-    ) -> Result<f64, Refusal> {
-        let ([driver, driven], contact) =
-            self.parts_at_load(elasticity, geometry, place, arms, force)?;
-        Ok(driver + driven + contact)
+        Ok([driver[TOOTH], driven[TOOTH], spring.compliance(force)?])
     }
 }
 
@@ -224,8 +206,8 @@ mod tests {
                 let place = ContactPlace::on_line_of_action(&geometry, along);
                 let arms = (along, geometry.tangent_length - along);
                 for force in [1e2, 1e3, 3e4] {
-                    let found =
-                        flanks.pair_at_load(&elasticity, &geometry, &place, arms, force).unwrap();
+                    let found = flanks.at_load(&elasticity, &geometry, &place, arms, force);
+                    let found: f64 = found.unwrap().iter().sum();
                     let expected = teeth.pair_at_load(&place, force).unwrap();
                     assert!(
                         (found / expected - 1.0).abs() < 1e-12,

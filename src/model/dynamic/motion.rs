@@ -6,6 +6,7 @@ use crate::model::Refusal;
 use crate::model::budget::{MOTION_OSCILLATIONS, PAIRS};
 use crate::model::mesh::{Meeting, Mesh, Shares};
 use crate::model::pair_forces::Touching;
+use crate::numeric::distinct;
 use crate::numeric::polynomial::{Bernstein, Polynomial};
 use crate::numeric::taylor::{Oscillator, convergent_part};
 use nalgebra::Vector2;
@@ -94,15 +95,12 @@ impl<'a> Motion<'a> {
     /// are smooth.
     pub(super) fn borders(&self, from: f64, to: f64) -> Vec<f64> {
         let mut borders = self.mesh.borders(from, to);
-        if let Some(back) = &self.back {
-            let (offset, same) = (self.mesh.back_place(), 1e-12 * self.mesh.base_pitch);
-            let places = back.borders(from + offset, to + offset);
-            let places = places.into_iter().map(|place| place - offset);
-            borders.extend(places.filter(|place| *place > from + same && *place < to - same));
-            borders.sort_by(f64::total_cmp);
-            borders.dedup_by(|one, other| *one - *other <= same);
-        }
-        borders
+        let Some(back) = &self.back else { return borders };
+        let (offset, same) = (self.mesh.back_place(), 1e-12 * self.mesh.base_pitch);
+        let places = back.borders(from + offset, to + offset);
+        let places = places.into_iter().map(|place| place - offset);
+        borders.extend(places.filter(|place| *place > from + same && *place < to - same));
+        distinct(borders, same)
     }
 
     /// Place of the incoming pair at the start. If damping removes the effect of the start within

@@ -8,8 +8,9 @@ use std::sync::Arc;
 
 use crate::model::mesh::{Mesh, Of, Shares};
 use crate::model::pair_forces::Touching;
+use crate::numeric::bounds;
 use crate::numeric::chebyshev;
-use crate::numeric::polynomial::{Bernstein, Polynomial, first_fall, sign_changes};
+use crate::numeric::polynomial::{Bernstein, Polynomial, extremes, first_fall};
 
 /// The pairs of a side, with stiffness and load for a set of touching pairs.
 #[derive(Clone)]
@@ -238,11 +239,7 @@ impl Side<'_> {
 
 /// Between what values a product is, of a factor between two values and one between two others.
 fn product((low, high): (f64, f64), others: [f64; 2]) -> (f64, f64) {
-    let products = others.map(|other| [low * other, high * other]);
-    let all = products.as_flattened().iter();
-    all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
-        (low.min(value), high.max(value))
-    })
+    bounds(others.into_iter().flat_map(|other| [low * other, high * other]))
 }
 
 /// Number of terms of a step's series, the fastest choice at tolerances from 1e-3 to 1e-11.
@@ -341,9 +338,7 @@ fn most<const N: usize>(lead: &Polynomial<N>, least: f64) -> f64 {
     if Bernstein::of(lead).bounds().1 <= least {
         return least;
     }
-    let turns = sign_changes(&lead.derivative());
-    let places = turns.into_iter().chain([0.0, 1.0]);
-    places.map(|part| lead.at(part)).fold(least, f64::max)
+    extremes(lead).fold(least, f64::max)
 }
 
 /// A side of the teeth.

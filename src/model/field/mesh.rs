@@ -6,6 +6,7 @@ use nalgebra::Vector2;
 
 use super::{FieldInput, FieldRefusal};
 use crate::model::profile::Profile;
+use crate::numeric::steps;
 
 /// Nodes of an element: three from the centre line to the space, times three from the bore upwards.
 /// The second index runs faster.
@@ -396,11 +397,9 @@ impl Boundary {
     fn walk_fillet(&mut self) -> Result<(), FieldRefusal> {
         const TURNED: (f64, f64) = (0.15, 0.9);
         let first = self.profile.junction.normal;
-        let normals = (0..=FILLET_STEPS)
-            .map(|step| first + (FRAC_PI_2 - first) * step as f64 / FILLET_STEPS as f64);
         let (mut arc, mut turned, mut neck) = (0.0, None, f64::INFINITY);
         let mut last: Option<Vector2<f64>> = None;
-        for normal in normals {
+        for normal in steps(first, FRAC_PI_2, FILLET_STEPS) {
             let point = self.fillet_point(normal);
             let chord = last.map_or(-Vector2::y(), |last| point - last);
             if turned.is_none() && chord.x.atan2(-chord.y) >= FRAC_PI_4 {

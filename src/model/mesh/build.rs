@@ -7,7 +7,7 @@ use super::{Mesh, MeshInputs};
 use crate::model::budget::PAIRS;
 use crate::model::compliance::flanks::Flanks;
 use crate::model::compliance::{ContactPlace, Teeth};
-use crate::model::geometry::{Geometry, PairShape};
+use crate::model::geometry::{Geometry, PairShape, involute};
 use crate::model::relief::Relief;
 use crate::model::{Refusal, Solution};
 use crate::numeric::chebyshev::Series;
@@ -124,8 +124,8 @@ impl Mesh {
         let width = inputs.elasticity.width;
         let ends = (geometry.start, geometry.tangent_length - geometry.start);
         let at_start = (&place(0.0), ends);
-        let own =
-            flanks.pair_at_load(&inputs.elasticity, geometry, at_start.0, at_start.1, force)?;
+        let own = flanks.at_load(&inputs.elasticity, geometry, at_start.0, at_start.1, force)?;
+        let own: f64 = own.iter().sum();
         let couplings = match (known, neighbours) {
             (Some(known), _) => known,
             (None, Some(neighbours)) => {
@@ -304,7 +304,6 @@ impl Mesh {
 /// Each gear has half of the backlash and turns by half of it until the back flanks touch, so that
 /// σ_0 does not depend on the backlash.
 pub(super) fn back_place(shape: &PairShape, geometry: &Geometry) -> f64 {
-    let involute = |angle: f64| angle.tan() - angle;
     let alpha = shape.pressure_angle;
     let common = involute(alpha) - involute(geometry.working_pressure_angle);
     let half_tooth = |teeth: u32, shift: f64| {
@@ -471,7 +470,6 @@ mod tests {
     /// action at the place in the mesh.
     #[test]
     fn the_back_flanks_agree_with_turned_involutes() {
-        let involute = |angle: f64| angle.tan() - angle;
         for (teeth, shifts, more) in [
             ((20, 30), (0.0, 0.0), None),
             ((17, 43), (0.3, -0.1), None),

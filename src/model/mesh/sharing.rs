@@ -7,6 +7,7 @@ use crate::model::compliance::ContactPlace;
 use crate::model::pair_forces::{PITCHES, Touching};
 use crate::numeric::banded::Banded;
 use crate::numeric::chebyshev::{Places, Series, TERMS, Terms};
+use crate::numeric::distinct;
 use crate::numeric::polynomial::Polynomial;
 use crate::numeric::real::Lanes;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -504,9 +505,7 @@ impl Way {
         if from < to {
             borders.extend([from, to]);
         }
-        borders.sort_by(f64::total_cmp);
-        borders.dedup_by(|one, other| *one - *other <= 1e-12 * self.base_pitch);
-        borders
+        distinct(borders, 1e-12 * self.base_pitch)
     }
 }
 

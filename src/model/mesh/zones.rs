@@ -10,7 +10,7 @@ use crate::model::position::first_contact;
 use crate::model::position::{TipContact, angle_at_curvature, gap, tip_at};
 use crate::model::relief::Relief;
 use crate::numeric::chebyshev::Series;
-use crate::numeric::root;
+use crate::numeric::{bounds, distinct, root};
 
 /// Greatest angle of a tip beyond its end of the path of contact, in rad.
 const LARGEST_ANGLE: f64 = 1.5;
@@ -59,7 +59,7 @@ pub(super) struct End {
 /// relative error of 1e-13. The precision of a gap, which grows from `edge`, is that of the
 /// distance from `edge` and of the relief.
 fn push_zones(
-    borders: &mut Vec<f64>,
+    borders: Vec<f64>,
     (size, edge, relief): ([f64; 4], f64, &Relief),
     f: &impl Fn(f64) -> Result<[f64; 4], Refusal>,
     zones: &mut Vec<Zone>,
@@ -72,10 +72,8 @@ fn push_zones(
         rest[GAP] = rest[GAP].max(relief_rounding);
         rest
     };
-    borders.sort_by(f64::total_cmp);
-    let whole = borders.last().copied().unwrap_or(0.0) - borders.first().copied().unwrap_or(0.0);
-    borders.dedup_by(|one, other| *one - *other <= 1e-9 * whole);
-    for ends in borders.windows(2) {
+    let (first, last) = bounds(borders.iter().copied());
+    for ends in distinct(borders, 1e-9 * (last - first)).windows(2) {
         let (from, to) = (ends[0], ends[1]);
         zones.push(Zone {
             from,
@@ -102,10 +100,10 @@ pub(super) fn line_zones(
     let at = |s: f64| {
         let along = geometry.start + s;
         let place = ContactPlace::on_line_of_action(geometry, along);
-        let compliance =
-            flanks.pair_at_load(&inputs.elasticity, geometry, &place, (along, rest - s), force)?;
+        let compliances =
+            flanks.at_load(&inputs.elasticity, geometry, &place, (along, rest - s), force)?;
         Ok([
-            inputs.elasticity.width / compliance,
+            inputs.elasticity.width / compliances.iter().sum::<f64>(),
             relief.at(along, rest - s),
             along / geometry.driver.base,
             speeds * (geometry.approach_length - s),
@@ -126,7 +124,7 @@ pub(super) fn line_zones(
     borders.extend([0.0, length]);
     let stiffness = at(0.5 * length)?[STIFFNESS];
     push_zones(
-        &mut borders,
+        borders,
         ([stiffness, relief.most(), 1.0, speeds * length], 0.0, relief),
         &at,
         zones,
@@ -147,7 +145,8 @@ pub(super) fn teeth_on_line(
         ContactPlace::on_line_of_action(geometry, along),
         (along, geometry.tangent_length - along),
     );
-    Ok(flanks.parts_at_load(&inputs.elasticity, geometry, &place, arms, force)?.0)
+    let [driver, driven, _] = flanks.at_load(&inputs.elasticity, geometry, &place, arms, force)?;
+    Ok([driver, driven])
 }
 
 impl End {
@@ -157,7 +156,8 @@ impl End {
         let tip = tip_at(&self.geometry, angle);
         let (place, arms) = (self.place_of(&tip), self.arms(&tip));
         let elasticity = &self.inputs.elasticity;
-        Ok(self.flanks.parts_at_load(elasticity, &self.geometry, &place, arms, force)?.0)
+        let found = self.flanks.at_load(elasticity, &self.geometry, &place, arms, force)?;
+        Ok([found[0], found[1]])
     }
 
     /// The other end, with the gears swapped: the driver's tip touches the driven flank.
@@ -199,16 +199,13 @@ impl End {
             .angles_of_relief_ends(relief)
             .chain(self.angle_of_rolling(reach))
             .chain(bends.iter().copied());
-        let mut borders: Vec<f64> = turns.filter(|&angle| angle > 0.0 && angle < reach).collect();
-        borders.extend([0.0, reach]);
+        let turns = turns.filter(|&angle| angle > 0.0 && angle < reach);
         let place_of = |angle: f64| edge + self.side * base * angle;
-        for border in &mut borders {
-            *border = place_of(*border);
-        }
+        let borders = turns.chain([0.0, reach]).map(place_of).collect();
         let (start, end) = (at(edge)?, at(edge + self.side * base * reach)?);
         let size = |function: usize| start[function].abs().max(end[function].abs());
         push_zones(
-            &mut borders,
+            borders,
             ([start[STIFFNESS], 0.0, size(LEVER), size(SLIDING)], edge, relief),
             &at,
             zones,
@@ -243,13 +240,8 @@ impl End {
     fn at(&self, relief: &Relief, force: f64, angle: f64) -> Result<[f64; 4], Refusal> {
         let tip = tip_at(&self.geometry, angle);
         let place = self.place_of(&tip);
-        let compliance = self.flanks.pair_at_load(
-            &self.inputs.elasticity,
-            &self.geometry,
-            &place,
-            self.arms(&tip),
-            force,
-        )?;
+        let (elasticity, arms) = (&self.inputs.elasticity, self.arms(&tip));
+        let compliances = self.flanks.at_load(elasticity, &self.geometry, &place, arms, force)?;
         let sliding = self.inputs.driven_speed() * tip.sliding_arm;
         let (relief, lever) = if self.side < 0.0 {
             (
@@ -263,7 +255,7 @@ impl End {
             )
         };
         Ok([
-            self.inputs.elasticity.width / compliance,
+            elasticity.width / compliances.iter().sum::<f64>(),
             gap(&self.geometry, &tip) + relief,
             lever,
             -self.side * sliding,

@@ -8,6 +8,7 @@ use crate::model::Refusal;
 use crate::model::budget::STATIONS;
 use crate::model::static_load::{HARMONICS, Spectrum, StaticLoad, StaticSpectrum};
 use crate::model::stations::{Own, Spacing, Station};
+use crate::numeric;
 use crate::numeric::root::{self, greatest_within};
 use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
@@ -266,8 +267,8 @@ impl Face {
         let overlap = 2.0 * self.reach / pitch;
         let steps = (STEPS as f64 * ENOUGH / overlap).clamp(STEPS as f64, MOST) as usize;
         let passage = Passage::new(self, None, Incoming::Alike);
-        let place = |number: usize| pitch * number as f64 / steps as f64;
-        let period = passage.samples(&(0..=steps).map(place).collect::<Vec<_>>())?;
+        let places: Vec<f64> = numeric::steps(0.0, pitch, steps).collect();
+        let period = passage.samples(&places)?;
         let all = &period[..steps];
         let mut line_loads = vec![0.0; self.slices.len()];
         for loads in all {
