@@ -10,6 +10,7 @@ use super::Refusal;
 use super::geometry::Geometry;
 use super::given::GivenCompliance;
 use super::inputs::{ContactCompliance, Gear, Inputs, ToothCompliance};
+use super::pair_forces::{PITCHES, Pair, PairSet};
 use super::position::TipContact;
 use crate::numeric::chebyshev::TERMS;
 use crate::numeric::real::Lanes;
@@ -252,6 +253,31 @@ impl Teeth {
             .neighbour(earlier.radius_driven, later.radius_driven, -pitches)
             .map_err(Refusal::at_driven)?;
         Ok(driver + driven)
+    }
+
+    /// Pairs without gaps at contact places one base pitch apart, per unit width under a force, in N.
+    /// The rearmost is the first, `first` pitches ahead of the incoming pair.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the models.
+    pub fn pair_set(
+        &self,
+        first: i32,
+        places: &[ContactPlace],
+        force: f64,
+    ) -> Result<PairSet, Refusal> {
+        let (mut pairs, mut couplings) = (Vec::new(), Vec::new());
+        for (ahead, place) in (first..).zip(places) {
+            let stiffness = 1.0 / self.pair_at_load(place, force)?;
+            pairs.push(Pair { ahead, stiffness, gap: 0.0, weight: 1.0 });
+            let mut behind = [0.0; PITCHES];
+            let rear = places[..couplings.len()].iter().rev();
+            for ((pitches, rear), coupling) in (1..).zip(rear).zip(&mut behind) {
+                *coupling = self.coupling(rear, place, pitches)?;
+            }
+            couplings.push(behind);
+        }
+        Ok(PairSet::new(pairs, couplings))
     }
 
     /// Whether the force on a pair displaces others.

@@ -12,7 +12,6 @@ use super::compliance::{ContactPlace, Teeth};
 use super::face::FaceInputs;
 use super::geometry::Geometry;
 use super::inputs::{Combination, Gear, Inputs, Method};
-use super::pair_forces::{PITCHES, Pair, PairSet};
 use crate::numeric::Real;
 
 /// Deviation along the line of action, in m.
@@ -240,22 +239,8 @@ pub(super) fn deflected_over_face(
 
 /// The displacements if several coupled pairs, all places except the first, carry the force.
 fn shared(teeth: &Teeth, places: &[ContactPlace], mesh_force: f64) -> Result<Deflected, Refusal> {
-    let (mut pairs, mut couplings) = (Vec::new(), Vec::new());
-    for (ahead, place) in (0..).zip(places) {
-        pairs.push(Pair {
-            ahead,
-            stiffness: 1.0 / teeth.pair_at_load(place, mesh_force)?,
-            gap: if ahead == 0 { f64::INFINITY } else { 0.0 },
-            weight: 1.0,
-        });
-        let mut behind = [0.0; PITCHES];
-        let rear = places[..couplings.len()].iter().rev();
-        for ((pitches, rear), coupling) in (1..).zip(rear).zip(&mut behind) {
-            *coupling = teeth.coupling(rear, place, pitches)?;
-        }
-        couplings.push(behind);
-    }
-    let pairs = PairSet::new(pairs, couplings);
+    let pairs = teeth.pair_set(0, places, mesh_force)?;
+    let pairs = pairs.widened(|ahead| if ahead == 0 { f64::INFINITY } else { 0.0 });
     let (pairs_ahead, forces) = pairs.shared(mesh_force / teeth.width());
     if !pairs_ahead.is_finite() {
         return Err(Refusal::IndefiniteCompliance);

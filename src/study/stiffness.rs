@@ -6,10 +6,8 @@ use crate::model::field::{Field, body_twist};
 use crate::model::geometry::{Circles, Geometry, geometry, mesh_force};
 use crate::model::inputs::{Gear, ToothCompliance};
 use crate::model::masses::Masses;
-use crate::model::pair_forces::{Pair, PairSet};
 use crate::model::profile::Profile;
 use crate::model::{Inputs, Refusal};
-use std::array::from_fn;
 
 /// The name of the finite elements among the models; a model of the list with this name has no column
 /// of its own.
@@ -315,21 +313,9 @@ fn whole(teeth: &Teeth, way: f64, force: f64) -> Option<f64> {
     let Geometry { base_pitch, start, end, .. } = *teeth.geometry();
     let first = (-way / base_pitch).ceil() as i32;
     let last = ((end - start - way) / base_pitch).floor() as i32;
-    let way = |ahead: i32| way + f64::from(ahead) * base_pitch;
-    let pair = |ahead| {
-        let stiffness = pair(teeth, way(ahead), force)?;
-        Some(Pair { ahead, stiffness, gap: 0.0, weight: 1.0 })
-    };
-    let pairs = (first..=last).map(pair).collect::<Option<Vec<_>>>()?;
-    let loaded = |ahead| teeth.under(&place(teeth, way(ahead)), force);
-    let places: Vec<_> = (first..=last).map(loaded).collect();
-    let coupling = |front: usize, apart: usize| {
-        let rear = places.get(front.checked_sub(apart)?)?;
-        teeth.coupling(rear, &places[front], apart as i32).ok()
-    };
-    let behind = |front| from_fn(|at| coupling(front, at + 1).unwrap_or(0.0));
-    let set = PairSet::new(pairs, (0..places.len()).map(behind));
-    Some(set.forces(1.0).iter().sum())
+    let place = |ahead: i32| place(teeth, way + f64::from(ahead) * base_pitch);
+    let places: Vec<_> = (first..=last).map(|ahead| teeth.under(&place(ahead), force)).collect();
+    Some(teeth.pair_set(first, &places, force).ok()?.forces(1.0).iter().sum())
 }
 
 #[cfg(test)]
