@@ -108,7 +108,7 @@ fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
         Reason::ContactLost
     } else if impact.duration > velocity.transit_time {
         Reason::Outlasts(impact.duration, velocity.transit_time)
-    } else if !(1.0 - 1e-9..=2.0 + 1e-9).contains(&impact.impulse_ratio) {
+    } else if !impact.is_possible() {
         Reason::Impulse(impact.impulse_ratio)
     } else if load > inputs.within {
         Reason::LoadShared(load)

@@ -9,6 +9,7 @@ use super::inputs::{ContactCompliance, Inputs, Method, ToothCompliance};
 use super::masses::Masses;
 use super::position::{TipContact, angle_by_growth, seen_from, tip_at};
 use super::{Refusal, TeethCompliance, Velocity};
+use crate::numeric::bounds;
 
 /// The impact at D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,6 +42,12 @@ impl Impact {
     /// Eq. 32 with Hertz's prefactor, in s.
     pub fn duration_hertz(&self) -> f64 {
         HERTZ_PREFACTOR * self.duration_printed
+    }
+
+    /// Whether force and duration can belong to one impact.
+    pub(super) fn is_possible(&self) -> bool {
+        const ROUNDING: f64 = 1e-9;
+        (1.0 - ROUNDING..=2.0 + ROUNDING).contains(&self.impulse_ratio)
     }
 }
 
@@ -300,10 +307,10 @@ impl StiffnessModels {
 /// `force` is the result of the case's models. `solved` computes the others, or `None` if a model
 /// has no result.
 pub fn band(inputs: &Inputs, force: f64, solved: impl Fn(&Inputs) -> Option<f64>) -> Band {
-    StiffnessModels::others(inputs).filter_map(|models| solved(&models.in_place_of(inputs))).fold(
-        Band { low: force, high: force },
-        |band, force| Band { low: band.low.min(force), high: band.high.max(force) },
-    )
+    let others = StiffnessModels::others(inputs);
+    let others = others.filter_map(|models| solved(&models.in_place_of(inputs)));
+    let (low, high) = bounds(others.chain([force]));
+    Band { low, high }
 }
 
 #[cfg(test)]

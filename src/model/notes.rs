@@ -192,7 +192,8 @@ const ROWS: &[fn(&Context) -> Option<Note>] = &[
         (duration > transit).then_some(Note::general("impact-outlasts-approach", message))
     },
     |k| {
-        let ratio = k.solution.impact?.impulse_ratio;
+        let impact = k.solution.impact?;
+        let ratio = impact.impulse_ratio;
         let cause = match k.solution.method {
             Method::Paper if ratio < 1.0 => "Eq. 32 as printed lacks Hertz's prefactor",
             Method::Paper => {
@@ -201,7 +202,7 @@ const ROWS: &[fn(&Context) -> Option<Note>] = &[
             _ => "force and duration do not belong to one impact",
         };
         let message = format!("the impulse ratio is {}, outside 1..2: {cause}", four(ratio));
-        (!is_possible(ratio)).then_some(Note::general("impulse-ratio", message))
+        (!impact.is_possible()).then_some(Note::general("impulse-ratio", message))
     },
     |k| {
         let deviation = k.solution.deviation;
@@ -374,12 +375,6 @@ pub(super) const USUAL_BACKLASH: RangeInclusive<f64> = -1e-4..=0.1;
 
 /// Least thickness of a tip over the module.
 pub(super) const THIN_TIP: f64 = 0.2;
-
-/// Whether force and duration can belong to one impact.
-pub(super) fn is_possible(impulse_ratio: f64) -> bool {
-    const ROUNDING: f64 = 1e-9;
-    (1.0 - ROUNDING..=2.0 + ROUNDING).contains(&impulse_ratio)
-}
 
 /// Sliding velocity at D and at E, in m/s.
 pub(super) fn sliding(k: &Context) -> Option<[f64; 2]> {

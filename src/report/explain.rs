@@ -17,6 +17,7 @@ use crate::model::explanation::{Context, Finding};
 use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Solution, Stage, Stages, auto};
+use crate::numeric::bounds;
 use crate::numeric::decimal::significant;
 use crate::report::table::{Cell, Column, Table, WIDTH, count, flow, json, with, write_line};
 use crate::report::verdict::{Absence, Beside};
@@ -410,8 +411,7 @@ fn over_models(quantity: &Quantity, own: f64, known: &Known) -> Option<String> {
     let inputs = known.context.inputs;
     let found = StiffnessModels::covering(inputs)
         .filter_map(|models| value_of(quantity, &models.in_place_of(inputs)));
-    let (least, most) =
-        found.fold((own, own), |(least, most), value| (least.min(value), most.max(value)));
+    let (least, most) = bounds(found.chain([own]));
     let share = |value: f64| format!("{:+.1} %", 100.0 * (value - own) / own.abs());
     (most - least > noise(quantity, inputs) * own.abs()).then(|| {
         format!(

@@ -2,9 +2,7 @@
 
 use crate::model::compliance::model_of;
 use crate::model::explanation::{Context, Finding, four, micro, mm};
-use crate::model::notes::{
-    THIN_TIP, USUAL_BACKLASH, backlash, inertia_at_rest, is_possible, sliding,
-};
+use crate::model::notes::{THIN_TIP, USUAL_BACKLASH, backlash, inertia_at_rest, sliding};
 use crate::model::profile::{Profile, Rack, normal_tip_thickness};
 
 /// No interference at the start of contact.
@@ -137,11 +135,12 @@ fn ends_before_start(k: &Context, range: &str, (symbol, duration): (&str, f64)) 
 
 /// Force and duration are consistent.
 pub(super) fn possible(k: &Context) -> Option<Finding> {
-    let ratio = k.solution.impact?.impulse_ratio;
+    let impact = k.solution.impact?;
+    let ratio = impact.impulse_ratio;
     Finding::new(
         "1 <= κ <= 2: force and duration belong to one impact",
         format!("κ = {}", four(ratio)),
-        is_possible(ratio),
+        impact.is_possible(),
     )
 }
 
