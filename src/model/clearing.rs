@@ -12,7 +12,7 @@ use super::mesh::build::Meshes;
 use super::position::printed_relief_to_clear;
 use super::relief::Reliefs;
 use super::slices::{self, Face};
-use super::static_load::{lead_at_rest, lead_work};
+use super::static_load::{StaticLoad, lead_at_rest, lead_work};
 use super::{Outcome, Refusal, Solution, Stage};
 use crate::numeric::steps;
 
@@ -72,15 +72,13 @@ pub fn clearing(
     let meter = Meter::new(SEARCH_WORK);
     let (entry, exit) = (Search::new(false, &meter), Search::new(true, &meter));
     let (given, of_driver) = (inputs.driven.tip_relief, inputs.driver.tip_relief);
-    let at_rest = solution.static_load.as_ref();
-    let at_exit = match at_rest.and_then(|load| load.last_contact_angle) {
-        None => None,
-        Some(_) => {
-            let found = exit.least(&inputs.mesh(), None, inputs.face(), solution, go_on);
-            let relief = Refusal::unless_stopped(found)?.ok().filter(|relief| *relief > 0.0);
-            relief.map(|relief| (of_driver, enough(relief, of_driver)))
-        }
-    };
+    let touches_after = |load: &StaticLoad| load.last_contact_angle.is_some();
+    let mut at_exit = None;
+    if solution.static_load.as_ref().is_some_and(touches_after) {
+        let found = exit.least(&inputs.mesh(), None, inputs.face(), solution, go_on);
+        let relief = Refusal::unless_stopped(found)?.ok().filter(|relief| *relief > 0.0);
+        at_exit = relief.map(|relief| (of_driver, enough(relief, of_driver)));
+    }
     let found = match (solution.outcome, inputs.method) {
         (Outcome::NoCornerContact, _) => Ok(None),
         (_, Method::Exact | Method::Auto) => Ok(Some(solution.deviation.total)),

@@ -111,7 +111,7 @@ fn a_setting_replaces_its_alternative_and_a_sweep_varies_it() {
 
 #[test]
 fn saving_keeps_the_size_that_the_user_wrote() {
-    let mut document = Document::parse("case.toml", &drawing()).unwrap();
+    let mut document = Document::parse("case.toml", drawing()).unwrap();
     document.case.set("driver.teeth", "20").unwrap();
     assert_eq!(document.render(), drawing());
     document.case.set("driver.addendum", "0.9").unwrap();
@@ -130,7 +130,7 @@ fn the_page_of_a_quantity_shows_the_coefficient_that_a_diameter_gives() {
 
 #[test]
 fn a_value_follows_from_each_alternative() {
-    let drawn = Document::parse("case.toml", &drawing()).unwrap().case;
+    let drawn = Document::parse("case.toml", drawing()).unwrap().case;
     let derived =
         |case: &Case, key: &str| case.derived(index_of(key).unwrap(), &case.inputs().unwrap());
     let table_1 = Case::table_1();

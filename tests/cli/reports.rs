@@ -12,7 +12,7 @@ fn the_report_of_every_case_is_unchanged_and_fits_80_columns() {
     for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
         let stem = path.file_stem().unwrap().to_string_lossy();
         let name = format!("cases/{stem}.toml");
-        let document = Document::parse(&name, &fs::read_to_string(&path).unwrap()).unwrap();
+        let document = Document::parse(&name, fs::read_to_string(&path).unwrap()).unwrap();
         let inputs = document.case.inputs().unwrap();
         let report = Report::solve(name, document.case, inputs, Selection::default()).unwrap();
         let mut report = report.with_others();

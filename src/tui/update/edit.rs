@@ -354,7 +354,7 @@ pub(super) fn set_spread(app: &mut App, text: &str) {
 fn apply(app: &mut App, key: &str, text: Option<&str>, said: &str) {
     let mut case = app.tab.case.clone();
     match case.apply(key, text) {
-        Ok(_) => replace_saying(app, case, said),
+        Ok(()) => replace_saying(app, case, said),
         Err(problem) => app.complain(problem.for_form().to_string()),
     }
 }
