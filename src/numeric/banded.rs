@@ -49,9 +49,9 @@ impl<const ROW: usize, T: Entry> Banded<ROW, T> {
             let (known, rest) = rows.split_at_mut(at);
             let row = &mut rest[0];
             if at < ROW {
-                eliminate(row, known, at + 1)
+                eliminate(row, known, at + 1);
             } else {
-                eliminate(row, known, ROW)
+                eliminate(row, known, ROW);
             }
             if !row[0].is_positive() {
                 return None;

@@ -196,7 +196,19 @@ impl Face {
     /// The force of a pair in a part of the path, in N: all of it as in the balance, a part of it up to its
     /// border and to the end of the contact, which are between two slices.
     fn force(&self, loads: &Loads, ahead: i32, part: Part) -> f64 {
-        const PARTS: u32 = 8;
+        /// Parts of the step between two slices.
+        const PARTS: usize = 4;
+        /// ∫ of the load between two places with z, lead and load; the lead is linear where the contact ends.
+        fn between((from, lead, load): Sample, (to, other, last): Sample) -> f64 {
+            let part = match (lead > 0.0, other > 0.0) {
+                (true, true) => 1.0,
+                (false, false) => 0.0,
+                (true, false) => lead / (lead - other),
+                (false, true) => other / (other - lead),
+            };
+            0.5 * (load + last) * part * (to - from)
+        }
+        type Sample = (f64, f64, f64);
         let Some(border) = part.border(self.mesh.length) else {
             return self.pair_force(loads, ahead);
         };
@@ -205,39 +217,24 @@ impl Face {
             let lead = loads.lead_at(ahead, number);
             (self.slices[number].z, lead, loads.at(ahead, number))
         });
-        let at_border = self.lead_between(loads, ahead, border);
-        let at_border =
-            at_border.map(|(lead, compliance, z)| (z, lead, lead.max(0.0) / compliance));
-        let mut places: Vec<(f64, f64, f64)> = at_slices.chain(at_border).collect();
+        let at = |path: f64| {
+            let (lead, compliance, z) = self.lead_between(loads, ahead, path)?;
+            Some((z, lead, lead.max(0.0) / compliance))
+        };
+        let mut places: Vec<Sample> = at_slices.chain(at(border)).collect();
         places.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let trapezoid = |ends: &[(f64, f64, f64)]| {
-            let [(from, lead, load), (to, other, last)] = [ends[0], ends[1]];
-            // The lead is linear where the contact ends.
-            let part = match (lead > 0.0, other > 0.0) {
-                (true, true) => 1.0,
-                (false, false) => 0.0,
-                (true, false) => lead / (lead - other),
-                (false, true) => other / (other - lead),
-            };
-            0.5 * (load + last) * part * (to - from)
-        };
         let middle = loads.s + f64::from(ahead) * self.mesh.base_pitch;
-        let between = |ends: &[(f64, f64, f64)]| {
-            if ends[0].1.max(ends[1].1) <= 0.0 {
-                return 0.0;
+        let mut sum = 0.0;
+        for ends in places.windows(2).filter(|ends| ends[0].1.max(ends[1].1) > 0.0) {
+            let inside = numeric::steps(ends[0].0, ends[1].0, PARTS).skip(1).take(PARTS - 1);
+            let inside = inside.filter_map(|z| at(middle + z * self.inputs.lead));
+            let mut before = ends[0];
+            for here in inside.chain([ends[1]]) {
+                sum += between(before, here);
+                before = here;
             }
-            let inside = (1..PARTS).filter_map(|part| {
-                let z = ends[0].0 + (ends[1].0 - ends[0].0) * f64::from(part) / f64::from(PARTS);
-                let (lead, compliance, z) =
-                    self.lead_between(loads, ahead, middle + z * self.inputs.lead)?;
-                Some((z, lead, lead.max(0.0) / compliance))
-            });
-            let mut fine = vec![ends[0]];
-            fine.extend(inside);
-            fine.push(ends[1]);
-            fine.windows(2).map(trapezoid).sum()
-        };
-        places.windows(2).map(between).sum()
+        }
+        sum
     }
 
     /// ∫ of a value over the face.
