@@ -197,7 +197,7 @@ impl Face {
     /// border and to the end of the contact, which are between two slices.
     fn force(&self, loads: &Loads, ahead: i32, part: Part) -> f64 {
         /// Parts of the step between two slices.
-        const PARTS: usize = 4;
+        const PARTS: usize = 8;
         /// ∫ of the load between two places with z, lead and load; the lead is linear where the contact ends.
         fn between((from, lead, load): Sample, (to, other, last): Sample) -> f64 {
             let part = match (lead > 0.0, other > 0.0) {
