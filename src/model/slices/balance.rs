@@ -313,7 +313,7 @@ impl Face {
             can_carry: true,
             local,
             whole: means[1],
-            root: (teeth * (1.0 + self.excess)).sqrt(),
+            root: self.root(teeth),
             weight: 1.0 - mesh.friction() * self.inputs.oblique * means[4],
         };
         sides.extend(found);
@@ -374,7 +374,8 @@ impl Face {
     }
 
     /// The lead of a pair at a place of its path between two slices, the compliance by which its own
-    /// load reduces it, and z. `None` if the place is not on the face, or in all slices at once.
+    /// load reduces it, and z. `None` if the place is not on the face, beyond the computed range, or in all
+    /// slices at once.
     pub(super) fn lead_between(
         &self,
         loads: &Loads,
@@ -385,7 +386,8 @@ impl Face {
         let z = (path - loads.s - f64::from(ahead) * self.mesh.base_pitch) / self.inputs.lead;
         let after = self.slices.partition_point(|slice| slice.z < z);
         // An end of the face counts as on it, whatever the rounding; without a lead z is no number.
-        if z.is_nan() || z.abs() > 0.5 * self.inputs.width * (1.0 + 1e-9) {
+        let (from, to) = self.mesh.ends();
+        if !(z.abs() <= 0.5 * self.inputs.width * (1.0 + 1e-9) && (from..=to).contains(&path)) {
             return None;
         }
         let before = after.clamp(1, self.slices.len() - 1) - 1;
@@ -400,10 +402,10 @@ impl Face {
             part * (value - bend * step * step * (1.0 - part * part) / 6.0)
         };
         let teeth = cubic(rest, one) + cubic(part, other);
-        let slice = Slice::at(&self.inputs, z);
-        let (contact, _) = self.contact(&slice, path - slice.ahead, None, &mut Vec::new());
-        let lead = ahead_of - contact.gap - contact.root * teeth;
-        Some((lead, contact.whole + self.own(&contact), z))
+        let (slice, means) = (Slice::at(&self.inputs, z), self.section(path));
+        let root = self.root(self.compliances(&slice, &means)[1]);
+        let lead = ahead_of - self.sections.one(0, path) - slice.gap - root * teeth;
+        Some((lead, means[1] + self.own(root), z))
     }
 
     /// The line load of a pair at a place of its path between two slices, and z.
@@ -419,10 +421,15 @@ impl Face {
         if path.abs() < whole.abs() { path / whole * most } else { 0.0 }
     }
 
+    /// √(1 + ε) √q_t of the compliance of the teeth.
+    fn root(&self, teeth: f64) -> f64 {
+        (teeth * (1.0 + self.excess)).sqrt()
+    }
+
     /// The part of the compliance of a pair by which its own load deflects the slice alone: without
     /// coupling that of the teeth, too.
-    fn own(&self, contact: &Contact) -> f64 {
-        if self.inputs.coupling_length > 0.0 { 0.0 } else { contact.root * contact.root }
+    fn own(&self, root: f64) -> f64 {
+        if self.inputs.coupling_length > 0.0 { 0.0 } else { root * root }
     }
 
     /// κ, row by row.
@@ -557,7 +564,7 @@ impl Position<'_> {
         }
         let known = self.contacts.iter().enumerate().filter(|(_, of)| of.gap < f64::INFINITY);
         for (at, of) in known {
-            let own = self.face.own(of);
+            let own = self.face.own(of.root);
             // The middle of a slice alone deflects under its own load, not under the mean.
             let moved =
                 displacement - of.mean - means[at] - (of.whole - of.local + own) * mean_loads[at];
@@ -650,7 +657,11 @@ impl Position<'_> {
             }
             let mean = |(of, teeth): (&Contact, f64)| {
                 let lead = displacement - of.mean - of.root * teeth;
-                if lead > 0.0 { lead * of.local / (of.whole + self.face.own(of)) } else { lead }
+                if lead > 0.0 {
+                    lead * of.local / (of.whole + self.face.own(of.root))
+                } else {
+                    lead
+                }
             };
             let means: Vec<f64> = self.contacts.iter().zip(teeth).map(mean).collect();
             let guess = |(at, of): (usize, &Contact)| {
@@ -680,7 +691,11 @@ impl Position<'_> {
         let mut teeth = vec![0.0; self.contacts.len()];
         for (pair, ahead) in (self.first..).take(self.pairs).enumerate() {
             let Some(known) = near.index(ahead) else { continue };
-            let of = |slice: usize| near.teeth[slice.min(last) * near.pairs + known][0];
+            let of = |slice: usize| {
+                let slice = slice.min(last);
+                let [middle, bend] = near.teeth[slice * near.pairs + known];
+                middle + bend * self.face.slices[slice].spread
+            };
             for (slice, new) in teeth[pair..].iter_mut().step_by(self.pairs).enumerate() {
                 let before = slice.saturating_add_signed(whole);
                 *new = of(before) + part * (of(before + 1) - of(before));
