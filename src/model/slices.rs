@@ -124,7 +124,8 @@ impl Face {
     /// u = (1 + ε) v − ε f,   v − L²/(1 + ε) v'' = f,   ε = h²/(12 L² − h²)
     /// ```
     /// With this v in slices of the width h, the mean of u over a slice has an error of fourth order in
-    /// h, for u − L² u'' = f.
+    /// h, for u − L² u'' = f. In the middle of a slice u is smaller than this mean by u'' h²/24, and between
+    /// two slices the cubic with both u and both u''.
     ///
     /// # Source
     /// A turn about parallel axes keeps each point in its plane across the axis, so that flanks and

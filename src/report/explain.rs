@@ -380,7 +380,7 @@ fn numerical(quantity: &Quantity, known: &Known) -> Option<String> {
         Stage::SpeedRun => "the speeds are 1/120 of their range apart".to_owned(),
         Stage::Static | Stage::StaticSpectrum if inputs.face().is_some() => {
             "at most 1e-11 of the value with these slices; the usual number leaves transmission error \
-             and load shares within 0.1 %, line loads within about 1 %, forces on the tips within 10 %"
+             and load shares within 0.1 %, line loads and forces on the tips within about 0.5 %"
                 .to_owned()
         }
         Stage::Static | Stage::StaticSpectrum => "at most 1e-11 of the value".to_owned(),
