@@ -6,7 +6,7 @@ use super::{Report, common_unit, grouped, is_default, numbers, shown_with, value
 use crate::case::fields::{Absent, index_of};
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
-use crate::case::units::System;
+use crate::case::units::{self, System};
 use crate::case::{Case, FIELDS};
 use crate::model::quantities::conditions::helical;
 use crate::model::{Inputs, Quantity};
@@ -406,6 +406,7 @@ fn inputs(cases: &[PageCase], units: System) -> Table {
 /// not change it.
 fn input(at: usize, report: &Report, units: System) -> (Option<String>, bool) {
     const DIGITS: usize = 6;
+    const TOLERANCE_DIGITS: usize = 4;
     let (case, field) = (&report.case, &FIELDS[at]);
     let shown = |value| units.text(value, field.usual_unit(), DIGITS);
     let derived = case.derived(at, &report.inputs).map(shown);
@@ -413,9 +414,14 @@ fn input(at: usize, report: &Report, units: System) -> (Option<String>, bool) {
     // A given value keeps its unit.
     let usual = || Some(field.text_in(case.effective(at)?, units)).filter(|_| !words);
     let text = derived.or_else(|| case.text(at).map(sanitize)).or_else(usual);
-    let off = tolerance(case, field.key);
-    let off = if off > 0.0 { format!(" ±{}", shown(off)) } else { String::new() };
-    (text.map(|text| text + &off), is_default(at, case))
+    let off = Some(tolerance(case, field.key)).filter(|off| *off > 0.0);
+    let with_tolerance = |text: String| match (off, units::split(&text, "")) {
+        (Some(off), Ok((_, unit))) => {
+            format!("{text} ±{}", System::Metric.text(off, unit, TOLERANCE_DIGITS))
+        }
+        _ => text,
+    };
+    (text.map(with_tolerance), is_default(at, case))
 }
 
 /// The main results, and all results in groups, in the order of the method of the first case.

@@ -190,10 +190,10 @@ fn a_case_with_variants_and_spread_has_a_table_of_each_on_its_pages() {
     );
     let case = case.as_str();
     for ending in ["html", "md"] {
-        let page = report(&[case, "--set", "driven.tip_relief=30 um"], ending);
+        let page = report(&[case, "--set", "driven.tip_relief=1 thou"], ending);
         let variants = ["Studies", "Variants, with the differences from the case", "relieved"];
         let spread =
-            ["Tolerance, 10000 samples", "Spread: base pitch deviation 16 um", "30 um ±5 um"];
+            ["Tolerance, 10000 samples", "base pitch deviation 16 um", "1 thou ±0.1969 thou"];
         let rest = ["Probability of corner contact", "impact_force", "P95", "refused", "jammed: "];
         has(&page, &[&variants[..], &spread, &rest].concat());
         numbers_are_finite(&page);
