@@ -239,12 +239,13 @@ impl<'a> Charts<'a> {
         self.view().window(&self.scale())
     }
 
-    /// The view of the pane. A chart of the path or of the plane of contact starts with the whole contact.
+    /// The view of the pane. A chart of the path or of the plane of contact starts with the whole
+    /// contact, as does that of a case without contact before E: only its baseline has a strike.
     pub(crate) fn view(self) -> ChartView {
+        let first = self.solution().and_then(first_contact).unwrap_or_default();
+        let is_whole = self.is_by_model() || self.0.chart.is_pattern() || first <= 0.0;
         match self.0.chart.view {
-            ChartView::Opening if self.is_by_model() || self.0.chart.is_pattern() => {
-                ChartView::Whole
-            }
+            ChartView::Opening if is_whole => ChartView::Whole,
             view => view,
         }
     }
