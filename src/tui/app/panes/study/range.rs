@@ -156,7 +156,10 @@ fn with_present(mut axis: Axis, range: &AxisRange, case: &Case) -> Axis {
     };
     // A point that differs only by rounding is the present value.
     let rounding = own.abs() * 10f64.powi(1 - i32::try_from(digits).unwrap_or(0));
-    axis.points.retain(|other| other.number.is_none_or(|number| (number - own).abs() > rounding));
+    let is_own = |number: f64| (number - own).abs() <= rounding;
+    if axis.points.iter().any(|other| other.number.is_some_and(is_own)) {
+        return axis;
+    }
     let at = axis.points.partition_point(|other| other.number < Some(own));
     axis.points.insert(at, point);
     axis
@@ -320,9 +323,16 @@ pub(crate) fn vary(axis: &Axis) -> (String, Option<usize>) {
     (format!("{key}={} {}", texts.join(","), axis.unit).trim_end().to_owned(), None)
 }
 
-/// An axis as the user would type it.
+/// An axis as the user would type it: a curve without the present value between its equal steps.
 pub(crate) fn typed(axis: &Axis) -> String {
-    let (text, count) = vary(axis);
+    let without = |at: usize| {
+        let mut equal = axis.clone();
+        equal.points.remove(at);
+        Some(vary(&equal)).filter(|(_, count)| count.is_some())
+    };
+    let present = Some(axis.points.len()).filter(|count| *count == CURVE_POINTS + 1);
+    let steps = present.and_then(|count| (1..count - 1).find_map(without));
+    let (text, count) = steps.unwrap_or_else(|| vary(axis));
     let text = text.replacen('=', " = ", 1);
     count.map_or(text.clone(), |count| format!("{text}, {count} points"))
 }
@@ -404,6 +414,21 @@ mod tests {
         let damping = index_of("model.damping_ratio");
         let wrong = typed_axes([damping, None], "100..400 N m").expect_err("a wrong unit");
         assert!(wrong.ends_with("write a range within 0..2"), "{wrong}");
+    }
+
+    #[test]
+    fn the_range_of_a_curve_is_typed_as_its_ends_and_points() {
+        for (key, text, units, expected) in [
+            ("driver.face_width", "30 mm", System::Inch, "0.590551..1.77165 in, 101 points"),
+            ("pair.pressure_angle", "20 deg", System::Metric, "14.5..30 deg, 101 points"),
+        ] {
+            let mut case = Case::table_1();
+            case.set(key, text).expect("a value");
+            let range = RangeOf { units, ..range_of(&case, 0) };
+            let field = index_of(key).expect("a field");
+            let axis = range.axis(field, Steps::Equal(CURVE_POINTS)).expect("a range");
+            assert_eq!(typed(&axis), format!("{key} = {expected}"));
+        }
     }
 
     #[test]
