@@ -279,9 +279,6 @@ fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> 
         }
         Ok(value) if is_whole => Ok(value as u32),
         Ok(_) => refused(format!("{} is not a whole number", quoted(text))),
-        Err(misread) if matches!(units::split(text, ""), Ok((_, unit)) if !unit.is_empty()) => {
-            Err(misread.at(known.key))
-        }
         Err(misread) => refused(misread.cause),
     }
 }

@@ -103,7 +103,7 @@ pub fn parse(text: &str, dimension: Dimension, usual: &str) -> Result<f64, Probl
     let (number, unit) = split_number(text.trim(), usual)?;
     let scale = match (dimension, unit) {
         (Dimension::Number, "") => Scale::Ten(0),
-        (Dimension::Number, _) => return Err(unit_unwanted(number, unit)),
+        (Dimension::Number, _) => return Err(unit_unwanted(text, unit)),
         (_, "") => return Err(unit_missing(number, dimension, usual)),
         _ => find(unit, units_of(dimension)).ok_or_else(|| unit_wrong(unit, dimension))?.scale,
     };
@@ -201,12 +201,12 @@ fn plain_spelling(unit: &str) -> String {
     plain
 }
 
-fn unit_unwanted(number: &str, unit: &str) -> Problem {
-    Problem::new(
-        "",
-        format!("unit {} is not allowed here", quoted(unit)),
-        format!("write {}", cut(number)),
-    )
+fn unit_unwanted(text: &str, unit: &str) -> Problem {
+    let cause = match known(unit) {
+        Some(_) => format!("this value has no unit such as {}", quoted(unit)),
+        None => format!("{} is not a number", quoted(text.trim())),
+    };
+    Problem::new("", cause, example(""))
 }
 
 fn unit_missing(number: &str, dimension: Dimension, usual: &str) -> Problem {

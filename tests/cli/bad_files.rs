@@ -78,7 +78,7 @@ const ONE_BAD_LINE: &[OneLine] = &[
     ("teeth = 20", "teeth = -20", 0, 9, "driver.teeth", "below the limit of 5", "from 5 to 1000"),
     ("teeth = 20", "teeth = \"20\"", 0, 9, "driver.teeth", "quotes", "without quotes"),
     ("teeth = 20", "teeth = 1e400", 0, 9, "driver.teeth", "too large", "whole number"),
-    ("teeth = 20", "teeth = 20 mm", 0, 9, "driver.teeth", "unit `mm`", "write 20"),
+    ("teeth = 20", "teeth = 20 mm", 0, 9, "driver.teeth", "such as `mm`", "such as 20"),
     ("teeth = 20", "teeth = 020", 0, 9, "driver.teeth", "not how TOML writes", "write 20"),
     ("poisson = 0.3", "poisson = 0,3", 0, 11, "driver.poisson", "comma", "write 0.3, not 0,3"),
     ("poisson = 0.3", "poisson = .3", 0, 11, "driver.poisson", "not how TOML writes", "write 0.3"),

@@ -70,7 +70,8 @@ fn invalid_values_are_refused_with_a_fix() {
         ("5 5 mm", Length, "mm", "not one number", "20 mm"),
         ("5.5.5 mm", Length, "mm", "not one number", "20 mm"),
         ("1_000 mm", Length, "mm", "not one number", "20 mm"),
-        ("0.3 mm", Number, "", "is not allowed here", "write 0.3"),
+        ("0.3 mm", Number, "", "has no unit such as `mm`", "such as 0.5"),
+        ("1e", Number, "", "`1e` is not a number", "such as 0.5"),
         ("2 kNm", Power, "kW", "unit of torque, not of power", "use one of kW"),
         ("3 RPm", AngularVelocity, "rpm", "unknown unit", "did you mean rpm"),
     ] {
