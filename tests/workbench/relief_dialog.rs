@@ -21,8 +21,10 @@ fn the_relief_to_specify_is_written_into_the_case_as_one_edit() {
 
 #[test]
 fn a_typed_demand_starts_a_search_and_an_invalid_one_gets_a_reason() {
-    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
-    desk.keys(&["Esc", ":", "relief", "Enter"]).assert_shows("for 25 to 110 %");
+    let relief = TABLE_1.replace("tip_relief = \"0 um\"", "tip_relief = \"20 um\"");
+    let spread = "\n[spread]\n\"driven.tip_relief\" = { uniform = \"4 um\" }\n";
+    let mut desk = Desk::on(LARGE, "case.toml", &(relief + spread));
+    desk.keys(&["Esc", ":", "relief", "Enter"]).assert_shows("25..110 %, 4 um, te");
     desk.keys(&["Ctrl-U", "110..25 %", "Enter"]);
     desk.assert_shows("! 110..25 %: the range is reversed: write a range");
     desk.keys(&["Ctrl-U", "50..100 %, 2 um"]).assert_shows("Results of the earlier input");

@@ -10,6 +10,9 @@ use crate::numeric::decimal::shortest;
 /// Number of loads of a range.
 const LOADS: u32 = 6;
 
+/// Significant digits of a tolerance.
+const DIGITS: usize = 4;
+
 /// The word before the deviation of the misalignment.
 const MISALIGNMENT: &str = "misalignment";
 
@@ -177,7 +180,7 @@ impl Demand {
 
     /// The text that [`Demand::parse`] reads.
     pub fn text(&self, units: System) -> String {
-        let text = |length, unit| units::text(length, units.unit(unit));
+        let text = |length, unit| units.text(length, unit, DIGITS);
         let tolerances = [(Some(self.tolerance), "um"), (self.tolerance_length, "mm")];
         let tolerances = tolerances.into_iter();
         let tolerances = tolerances.filter_map(|(length, unit)| Some(text(length?, unit)));

@@ -7,7 +7,7 @@ use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::{Case, FIELDS, Field, Limit, changes};
 use crate::model::Quantity;
 use crate::model::inputs::Method;
-use crate::report;
+use crate::report::{self, relief};
 use crate::study::relief::Demand;
 use crate::tui::app::App;
 use crate::tui::app::actions::Choice;
@@ -370,14 +370,21 @@ pub(super) fn set_about(app: &mut App, text: &str) {
     apply(app, &format!("about.{name}"), Some(value), &said);
 }
 
-/// Opens the dialog and starts the search with the last demand of the tab.
+/// Opens the dialog and starts the search with the last demand of the tab, or with the tolerances
+/// of the case.
 pub(super) fn ask_relief(app: &mut App) {
     let Some(inputs) = app.tab.inputs().cloned() else {
         return app.complain("no search: fix the fields marked with ! first");
     };
     let units = app.settings.units;
     let demand = app.tab.demand.clone();
-    let demand = demand.unwrap_or_else(|| Demand::usual(units).text(units));
+    let demand = demand.unwrap_or_else(|| {
+        let [driver, driven, from, to] = relief::tolerances(&app.tab.case);
+        let given = |off: f64| Some(off).filter(|off| *off > 0.0);
+        let usual = Demand::usual(units);
+        let tolerance = given(driver.max(driven)).unwrap_or(usual.tolerance);
+        Demand { tolerance, tolerance_length: given(from.max(to)), ..usual }.text(units)
+    });
     let mut dialog = ReliefDialog::new(inputs, demand, take_relief);
     app.start_all(dialog.search());
     app.prompts.push(Prompt::Relief(Box::new(dialog)));
