@@ -341,12 +341,17 @@ impl Specification {
         let rows = self.choices.iter().enumerate().map(|(at, choice)| {
             let best = if at == self.best { "true" } else { "false" };
             let texts = [choice.name, best, name(choice.reliefs.shape)].map(Cell::from);
-            let numbers = self.numbers().iter().map(|(.., (shown, digits), of)| {
+            let numbers = self.numbers().iter().map(|(key, .., (shown, digits), of)| {
                 let Some(value) = of(self, choice) else { return Cell::None("-".into()) };
                 let text = match *shown {
                     "%" => format!("{:+.0} %", 100.0 * value),
                     "% load" => format!("{:.1} %", 100.0 * value),
-                    unit => units.number(value, unit, *digits),
+                    unit => {
+                        let number = units::per(value, units.unit(unit));
+                        let steps = steps(key, unit, units);
+                        let number = steps.map_or(number, |by| (number * by).round() / by);
+                        tidy(number, *digits)
+                    }
                 };
                 Cell::Shown(value, text)
             });
@@ -717,6 +722,17 @@ pub(super) fn drawn(value: f64, metric: &str, units: System) -> String {
         "thou" => shortest((number * 1000.0).round() / 1000.0),
         "in" => format!("{number:.4}"),
         _ => format!("{number:.2}"),
+    }
+}
+
+/// One over the least step of a length of a choice in inch units, so that a row has at most 80
+/// columns.
+fn steps(key: &str, metric: &str, units: System) -> Option<f64> {
+    let is_relief = KEYS[0].contains(&key) || key == CROWNING;
+    match (units, metric) {
+        (System::Inch, "mm") => Some(1e3),
+        (System::Inch, "um") => Some(if is_relief { 1e2 } else { 1e4 }),
+        _ => None,
     }
 }
 
