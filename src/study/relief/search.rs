@@ -42,8 +42,10 @@ const TIMES: [f64; 4] = [1.0, 1.15, 1.4, 1.8];
 const FOLLOWED: usize = 4;
 /// Greatest stride of the search, in steps; it is halved down to one step.
 const STRIDE: i32 = 8;
-/// The directions of the search: both gears alike, then one gear or both in opposite directions.
-const DIRECTIONS: [[Steps; 4]; 4] = [
+/// The directions of the search: both gears alike along the narrow valley in which a greater amount
+/// needs a slightly shorter length, both alike, then one gear or both in opposite directions.
+const DIRECTIONS: [[Steps; 4]; 5] = [
+    [[2, 2, -1, -1], [4, 4, -1, -1], [8, 8, -1, -1], [16, 16, -1, -1]],
     [[1, 1, 0, 0], [0, 0, 1, 1], [1, 1, 1, 1], [1, 1, -1, -1]],
     [[1, 0, 0, 0], [0, 0, 1, 0], [1, 0, 1, 0], [1, 0, -1, 0]],
     [[0, 1, 0, 0], [0, 0, 0, 1], [0, 1, 0, 1], [0, 1, 0, -1]],
@@ -116,6 +118,8 @@ pub(super) struct Search<'a> {
     grid: &'a Grid,
     /// The deviations at the limits of the tolerances.
     corners: Vec<Off>,
+    /// The corner that last exceeded a bound: the next relief is likely to exceed it there too.
+    hardest: usize,
     /// Greatest sum of both amounts, in steps.
     most: i32,
     go_on: &'a dyn Fn(f64) -> bool,
@@ -130,7 +134,15 @@ impl<'a> Search<'a> {
         go_on: &'a dyn Fn(f64) -> bool,
     ) -> Search<'a> {
         let corners = bench.demand.corners();
-        Search { bench, grid, corners, most: i32::MAX, go_on, known: Default::default() }
+        Search {
+            bench,
+            grid,
+            corners,
+            hardest: 0,
+            most: i32::MAX,
+            go_on,
+            known: Default::default(),
+        }
     }
 
     /// The number of evaluated reliefs.
@@ -156,8 +168,9 @@ impl<'a> Search<'a> {
             starts.retain(|(steps, _)| steps[0] + steps[1] <= self.most);
             let fixed = self.best(shape, &clear, &[])?;
             least = least.or(fixed.map(|(steps, _)| self.grid.reliefs(shape, steps)));
-            for (kind, directions) in [(1, &DIRECTIONS[..1]), (0, &DIRECTIONS[..])] {
-                let Some(mut best) = self.best(shape, &starts, directions)? else { continue };
+            let alike = (1, &DIRECTIONS[..2], &DIRECTIONS[1..2]);
+            for (kind, errors, peaks) in [alike, (0, &DIRECTIONS[1..], &DIRECTIONS[1..])] {
+                let Some(mut best) = self.best(shape, &starts, errors)? else { continue };
                 starts.insert(0, best);
                 if let Some(peak) = peak {
                     let cost = |search: &mut Self, steps, _| {
@@ -168,7 +181,7 @@ impl<'a> Search<'a> {
                         Ok(if is_clear { peak(&reliefs)? * (1.0 + error) } else { error })
                     };
                     let start = (best.0, cost(self, best.0, f64::INFINITY)?);
-                    best = self.followed(start, directions, STRIDE / 2, &cost)?;
+                    best = self.followed(start, peaks, STRIDE / 2, &cost)?;
                 }
                 found.push((kind, names[kind], self.grid.reliefs(shape, best.0)));
             }
@@ -224,7 +237,7 @@ impl<'a> Search<'a> {
     ) -> Result<Option<Tried>, NoRelief> {
         let mut best: Option<Tried> = None;
         // Steps with both gears alike keep their lengths alike.
-        let is_free = directions.len() > 1;
+        let is_free = directions.len() > 2;
         let starts = starts.iter().filter(|(steps, _)| is_free || steps[2] == steps[3]);
         let count = if directions.is_empty() { usize::MAX } else { FOLLOWED };
         for &(steps, _) in starts.take(count) {
@@ -340,9 +353,10 @@ impl<'a> Search<'a> {
         if worst > bound || !self.clears(shape, steps)? {
             return Ok(f64::INFINITY);
         }
-        for at in 0..self.corners.len() {
+        for at in std::iter::once(self.hardest).chain(0..self.corners.len()) {
             worst = worst.max(self.figure(Figure::Error, &reliefs.off(self.corners[at]))?);
             if worst > bound {
+                self.hardest = at;
                 return Ok(f64::INFINITY);
             }
         }
