@@ -716,7 +716,7 @@ fn name(shape: ReliefShape) -> &'static str {
 /// 51 um, 6.10 mm, 2.008 thou, 0.2402 in.
 pub(super) fn drawn(value: f64, metric: &str, units: System) -> String {
     let unit = units.unit(metric);
-    let number = value / units::factor(unit).unwrap_or(1.0);
+    let number = units::per(value, unit);
     match unit {
         "um" => shortest((number * 10.0).round() / 10.0),
         "thou" => shortest((number * 1000.0).round() / 1000.0),
