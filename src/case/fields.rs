@@ -121,21 +121,15 @@ impl Field {
         self.example().split_once(' ').filter(|_| is_number).map_or("", |(_, unit)| unit)
     }
 
-    /// A default or an example of the field in the units of the system, as a bare number gets them.
-    pub(crate) fn text_in(&self, text: &str, system: System) -> String {
-        let unit = self.usual_unit();
+    /// A default or an example of the field in a unit.
+    pub(crate) fn text_in(&self, text: &str, unit: &str) -> String {
         let value = match self.kind {
-            Kind::Number(dimension, ..) if system.unit(unit) != unit => {
+            Kind::Number(dimension, ..) if unit != self.usual_unit() => {
                 units::parse(text, dimension, "").ok()
             }
             _ => None,
         };
-        value.map_or_else(|| text.to_owned(), |value| self.in_usual_unit(value, system))
-    }
-
-    /// A value in SI in the usual unit of the field, with the digits of a hint.
-    pub(crate) fn in_usual_unit(&self, value: f64, system: System) -> String {
-        system.text(value, self.usual_unit(), DIGITS)
+        value.map_or_else(|| text.to_owned(), |value| in_unit(value, unit))
     }
 
     /// The index of its alternative in [`FIELDS`].
@@ -284,6 +278,11 @@ impl Field {
         let auto = if self.takes_auto() { format!(", or {AUTO}") } else { String::new() };
         format!("{}{auto}", text.trim_end())
     }
+}
+
+/// A value in SI in a unit, with the digits of a hint.
+pub(crate) fn in_unit(value: f64, unit: &str) -> String {
+    System::Metric.text(value, unit, DIGITS)
 }
 
 /// The index of a key in [`FIELDS`].

@@ -408,11 +408,12 @@ fn input(at: usize, report: &Report, units: System) -> (Option<String>, bool) {
     const DIGITS: usize = 6;
     const TOLERANCE_DIGITS: usize = 4;
     let (case, field) = (&report.case, &FIELDS[at]);
-    let shown = |value| units.text(value, field.usual_unit(), DIGITS);
+    let unit = units.unit(field.usual_unit());
+    let shown = |value| System::Metric.text(value, unit, DIGITS);
     let derived = case.derived(at, &report.inputs).map(shown);
     let words = matches!(field.absent, Absent::Without(_)) && case.text(at).is_none();
     // A given value keeps its unit.
-    let usual = || Some(field.text_in(case.effective(at)?, units)).filter(|_| !words);
+    let usual = || Some(field.text_in(case.effective(at)?, unit)).filter(|_| !words);
     let text = derived.or_else(|| case.text(at).map(sanitize)).or_else(usual);
     let off = Some(tolerance(case, field.key)).filter(|off| *off > 0.0);
     let with_tolerance = |text: String| match (off, units::split(&text, "")) {

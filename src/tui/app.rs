@@ -229,11 +229,18 @@ impl App {
     /// The completion of the typed text of the focused field: its unit, or the rest of a name.
     pub fn ending(&self) -> Option<String> {
         let Tab { case, form, .. } = &self.tab;
-        let (typed, written) = (form.input.value(), form.written_unit.as_deref());
         if !self.has_line() {
             return None;
         }
-        rows::ending(case, form.focus, typed, written, self.settings.units)
+        rows::ending(case, form.focus, form.input.value(), self.bare_unit(form.focus))
+    }
+
+    /// The unit that a bare number gets in a row: that of the focused value as it was written, otherwise
+    /// the displayed unit.
+    pub(crate) fn bare_unit(&self, row: usize) -> &str {
+        let Tab { case, form, .. } = &self.tab;
+        let written = form.written_unit.as_deref().filter(|_| form.focus == row);
+        written.unwrap_or(rows::displayed_unit(case, row, self.settings.units))
     }
 
     /// Shows a message until the next key.

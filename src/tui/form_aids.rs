@@ -28,20 +28,11 @@ impl Field {
         units::converted(typed, dimension, self.usual_unit(), system)
     }
 
-    /// The default of a field in the units of the system; empty without one.
-    pub(crate) fn default_in(&self, system: System) -> String {
-        match self.absent {
-            Absent::Default(text) => self.text_in(text, system),
-            _ => String::new(),
-        }
-    }
-
-    /// The least and the greatest value as in [`Field::range_text`]; in inch units they are
+    /// The least and the greatest value as in [`Field::range_text`]; in another unit they are
     /// rounded.
-    pub(crate) fn range_in(&self, system: System) -> String {
+    pub(crate) fn range_in(&self, unit: &str) -> String {
         match self.kind {
-            Kind::Number(_, range, _) if system.unit(range.unit) != range.unit => {
-                let unit = system.unit(range.unit);
+            Kind::Number(_, range, _) if unit != range.unit => {
                 let [from, to] = [range.unit, unit].map(|unit| units::factor(unit).unwrap_or(1.0));
                 let end = |value: f64| significant(value * from / to, RANGE_DIGITS);
                 format!("about {} to {} {unit}", end(range.from), end(range.to))
@@ -244,18 +235,17 @@ mod tests {
     }
 
     #[test]
-    fn a_hint_shows_the_value_in_the_usual_unit_and_the_range_in_both_systems() {
+    fn a_hint_shows_the_value_in_the_usual_unit_and_the_range_in_any() {
         assert_eq!(
             field("operation.power").converted("20 hp", System::Metric).as_deref(),
             Some("= 14.914 kW")
         );
         assert_eq!(field("driver.teeth").converted("20", System::Metric), None);
-        assert_eq!(field("pair.module").range_in(System::Metric), "0.05 to 50 mm");
-        assert_eq!(field("pair.module").range_in(System::Inch), "about 0.00197 to 1.97 in");
-        assert_eq!(field("driven.tip_relief").default_in(System::Metric), "0 um");
-        assert_eq!(field("driven.tip_relief").default_in(System::Inch), "0 thou");
-        assert_eq!(field("driver.teeth").range_in(System::Inch), "5 to 1000");
-        assert_eq!(field("operation.speed").range_in(System::Inch), "0.001 to 1000000 rpm");
+        assert_eq!(field("pair.module").range_in("mm"), "0.05 to 50 mm");
+        assert_eq!(field("pair.module").range_in("in"), "about 0.00197 to 1.97 in");
+        assert_eq!(field("driven.tip_relief").text_in("0 um", "thou"), "0 thou");
+        assert_eq!(field("driver.teeth").range_in(""), "5 to 1000");
+        assert_eq!(field("operation.speed").range_in("rpm"), "0.001 to 1000000 rpm");
     }
 
     fn is_unfinished(key: &str, typed: &str) -> bool {

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::case::fields::{AUTO, Absent, Field, index_of};
+use crate::case::fields::{AUTO, Absent, Field, in_unit, index_of};
 use crate::case::spread::{Shape, parts};
 use crate::case::units::{self, System};
 use crate::case::{Acting, Case, FIELDS, Limit, Spread, relevance};
@@ -123,20 +123,19 @@ pub(crate) fn rest_of_shape(case: &Case, at: usize, typed: &str) -> Option<&'sta
     Shape::ALL.into_iter().filter(|_| is_begun).find_map(rest)
 }
 
-/// The completion of a text typed into a row: the name of a distribution, or the unit in which its
-/// value was written, otherwise the displayed unit.
-pub(crate) fn ending(
-    case: &Case,
-    at: usize,
-    typed: &str,
-    written: Option<&str>,
-    system: System,
-) -> Option<String> {
+/// The completion of a text typed into a row: the name of a distribution, or the unit of a bare
+/// number.
+pub(crate) fn ending(case: &Case, at: usize, typed: &str, bare: &str) -> Option<String> {
     if let Some(rest) = rest_of_shape(case, at, typed) {
         return Some(rest.to_owned());
     }
-    let (number, measure) = measure(case, at, typed, system)?;
-    units::ending(number, measure.dimension, written.unwrap_or(measure.unit))
+    let (number, measure) = measure(case, at, typed, System::Metric)?;
+    units::ending(number, measure.dimension, bare)
+}
+
+/// The displayed unit of a row; empty without one.
+pub(crate) fn displayed_unit(case: &Case, at: usize, system: System) -> &'static str {
+    measure(case, at, "", system).map_or("", |(_, measure)| measure.unit)
 }
 
 /// Whether an invalid text of a row is merely unfinished: further typing may complete it.
@@ -222,17 +221,18 @@ pub(crate) fn lacks(case: &Case, at: usize) -> bool {
     at < FIELDS.len() && case.lacks(at)
 }
 
-/// The text of an empty field: the derived value, the default, or that a value is required.
-pub(crate) fn unwritten(case: &Case, inputs: &Inputs, field: usize, system: System) -> String {
+/// The text of an empty field: the derived value or the default in the unit of a bare number, or that
+/// a value is required.
+pub(crate) fn unwritten(case: &Case, inputs: &Inputs, field: usize, bare: &str) -> String {
     let known = &FIELDS[field];
     let is_derived = known.partner().is_none() || case.is_replaced(field);
     if is_derived && let Some(value) = case.derived(field, inputs) {
-        return format!("({})", known.in_usual_unit(value, system));
+        return format!("({})", in_unit(value, bare));
     }
     match (known.absent, known.partner()) {
         (Absent::Default(""), _) => String::new(),
         (_, Some(other)) if case.text(other).is_some() => format!("(by {})", FIELDS[other].label),
-        (Absent::Default(_), _) => format!("({})", known.default_in(system)),
+        (Absent::Default(text), _) => format!("({})", known.text_in(text, bare)),
         (Absent::Without(text), _) => format!("({text})"),
         (Absent::Either, Some(other)) if other < field => format!("(or {})", FIELDS[other].label),
         (Absent::Refused | Absent::Either, _) => "(required)".to_owned(),

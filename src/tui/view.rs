@@ -19,7 +19,7 @@ use super::layout::{self, Pane, SMALLEST};
 use super::rows::{self, Row};
 use super::text::{self, symbol};
 use super::update::commands::BINDINGS;
-use crate::case::fields::{Absent, Field, Kind, index_of};
+use crate::case::fields::{Absent, Field, Kind, in_unit, index_of};
 use crate::case::{Acting, FIELDS, Limit, Spread, partial_relevance, relevance};
 use crate::model::inputs::Method;
 use crate::report::verdict::verdicts;
@@ -142,7 +142,7 @@ fn focused(app: &App) -> String {
 fn typed(app: &App) -> Option<String> {
     let (case, row) = (&app.tab.case, app.tab.form.focus);
     if rows::lacks(case, row) {
-        let example = |field: &Field| field.text_in(field.example(), app.settings.units);
+        let example = |field: &Field| field.text_in(field.example(), app.bare_unit(row));
         let example = rows::field(case, row).map(example).unwrap_or_default();
         return Some(format!("Required, such as {example}."));
     }
@@ -157,8 +157,9 @@ fn typed(app: &App) -> Option<String> {
 // The typed value in another unit, why the field has no effect, its spread, the source of the value
 // if it is that of a material, and the description of the field.
 fn about_field(app: &App, index: usize) -> String {
-    let (field, units, case) = (&FIELDS[index], app.settings.units, &app.tab.case);
-    let converted = case.text(index).and_then(|text| field.converted(text, units));
+    let (field, unit, case) = (&FIELDS[index], app.bare_unit(index), &app.tab.case);
+    let converted = |text| field.converted(text, app.settings.units);
+    let converted = case.text(index).and_then(converted);
     let inputs = &app.tab.inputs_so_far;
     let idle = match relevance(index, inputs) {
         Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => {
@@ -175,11 +176,11 @@ fn about_field(app: &App, index: usize) -> String {
         _ => None,
     };
     let name = format!("{} {}", symbol(field.symbol, app.look.ascii), field.full_label());
-    let range = Some(field.range_in(units)).filter(|range| !range.is_empty());
+    let range = Some(field.range_in(unit)).filter(|range| !range.is_empty());
     let range = range.map_or_else(String::new, |range| format!(", {range}"));
     let absent = match field.absent {
         Absent::Default("") | Absent::Refused | Absent::Either => String::new(),
-        Absent::Default(_) => format!(" (default {})", field.default_in(units)),
+        Absent::Default(text) => format!(" (default {})", field.text_in(text, unit)),
         Absent::Without(_) => " (may be empty)".to_owned(),
     };
     let about = format!("{}{range}{absent}. {}", name.trim_start(), field.help);
@@ -206,13 +207,10 @@ fn about_limit(app: &App, limit: &Limit) -> String {
 fn about_spread(app: &App, spread: &Spread) -> String {
     let (case, inputs) = (&app.tab.case, &app.tab.inputs_so_far);
     let (_, name) = rows::names_of(case, app.tab.form.focus);
-    let field = index_of(spread.field);
-    let centre = |field: usize| {
-        Some(FIELDS[field].in_usual_unit(centre(field, case, inputs)?, app.settings.units))
-    };
-    let value = field.and_then(centre);
+    let unit = app.bare_unit(app.tab.form.focus);
+    let value = index_of(spread.field).and_then(|field| centre(field, case, inputs));
+    let value = value.map(|value| in_unit(value, unit));
     let value = value.map_or(", which has no value".to_owned(), |value| format!(" around {value}"));
-    let unit = field.map_or("", |field| FIELDS[field].usual_unit());
     let grade = if spread.field.ends_with("base_pitch") { ", grade 7" } else { "" };
     format!(
         "Distribution of {name}{value}: normal 1 {unit} (standard deviation), uniform, \

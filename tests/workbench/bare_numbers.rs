@@ -53,15 +53,15 @@ fn the_unit_is_the_written_one_or_else_the_displayed_one() {
     let mut desk = Desk::on(LARGE, "case.toml", &TABLE_1.replace("15 kW", "20 hp"));
     desk.fill("operation.power", "25");
     assert_eq!(desk.text("operation.power"), "25 hp");
-    desk.keys(&["Backspace", "Backspace", "3"]);
+    desk.keys(&["Backspace", "Backspace", "3"]).fill("driver.tip_radius", "0.2");
     assert_eq!(desk.text("operation.power"), "3 hp");
-    desk.fill("driver.tip_radius", "0.2");
     assert_eq!(desk.text("driver.tip_radius"), "0.2 mm");
     desk.app.settings.units = System::Inch;
     desk.fill("driven.tip_radius", "0.02").assert_shows("Unit added: in.");
     assert_eq!(desk.text("driven.tip_radius"), "0.02 in");
-    desk.fill("pair.module", "4");
-    assert_eq!(desk.text("pair.module"), "4 mm", "it was written in mm");
+    desk.fill("driver.young", "").assert_shows("(206 GPa)");
+    desk.keys(&["4"]);
+    assert_eq!(desk.text("driver.young"), "4 GPa", "it was written in GPa");
 }
 
 #[test]
@@ -94,8 +94,7 @@ fn steps_copies_and_limits_know_the_unit_of_a_bare_number() {
     desk.fill("deviations.base_pitch", "48").keys(&["Shift-Up"]);
     assert_eq!(desk.app.tab.form.input.value(), "49 um");
     assert_eq!(desk.text("deviations.base_pitch"), "49 um");
-    desk.keys(&["Ctrl-U", "50", "Esc", "y"]);
+    desk.keys(&["Ctrl-U", "50", "Esc", "y", "Ctrl-End", "i", "Ctrl-U", "2200"]);
     assert_eq!(desk.copied.as_deref(), Some("50 um"));
-    desk.keys(&["Ctrl-End", "i", "Ctrl-U", "2200"]);
     assert_eq!(desk.app.tab.case.limits[0].text, "2200 N");
 }

@@ -147,6 +147,6 @@ fn inch_units_are_shown_and_the_case_keeps_its_own_units() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "units", "Enter"]).has(&["492.56 lbf", "thou"]);
     assert!(desk.shows("5 mm") && !desk.app.tab.is_unsaved());
-    desk.go_to("pair.module").assert_shows("= 0.19685 in. m module, about 0.00197 to 1.97 in");
+    desk.go_to("pair.module").assert_shows("= 0.19685 in. m module, 0.05 to 50 mm");
     desk.keys(&["Esc", ":", "units", "Enter"]).assert_shows("2191.0 N");
 }

@@ -197,7 +197,7 @@ fn draw_line(app: &App, index: usize, line: Rect, buffer: &mut Buffer) -> Option
     let written = rows::text(case, index);
     let (default, verdict) = match rows::row(case, index) {
         rows::Row::Field(field) => {
-            (rows::unwritten(case, &app.tab.inputs_so_far, field, app.settings.units), None)
+            (rows::unwritten(case, &app.tab.inputs_so_far, field, app.bare_unit(index)), None)
         }
         rows::Row::Limit(limit) => ("(no limit)".to_owned(), verdict_on(app, limit)),
         rows::Row::Spread(_) => ("(no distribution)".to_owned(), None),
