@@ -18,7 +18,7 @@ use crate::report::svg;
 use crate::report::table::{Named, Table};
 use crate::report::tolerance::ToleranceReport;
 use crate::report::trade::conclusion;
-use crate::study::axis::Grid;
+use crate::study::axis::{Axis, Grid};
 use crate::study::batch::{self, Batch, Control, Points, Refusals, solve_all};
 use crate::study::shard::{Format, PointsRequest, Request, Study};
 use crate::study::tolerance::Design;
@@ -115,7 +115,7 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
     }
     let field = field(app).ok_or("A limit has no range: go to a field of the form.")?;
     let (across, up) = map_points(app.layout.plan().area(Pane::Study));
-    let place = RangeOf { case: &tab.case, units: app.settings.units, zoom: app.study.zoom };
+    let place = range_of(app);
     let axis_of = |field, steps| match app.study.ranges.iter().find(|axis| axis.field == field) {
         Some(typed) => Ok(typed.clone()),
         None => place.axis(field, steps),
@@ -233,13 +233,33 @@ pub(super) fn ask_range(app: &mut App) {
     let typed: Vec<String> = axes.unwrap_or_default().iter().rev().map(range::typed).collect();
     let input = Line::whole(typed.join("; "));
     let done = |app: &mut App, text: &str, _| set_range(app, text);
-    app.prompts.push(Prompt::Path(PathDialog::new(RANGE, HOW, input, done)));
+    let dialog = PathDialog::new(RANGE, HOW, input, done);
+    app.prompts.push(Prompt::Path(PathDialog { meaning: Some(meaning), ..dialog }));
+}
+
+/// The points that a typed text means, with their units.
+fn meaning(app: &App, text: &str) -> (Result<String, String>, Option<String>) {
+    let axes = range::typed_axes(range_of(app), [field(app), app.study.second], text);
+    (axes.map(|axes| summary(&axes)), None)
+}
+
+fn summary(axes: &[Axis]) -> String {
+    let words = |axis: &Axis| {
+        let (label, count) = (FIELDS[axis.field].full_label(), axis.points.len());
+        let [from, to] = [0, count - 1].map(|at| axis.with_unit(at));
+        format!("{label}: {count} points from {from} to {to}")
+    };
+    axes.iter().map(words).collect::<Vec<_>>().join("; ")
+}
+
+fn range_of(app: &App) -> RangeOf<'_> {
+    RangeOf { case: &app.tab.case, units: app.settings.units, zoom: app.study.zoom }
 }
 
 /// Studies the typed ranges.
 pub(super) fn set_range(app: &mut App, text: &str) {
     let fields = [field(app), app.study.second];
-    match range::typed_axes(fields, text) {
+    match range::typed_axes(range_of(app), fields, text) {
         Ok(axes) => {
             app.close_titled(RANGE);
             show_grid(app);
@@ -249,6 +269,7 @@ pub(super) fn set_range(app: &mut App, text: &str) {
                 .filter(|own| Some(*own) != fields[0])
                 .or(app.study.field);
             app.study.second = axes.get(1).map(|axis| axis.field);
+            app.say(summary(&axes));
             app.study.ranges = axes;
         }
         Err(reason) => app.complain(reason),

@@ -263,10 +263,15 @@ const POINTS_OF_MAP: usize = 31;
 
 /// The axes of a typed text such as `50..200 N m, 31 points`, or of two such ranges separated by a
 /// semicolon: that of the curve, then the second one. `KEY =` names another field than `fields`.
+/// Numbers without a unit get that of the study.
 ///
 /// # Errors
 /// Returns the reason if the text is not valid.
-pub(crate) fn typed_axes(fields: [Option<usize>; 2], text: &str) -> Result<Vec<Axis>, String> {
+pub(crate) fn typed_axes(
+    of: RangeOf<'_>,
+    fields: [Option<usize>; 2],
+    text: &str,
+) -> Result<Vec<Axis>, String> {
     let parts: Vec<&str> = text.split(';').map(str::trim).filter(|part| !part.is_empty()).collect();
     if parts.is_empty() || parts.len() > 2 {
         return Err("type a range such as 50..200 N m, or two with a semicolon between".to_owned());
@@ -294,12 +299,14 @@ pub(crate) fn typed_axes(fields: [Option<usize>; 2], text: &str) -> Result<Vec<A
         if let Some(count) = sampling.points.filter(|count| *count > MOST_POINTS) {
             return Err(too_many(count));
         }
-        let text = format!("{key}={values}");
+        let is_bare = !values.contains(char::is_alphabetic);
+        let unit = index_of(key).filter(|_| is_bare).map_or(String::new(), |at| of.unit(at));
+        let text = format!("{key}={} {unit}", values.trim_end());
         let is_count = index_of(key).is_some_and(|at| matches!(FIELDS[at].kind, Kind::Count(..)));
         if Axis::is_range(&text) && !is_count {
             sampling.points = sampling.points.or(usual);
         }
-        Axis::parse(&text, sampling).map_err(|problem| problem.for_form().to_string())
+        Axis::parse(text.trim_end(), sampling).map_err(|problem| problem.for_form().to_string())
     };
     let axes = parts.iter().zip(fields).map(axis).collect::<Result<Vec<_>, String>>()?;
     let count: usize = axes.iter().map(|axis| axis.points.len()).product();
@@ -392,27 +399,28 @@ mod tests {
 
     #[test]
     fn a_typed_range_has_its_points_and_is_written_as_typed() {
-        let torque = index_of("operation.torque");
+        let case = Case::table_1();
+        let (of, torque) = (range_of(&case, 0), index_of("operation.torque"));
         let relief = "driven.tip_relief = 0..50 um";
         for (text, expected) in [
             ("50..200 N m", "operation.torque = 50..200 N m, 101 points"),
             ("50..200 N m, 31 points", "operation.torque = 50..200 N m, 31 points"),
-            ("50, 80, 200 N m", "operation.torque = 50,80,200 N m"),
+            ("50, 80, 200", "operation.torque = 50,80,200 N m"),
             ("driver.teeth = 18..22", "driver.teeth = 18..22, 5 points"),
             ("1..100 N m, 3 points, log", "operation.torque = 1,10,100 N m"),
         ] {
-            let axes = typed_axes([torque, None], text).expect("a range");
+            let axes = typed_axes(of, [torque, None], text).expect("a range");
             assert_eq!(typed(&axes[0]), expected);
-            assert_eq!(typed_axes([None, None], expected).expect("a range"), axes);
+            assert_eq!(typed_axes(of, [None, None], expected).expect("a range"), axes);
         }
-        let map = typed_axes([torque, None], &format!("50..200 N m; {relief}")).expect("a map");
+        let map = typed_axes(of, [torque, None], &format!("50..200; {relief}")).expect("a map");
         assert_eq!(map.iter().map(|axis| axis.points.len()).collect::<Vec<_>>(), [31, 31]);
-        for wrong in ["", "200..50 N m", "50..200", "50..200 N m, x points", "a=1..2", "1;2;3"] {
-            assert!(typed_axes([torque, None], wrong).is_err(), "{wrong}");
+        for wrong in ["", "200..50 N m", "50..200 mm", "50..200, x points", "a=1..2", "1;2;3"] {
+            assert!(typed_axes(of, [torque, None], wrong).is_err(), "{wrong}");
         }
-        assert!(typed_axes([torque, None], "50..200 N m, 30000 points").is_err());
+        assert!(typed_axes(of, [torque, None], "50..200 N m, 30000 points").is_err());
         let damping = index_of("model.damping_ratio");
-        let wrong = typed_axes([damping, None], "100..400 N m").expect_err("a wrong unit");
+        let wrong = typed_axes(of, [damping, None], "100..400 N m").expect_err("a wrong unit");
         assert!(wrong.ends_with("write a range within 0..2"), "{wrong}");
     }
 
