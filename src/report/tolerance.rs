@@ -35,20 +35,21 @@ pub struct ToleranceReport<'a> {
 impl ToleranceReport<'_> {
     /// The results for a screen that already shows the case: the figures come first, and bars
     /// consist of block characters.
-    pub fn lines_for_screen(&self) -> Vec<String> {
-        let [samples, spread, figures] = self.sections("█");
+    pub fn lines_for_screen(&self, units: System) -> Vec<String> {
+        let [samples, spread, figures] = self.sections("█", units);
         [samples, figures, spread].concat()
     }
 
     /// The lines about the samples, the distributions and the results.
-    fn sections(&self, bar: &str) -> [Vec<String>; 3] {
+    fn sections(&self, bar: &str, units: System) -> [Vec<String>; 3] {
         let summary = self.study.summary(self.samples);
         let first = format!("{}, method {}", samples(self.study, &summary), self.method.name());
         let rows = probabilities(&summary);
         let width = widest(rows.iter().map(|(name, _)| name.as_str()));
         let mut figures = vec![String::new(), "Probability (95 % interval)".to_owned()];
         figures.extend(rows.iter().map(|(name, text)| format!("  {name:width$}  {text}")));
-        figures.extend(summary.quantities.iter().flat_map(|of| self.quantity_lines(of, bar)));
+        let quantities = summary.quantities.iter();
+        figures.extend(quantities.flat_map(|of| self.quantity_lines(of, bar, units)));
         [vec![first], self.spread(), figures]
     }
 
@@ -81,7 +82,7 @@ impl ToleranceReport<'_> {
         if is_sum { "sum" } else { "independent" }
     }
 
-    fn quantity_lines(&self, of: &OfQuantity, bar: &str) -> Vec<String> {
+    fn quantity_lines(&self, of: &OfQuantity, bar: &str, units: System) -> Vec<String> {
         let OfQuantity { quantity, figures, .. } = of;
         let title = format!("{} ({})", name_of(quantity), quantity.key);
         let Some(figures) = figures else {
@@ -90,7 +91,7 @@ impl ToleranceReport<'_> {
             return vec![String::new(), title, format!("  {reason}")];
         };
         let (from, to) = figures.range;
-        let unit = common_unit(quantity, [from, to].into_iter(), System::Metric);
+        let unit = common_unit(quantity, [from, to].into_iter(), units);
         let printed = |value: f64| shown_with(quantity, value, unit).to_string();
         if figures.is_constant() {
             let value = printed(figures.mean.value);
@@ -194,7 +195,7 @@ impl ToleranceReport<'_> {
 
 impl Results for ToleranceReport<'_> {
     fn lines(&self, case: Named) -> Vec<String> {
-        let [samples, spread, figures] = self.sections("#");
+        let [samples, spread, figures] = self.sections("#", System::Metric);
         [vec![case.heading()], samples, spread, figures].concat()
     }
 

@@ -164,6 +164,7 @@ fn the_tolerance_fills_its_page_and_needs_distributions() {
     assert_ne!(desk.screen(), top);
     desk.keys(&["N", "1", "Enter"]).assert_shows("a number of samples from 2 to 1000000");
     desk.keys(&["Ctrl-U", "500", "Enter"]).assert_shows("500 samples, seed 1");
+    desk.keys(&[":", "units", "Enter"]).has(&["500 samples", " lbf ("]);
     desk.keys(&["d"]).lacks(&["500 samples"]);
 }
 

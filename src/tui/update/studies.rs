@@ -109,8 +109,8 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
                 d in this pane shows the field over its range."
                 .to_owned());
         }
-        let (quantity, samples) = (quantity.key, app.study.samples());
-        let parameters = ToleranceParameters { case, inputs, quantity, samples };
+        let (quantity, samples, units) = (quantity.key, app.study.samples(), app.settings.units);
+        let parameters = ToleranceParameters { case, inputs, quantity, samples, units };
         return Ok(StudyParameters::Tolerance(Box::new(parameters)));
     }
     let field = field(app).ok_or("A limit has no range: go to a field of the form.")?;
@@ -578,7 +578,7 @@ fn sample(
     parameters: &ToleranceParameters,
     running: &Running<'_>,
 ) -> Result<Result<(), Refusal>, Problem> {
-    let ToleranceParameters { case, inputs, quantity, samples } = parameters;
+    let ToleranceParameters { case, inputs, quantity, samples, units } = parameters;
     let size = Size { samples: *samples, seed: 1, ranked: None };
     let only: Vec<&'static Quantity> = Quantity::find(quantity).into_iter().collect();
     let study = Tolerance::of(case, inputs, &only, size)?;
@@ -596,7 +596,7 @@ fn sample(
         };
         let so_far = Tolerance { design, ..study.clone() };
         let report = ToleranceReport { case, method: inputs.method, study: &so_far, samples };
-        let mut page = report.lines_for_screen();
+        let mut page = report.lines_for_screen(*units);
         let refused = samples.refusals.0.iter().map(|refused| refused.sentence(&so_far.design));
         page.extend(refused);
         let progress = progress(begun, solved, count);

@@ -121,6 +121,8 @@ pub struct ToleranceParameters {
     pub(crate) quantity: &'static str,
     /// The number of samples.
     pub(crate) samples: usize,
+    /// The display units.
+    pub(crate) units: System,
 }
 
 /// How a study ended.
