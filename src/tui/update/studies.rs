@@ -845,8 +845,10 @@ pub(super) fn pin_baseline(app: &mut App) {
     let answer = app.tab.answer.as_ref().filter(|_| app.is_pinning && is_whole);
     if let Some(answer) = answer {
         let baseline = Baseline { name: app.tab.short_name(), answer: answer.clone() };
-        let words = format!("baseline: {} as it is now, for this session", baseline.name);
+        let (name, key) = (baseline.name.clone(), key_of(app, "baseline"));
         (app.is_pinning, app.baseline) = (false, Some(baseline));
-        app.say(words);
+        app.say(format!(
+            "baseline: {name} as it is now; edits show their difference; {key} unpins"
+        ));
     }
 }
