@@ -361,8 +361,7 @@ macro_rules! gear {
                 (1, 11),
                 Without("none"),
                 |inputs, value| inputs.$gear.grade = Some(value),
-                "Flank tolerance class of ISO 1328-1:2013; it gives the base pitch deviation \
-                    f_pb = f_pT cos(alpha_t) of this gear.",
+                "Flank tolerance class of ISO 1328-1:2013; it gives the base pitch deviation of this gear.",
             )
             .with_example("7")
             .reasons(&[Idle(always, "the base pitch deviation of this gear is given")]),

@@ -109,10 +109,12 @@ fn is_shortened(sought: &str, word: &str) -> bool {
         && sought.chars().all(|letter| rest.any(|other| other == letter))
 }
 
-/// The words of a text in plain letters.
+/// The words of a text in plain letters; `f_pt` gives fpt, f and pt.
 fn words(text: &str) -> Vec<String> {
-    let split = text.split(|c: char| !c.is_alphanumeric() && c != '\'');
-    split.map(plain).filter(|word| !word.is_empty()).collect()
+    let split = |joints: &'static str| {
+        text.split(move |c: char| !c.is_alphanumeric() && !joints.contains(c))
+    };
+    split("'").chain(split("'_")).map(plain).filter(|word| !word.is_empty()).collect()
 }
 
 /// Lower-case letters and digits of the keyboard: `α_w` is alphaw, `f_pb` is fpb, `ha*1` is ha1.
@@ -158,6 +160,7 @@ mod tests {
             ("delta", "model.deflection"),
             ("fpb", "deviations.base_pitch"),
             ("f_pb", "deviations.base_pitch"),
+            ("f_pt", "driver.base_pitch"),
             ("jbn", "deviations.backlash"),
             ("ha", "driver.addendum"),
             ("ha*2", "driven.addendum"),
