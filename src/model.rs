@@ -187,6 +187,13 @@ impl Solution {
         self.face_load.is_some() || self.face_motion.is_some()
     }
 
+    /// Whether the printed equations put D so close to E that the tip has not closed its gap.
+    pub fn leaves_gap_open(&self) -> bool {
+        const CLOSED: f64 = 1e-6;
+        let is_open = |at: Position| at.closed_gap < (1.0 - CLOSED) * self.deviation.total;
+        self.method == Method::Paper && self.position.is_some_and(is_open)
+    }
+
     /// The stations of the load sharing: those of the motion, otherwise those at rest.
     pub fn shared_stations(&self) -> Option<&[Station]> {
         let moving = self.dynamic.as_ref().map(|load| &load.stations);

@@ -167,18 +167,15 @@ const ROWS: &[fn(&Context) -> Option<Note>] = &[
     },
     barely_clear,
     long_relief,
-    // The printed equations put D so close to E that the tip has closed almost nothing of its gap.
     |k| {
-        const CLOSED: f64 = 1e-6;
         let (closed, total) = (k.solution.position?.closed_gap, k.solution.deviation.total);
-        let is_open = k.solution.method == Method::Paper && closed < (1.0 - CLOSED) * total;
         let message = format!(
             "the printed equations leave the gap open: at D the tip has closed {} um of {} um, so \
                 angle, velocity and force are too small; method exact closes the gap",
             micro(closed),
             micro(total)
         );
-        is_open.then_some(Note::general("gap-left-open", message))
+        k.solution.leaves_gap_open().then_some(Note::general("gap-left-open", message))
     },
     |k| {
         let impact = k.solution.impact.filter(|_| !k.solution.method.shares_load())?;

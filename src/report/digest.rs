@@ -121,6 +121,9 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
     });
     let forces = match (tip, most) {
         (Some((tip, ratio)), Some(most)) => format!(": up to {tip} on the tip{ratio}, {most}"),
+        (Some((tip, ratio)), None) if solution.leaves_gap_open() => {
+            format!(": free impact {tip}{ratio}, too small by the printed equations")
+        }
         (Some((tip, ratio)), None) => format!(": free impact {tip}{ratio}"),
         _ => String::new(),
     };
