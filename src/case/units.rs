@@ -703,6 +703,12 @@ impl System {
         System::ALL[1 - self as usize]
     }
 
+    /// The system of a unit that only one of them uses.
+    pub fn of_unit(unit: &str) -> Option<System> {
+        let of = |&(metric, inch): &(_, _)| [metric, inch].iter().position(|own| *own == unit);
+        PAIRS.iter().find_map(of).map(|at| System::ALL[at])
+    }
+
     /// The unit of this system that corresponds to a written unit. Other units stay unchanged.
     pub fn unit(self, written: &str) -> &str {
         let inch = PAIRS.iter().find(|(from, _)| *from == written);

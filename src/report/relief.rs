@@ -423,36 +423,43 @@ impl Specification {
 
     /// A choice as values of the fields of a case, rounded as the report prints them, with the
     /// tolerances of the demand as distributions. The empty distribution is that of a relief that is
-    /// not larger than its tolerance; without a tolerance the distributions stay.
-    pub fn settings(&self, at: usize, units: System) -> Vec<(&'static str, String)> {
+    /// not larger than its tolerance; without a tolerance the distributions stay. `system` gives the
+    /// units of a field.
+    pub fn settings(
+        &self,
+        at: usize,
+        system: impl Fn(&str) -> System,
+    ) -> Vec<(&'static str, String)> {
         let ([amounts, lengths], reliefs) = (KEYS, &self.choices[at].reliefs);
         let mut settings = vec![("model.relief_shape", name(reliefs.shape).to_owned())];
-        let of_drawing =
-            |length: f64, unit| format!("{} {}", drawn(length, unit, units), units.unit(unit));
-        let uniform = |width: f64, unit| format!("uniform {}", units.text(width, unit, 4));
+        let of_drawing = |key, length: f64, unit| {
+            format!("{} {}", drawn(length, unit, system(key)), system(key).unit(unit))
+        };
+        let uniform =
+            |key, width: f64, unit| format!("uniform {}", system(key).text(width, unit, 4));
         for at in 0..2 {
             let has_relief = reliefs.amounts[at] > 0.0;
             let length = if has_relief { reliefs.lengths[at] } else { 0.0 };
             let ends = [
-                (reliefs.amounts[at], self.demand.tolerance, "um"),
-                (length, self.tolerance_length(), "mm"),
+                (amounts[at], reliefs.amounts[at], self.demand.tolerance, "um"),
+                (lengths[at], length, self.tolerance_length(), "mm"),
             ];
-            for (keys, (nominal, tolerance, unit)) in SPREADS.iter().zip(ends) {
+            for (keys, (key, nominal, tolerance, unit)) in SPREADS.iter().zip(ends) {
                 if tolerance > 0.0 {
                     let is_larger = nominal > tolerance;
-                    let text = if is_larger { uniform(tolerance, unit) } else { String::new() };
-                    settings.push((keys[at], text));
+                    let text = is_larger.then(|| uniform(key, tolerance, unit));
+                    settings.push((keys[at], text.unwrap_or_default()));
                 }
             }
-            settings.push((amounts[at], of_drawing(reliefs.amounts[at], "um")));
-            let length = if has_relief { of_drawing(length, "mm") } else { String::new() };
-            settings.push((lengths[at], length));
+            settings.push((amounts[at], of_drawing(amounts[at], reliefs.amounts[at], "um")));
+            let length = has_relief.then(|| of_drawing(lengths[at], length, "mm"));
+            settings.push((lengths[at], length.unwrap_or_default()));
         }
         if self.is_over_face {
-            settings.push((CROWNING, of_drawing(reliefs.crowning, "um")));
+            settings.push((CROWNING, of_drawing(CROWNING, reliefs.crowning, "um")));
         }
         if self.demand.misalignment > 0.0 {
-            let text = uniform(self.demand.misalignment, "um");
+            let text = uniform("deviations.misalignment", self.demand.misalignment, "um");
             settings.push(("spread.deviations.misalignment", text));
         }
         settings

@@ -116,6 +116,12 @@ pub(crate) fn written_unit(case: &Case, at: usize) -> Option<String> {
     }
 }
 
+/// The system of the unit of a field as written, otherwise of the module.
+pub(crate) fn written_system(case: &Case, key: &str) -> Option<System> {
+    let of = |key| System::of_unit(&written_unit(case, index_of(key)?)?);
+    of(key).or_else(|| of("pair.module"))
+}
+
 /// The rest of the name of a distribution whose first letters are typed.
 pub(crate) fn rest_of_shape(case: &Case, at: usize, typed: &str) -> Option<&'static str> {
     let is_begun = matches!(row(case, at), Row::Spread(_)) && !typed.is_empty();

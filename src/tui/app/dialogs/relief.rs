@@ -14,8 +14,8 @@ use crate::study::relief::{Demand, NoRelief, Specification, specify};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Running, Slot, Work};
 use crate::tui::layout::Place;
-use crate::tui::text;
 use crate::tui::text::Line;
+use crate::tui::{rows, text};
 
 /// The label of the input line.
 const LABEL: &str = "Loads, tolerances, te|peak|entry: ";
@@ -192,7 +192,9 @@ impl Dialog for ReliefDialog {
             return Some(Change::of(|app| app.start_all([search])));
         }
         let report = self.found()?;
-        let values = report.settings(self.selected, app.settings.units);
+        let system = |key: &str| rows::written_system(&app.tab.case, key);
+        let values =
+            report.settings(self.selected, |key| system(key).unwrap_or(app.settings.units));
         let take_over = self.take_over;
         Some(Change::of(move |app| take_over(app, &values)))
     }
