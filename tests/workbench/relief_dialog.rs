@@ -42,7 +42,8 @@ fn a_search_shows_its_progress() {
     let mut sent = results(number, work);
     // Without the relief and the end of the work.
     sent.truncate(sent.len() - 2);
-    desk.keys(&["F1"]).take(sent);
+    desk.keys(&["F1"]).assert_shows("In the tip relief");
+    desk.take(sent);
     desk.keys(&["Esc"]).has(&["Searching: "]).lacks(&["Searching: 0 %"]);
 }
 

@@ -74,7 +74,19 @@ const SIGNS: [&str; 6] = [
         X contacts.",
 ];
 
-const PLACES: [(&str, Place); 17] = [
+/// The section about the relief dialog, whose keys are those of a list.
+const IN_RELIEF: &str = "In the tip relief";
+const ABOUT_RELIEF: [&str; 3] = [
+    "Type the loads in percent of the load of the case, the tolerance of the amounts, if wanted that \
+        of the lengths, and the figure to minimise: 50..130 %, 5 um, 0.2 mm, te. te: transmission \
+        error; peak: greatest force of a tooth; entry: force before E.",
+    "In place of a range, a load spectrum gives each load its share of the time: 50%:0.2, 100%:0.8. \
+        misalignment 10 um is the deviation of the misalignment over the face width.",
+    "Enter searches. Enter on a relief of the list writes its shape, amounts, lengths and tolerances \
+        into the case as one edit.",
+];
+
+const PLACES: [(&str, Place); 18] = [
     ("Everywhere", Place::HELPED),
     ("Outside dialogs", Place::WORK),
     ("In a field", Place::TEXT),
@@ -87,6 +99,7 @@ const PLACES: [(&str, Place); 17] = [
     ("In accuracy against run time", Place::TRADE),
     ("In the study", Place::STUDY),
     ("In the tolerance", Place::TOLERANCE),
+    (IN_RELIEF, Place::NONE),
     ("In a list or a line of text", Place::PICK.or(Place::PATH)),
     ("In the list of files", Place::BROWSE),
     ("In a question (or its first letter)", Place::ASK),
@@ -658,6 +671,8 @@ pub fn help() -> Vec<String> {
     };
     for (at, (title, place)) in PLACES.into_iter().enumerate() {
         lines.extend([String::new(), title.to_owned()]);
+        let words = Some(ABOUT_RELIEF).filter(|_| title == IN_RELIEF);
+        lines.extend(words.into_iter().flatten().map(str::to_owned));
         let mut here: Vec<_> = BINDINGS.iter().filter(|one| home(one) == Some(at)).collect();
         // Commands of every status line are listed first.
         here.sort_by_key(|binding| place == Place::WORK && !binding.status.holds(place));
@@ -673,10 +688,14 @@ pub fn help() -> Vec<String> {
 fn help_page(app: &mut App) {
     let place = app.place();
     let is_own = |(_, own): &&(_, Place)| own.meets(place) && *own != Place::HELPED;
-    let part = PLACES.iter().find(is_own).filter(|_| place.meets(Place::PROMPT));
+    let section = match app.prompts.last() {
+        None => None,
+        Some(Prompt::Relief(_)) => Some(IN_RELIEF),
+        Some(_) => PLACES.iter().find(is_own).map(|(title, _)| *title),
+    };
     let page = Page::new("Help", Some(help()));
-    app.prompts.push(Prompt::Read(match part {
-        Some((title, _)) => page.at(title, app),
+    app.prompts.push(Prompt::Read(match section {
+        Some(title) => page.at(title, app),
         None => page,
     }));
 }
