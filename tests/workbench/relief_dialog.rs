@@ -27,7 +27,8 @@ fn a_typed_demand_starts_a_search_and_an_invalid_one_gets_a_reason() {
     desk.keys(&["Ctrl-U", "110..25 %", "Enter"]);
     desk.assert_shows("! 110..25 %: the range is reversed: write a range");
     desk.keys(&["Ctrl-U", "50..100 %, 2 um"]).assert_shows("Results of the earlier input");
-    desk.keys(&["Enter"]).has(&["for 50 to 100 %", "tolerances 2 um"]);
+    desk.keys(&["Ctrl-Q"]).assert_shows("has not used its text: 50..100 %, 2 um");
+    desk.keys(&["Esc", "Enter"]).has(&["for 50 to 100 %", "tolerances 2 um"]);
     desk.keys(&["PageDown", "Down", "Esc"]);
     desk.assert(!desk.app.tab.is_unsaved() && desk.app.prompts.is_empty());
     desk.keys(&[":", "relief", "Enter"]).has(&["50..100 %, 2 um", "for 50 to 100 %"]);

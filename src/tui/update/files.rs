@@ -27,11 +27,18 @@ const SAVE_AS: &str = "Save as";
 const HOW: &str =
     "A name or a path; ~ is the home folder, .toml is added if missing. Asks before overwriting.";
 
-/// Quits, or asks if there are unsaved edits.
+/// Quits, or asks if there are unsaved edits or text typed into a dialog.
 pub(super) fn quit(app: &mut App) {
     app.close_titled(UNSAVED);
     let unsaved: Vec<_> = app.tabs().filter(|tab| tab.is_unsaved()).map(Tab::name).collect();
     let count = unsaved.len();
+    // A suggested text is selected until the user types.
+    let lines = app.prompts.iter_mut().filter_map(|prompt| prompt.dialog_mut().input());
+    let mut typed = lines.filter(|line| line.selected().is_none() && !line.value().is_empty());
+    if let Some(line) = typed.next().filter(|_| count == 0) {
+        let text = format!("The dialog has not used its text: {}", line.value());
+        return app.ask(Question::new(UNSAVED, text, [("Quit", going(Next::Quit)), cancel()]));
+    }
     if count < 2 {
         let only = app.tabs().position(Tab::is_unsaved).unwrap_or(app.place_of_tab);
         // A dialog belongs to the case that is shown.
