@@ -121,7 +121,7 @@ fn tab_cycles_the_panes_whose_letters_are_commands() {
         assert_eq!(desk.app.layout.focus, pane);
         desk.assert_shows(&format!("▸ {}", pane.number()));
         desk.keys(&["xwv0"]).act(Action::Paste("999".to_owned()));
-        assert!(!desk.app.tab.is_unsaved());
+        assert!(!desk.app.tab.is_unsaved() && desk.shows("nothing to paste into"));
     }
     desk.keys(&["BackTab"]);
     assert_eq!(desk.app.layout.focus, Pane::Study);

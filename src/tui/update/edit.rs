@@ -56,7 +56,9 @@ pub(super) fn paste(app: &mut App, text: &str) {
         Some(prompt) => prompt.dialog_mut().input(),
         None => Some(&mut app.tab.form.input).filter(|_| takes_text),
     };
-    let Some(line) = line else { return };
+    let Some(line) = line else {
+        return app.say("nothing to paste into: go to a field of the form, Enter edits it");
+    };
     let room = LONGEST.saturating_sub(line.kept());
     let parts = text.split(['\n', '\r', '\t']);
     let text = match parts.clone().count() {
