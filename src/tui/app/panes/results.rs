@@ -280,14 +280,25 @@ fn sentences(app: &App) -> Vec<Sentence> {
         let limit = |verdict: &Verdict<'_>| {
             format!("Limit {}: {}.", verdict.standing.word(), verdict.sentence(app.settings.units))
         };
-        for verdict in unmet {
+        let is_unknown = |verdict: &&Verdict<'_>| verdict.standing == Standing::Unknown;
+        let (unknown, exceeded): (Vec<_>, Vec<_>) = unmet.into_iter().partition(is_unknown);
+        for verdict in exceeded {
             add(format!("! {}", limit(verdict)), theme.problem, Place::Pane);
+        }
+        // The reasons are long and follow the verdict.
+        if !unknown.is_empty() {
+            let symbols: Vec<_> = unknown.iter().map(|of| of.limit.quantity.symbol).collect();
+            let text = format!("! Limit unknown: {}.", symbols.join(", "));
+            add(text, theme.problem, Place::Pane);
         }
         let place = if has_fault { Place::Room } else { Place::Pane };
         let age = age(app, answer);
         let is_pending = answer.strikes() && app.tab.lacks(Stage::Clearing);
         let verdict = digest::sentence(solution, app.settings.units, is_pending);
         add(format!("{age}{verdict}"), fresh(theme.focus), place);
+        for verdict in unknown {
+            add(format!("! {}", limit(verdict)), theme.problem, Place::Room);
+        }
         let figures = [differing(answer, solution), digest::whine(solution)];
         for figure in figures.into_iter().flatten() {
             add(format!("{figure}."), fresh(Style::new()), Place::Room);
