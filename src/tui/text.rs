@@ -211,6 +211,13 @@ impl Line {
         line
     }
 
+    /// A text whose first characters are typed and whose rest is selected.
+    pub(crate) fn begun(text: &str, typed: usize) -> Line {
+        let mut line = Line::whole(text);
+        line.selected = line.selected.map(|all| typed..all.end).filter(|rest| !rest.is_empty());
+        line
+    }
+
     /// A path in which the file stem is selected: typing replaces the name of the file and keeps the
     /// folder.
     pub(crate) fn named(path: impl Into<String>) -> Line {

@@ -1,38 +1,52 @@
 //! Aids of the form: steps, conversions, materials, limits, inch units, fields without effect.
 use crate::harness::{Desk, LARGE, SMALL, TABLE_1};
 
-fn line(desk: &Desk, text: &str) -> String {
-    let screen = desk.screen();
-    screen
-        .lines()
-        .find(|line| line.contains(text))
-        .unwrap_or_else(|| panic!("{text} is not on\n{screen}"))
-        .to_owned()
-}
+use tipstrike::tui::testing::Action;
 
 #[test]
 fn the_form_shows_the_given_size_and_the_value_of_its_alternative() {
     let mut desk = Desk::new(LARGE);
-    assert!(line(&desk, "diametral pitch").contains("(5.08 1/in)"));
-    assert!(line(&desk, "tip diameter").contains("(110 mm)"));
-    assert!(line(&desk, "root diameter").contains("(87.5 mm)"));
+    assert!(desk.line_with("diametral pitch").contains("(5.08 1/in)"));
+    assert!(desk.line_with("tip diameter").contains("(110 mm)"));
+    assert!(desk.line_with("root diameter").contains("(87.5 mm)"));
     desk.go_to("driver.tip_diameter").type_in("109");
     assert_eq!(desk.text("driver.tip_diameter"), "109 mm");
     assert_eq!(desk.text("driver.addendum"), "");
-    desk.assert(line(&desk, "addendum").contains("(0.9)"));
+    desk.assert(desk.line_with("addendum").contains("(0.9)"));
     desk.assert_shows("addendum 1.0 replaced by the tip diameter");
     desk.go_to("pair.diametral_pitch").type_in("8");
     assert_eq!(desk.text("pair.diametral_pitch"), "8 1/in");
-    desk.assert(line(&desk, "module").contains("(3.175 mm)"));
+    desk.assert(desk.line_with("module").contains("(3.175 mm)"));
     desk.keys(&["Ctrl-U"]);
     assert_eq!(desk.text("pair.module"), "5 mm");
+}
+
+#[test]
+fn typed_letters_select_the_choice_that_begins_with_them() {
+    let mut desk = Desk::new(SMALL);
+    for (key, typed, chosen) in [
+        ("model.method", "paper", "paper"),
+        ("model.method", "staqd", "static"),
+        ("model.method", "pd", "dynamic"),
+        ("model.tooth_compliance", "kuang-yang", "kuang-yang"),
+        ("model.relief_shape", "parabolic", "parabolic"),
+    ] {
+        desk.go_to(key).keys(&[typed]);
+        assert_eq!(desk.text(key), chosen, "{typed}");
+    }
+    for (pasted, chosen) in
+        [("parabola", "parabolic"), (" \n", "parabolic"), (" linear\n", "linear")]
+    {
+        desk.act(Action::Paste(pasted.to_owned()));
+        assert_eq!(desk.text("model.relief_shape"), chosen);
+    }
 }
 
 #[test]
 fn fields_that_the_method_does_not_use_are_marked_with_a_reason() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("driver.root_relief");
-    let idle = line(&desk, "Ca1");
+    let idle = desk.line_with("Ca1");
     assert!(idle.starts_with("- Ca1"), "{idle}");
     desk.go_to("driver.tip_relief").assert_shows("Not used: this relief acts at the exit");
 }
@@ -48,9 +62,10 @@ fn a_material_fills_three_fields_at_once_and_undo_reverts_it() {
     desk.assert_shows("Driven (gear 2), 42CrMo4");
     desk.go_to("driven.density");
     desk.assert(
-        line(&desk, " *E2 ").contains("210 GPa") && line(&desk, "▸*ρ2 ").contains("7720 kg/m3"),
+        desk.line_with(" *E2 ").contains("210 GPa")
+            && desk.line_with("▸*ρ2 ").contains("7720 kg/m3"),
     );
-    desk.assert_at("unchanged values have no mark:", line(&desk, "  ν2 ").contains("0.3"));
+    desk.assert_at("unchanged values have no mark:", desk.line_with("  ν2 ").contains("0.3"));
     desk.go_to("driven.young").assert_shows("42CrMo4: Deutsche Edelstahlwerke");
     desk.keys(&["Ctrl-Z"]);
     assert!(!desk.app.tab.is_unsaved());
@@ -63,9 +78,9 @@ fn a_material_fills_three_fields_at_once_and_undo_reverts_it() {
 fn limits_are_a_group_of_the_form_with_their_verdicts() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Ctrl-End"]);
-    assert!(line(&desk, "impact force         2500 N").contains("ok 88 %"));
+    assert!(desk.line_with("impact force         2500 N").contains("ok 88 %"));
     desk.keys(&["Ctrl-U", "2 kN"]);
-    desk.assert(line(&desk, "force         2 kN").contains("! 110 %"));
+    desk.assert(desk.line_with("force         2 kN").contains("! 110 %"));
     assert!(desk.shows("2191.0 N !"), "the result is marked too");
     desk.keys(&["Shift-Up"]);
     desk.keys(&["Ctrl-S"]);
@@ -80,7 +95,7 @@ fn a_new_limit_starts_at_the_result_and_an_empty_one_is_removed() {
         assert_eq!(desk.app.tab.case, desk.app.tab.document.case, "Esc takes the limit back");
     }
     desk.keys(&["Alt-L", "normal_vel", "Enter"]);
-    desk.assert(line(&desk, "ok 100 %").contains("0.82107 m/s"));
+    desk.assert(desk.line_with("ok 100 %").contains("0.82107 m/s"));
     desk.keys(&["Ctrl-U"]).assert_shows("(no limit)");
     desk.keys(&["0.8"]).has(&["Unit added: m/s.", "0.8 m/s"]);
     desk.keys(&[" m/s", "Ctrl-U", "Up"]);

@@ -26,7 +26,7 @@ const LONGEST: usize = 4096;
 /// Inserts a typed character, which outside a field is the command `outside`.
 pub(super) fn insert(app: &mut App, letter: char, outside: Option<&str>) {
     if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
-        return choose_by_letter(app, letter);
+        return choose_by_name(app, letter.encode_utf8(&mut [0; 4]));
     }
     let before = rows::text(&app.tab.case, app.tab.form.focus).map(str::to_owned);
     let row = rows::field(&app.tab.case, app.tab.form.focus);
@@ -51,7 +51,10 @@ fn rest_of_shape(app: &App) -> Option<&'static str> {
 /// Inserts a pasted text into a line of text, without control characters. Several lines become one.
 pub(super) fn paste(app: &mut App, text: &str) {
     let editing_case = app.prompts.is_empty();
-    let takes_text = app.has_line() && names(app).is_empty();
+    let takes_text = app.has_line();
+    if editing_case && takes_text && !names(app).is_empty() {
+        return choose_by_name(app, text.trim());
+    }
     let line = match app.prompts.last_mut() {
         Some(prompt) => prompt.dialog_mut().input(),
         None => Some(&mut app.tab.form.input).filter(|_| takes_text),
@@ -439,15 +442,33 @@ fn names(app: &App) -> &'static [&'static str] {
     rows::names(&app.tab.case, app.tab.form.focus)
 }
 
-fn choose_by_letter(app: &mut App, letter: char) {
-    let name = names(app).iter().find(|name| name.starts_with(letter.to_ascii_lowercase()));
-    match (name, Pane::of_digit(letter)) {
-        (Some(name), _) => set(app, app.tab.form.focus, name),
+// Selects the first choice that begins with the letters typed so far. They are the part of the line
+// before its selection. A letter that fits no choice is ignored, but after a single one it starts anew.
+fn choose_by_name(app: &mut App, typed: &str) {
+    if typed.is_empty() {
+        return;
+    }
+    let (line, typed) = (&app.tab.form.input, typed.to_lowercase());
+    let count = line.selected().map_or(0, |rest| rest.start);
+    let before: String = line.value().chars().take(count).collect();
+    let begun = before.clone() + &typed;
+    let mut starts = [Some(&begun), Some(&typed).filter(|_| count < 2)].into_iter().flatten();
+    let named = |start: &String| names(app).iter().find(|name| name.starts_with(start.as_str()));
+    let found = starts.find_map(|start| Some((named(start)?, start.chars().count())));
+    match (found, typed.parse().ok().and_then(Pane::of_digit)) {
+        (Some((name, typed)), _) => {
+            set(app, app.tab.form.focus, name);
+            app.tab.form.input = Line::begun(name, typed);
+        }
         (None, Some(pane)) => app.say(format!(
-            "no choice begins with {letter}. Esc leaves the field; then {letter} shows {}",
+            "no choice begins with {typed}. Esc leaves the field; then {typed} shows {}",
             pane.name()
         )),
-        (None, None) => (),
+        (None, None) => app.complain(format!(
+            "no choice begins with {}: {}",
+            text::printable(&begun),
+            names(app).join(", ")
+        )),
     }
 }
 
