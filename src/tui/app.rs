@@ -26,7 +26,6 @@ use crate::model::{Stage, Stages};
 use crate::report::stations::GRAPHS;
 use crate::study::trade::STEADY;
 use panes::chart::{ChartPane, Charts};
-use panes::study::StudyState;
 use panes::teeth::TeethView;
 use tab::{Tab, header};
 
@@ -75,8 +74,6 @@ pub struct App {
     pub chart: ChartPane,
     /// The first variant beside the case in the results; `None` while the methods are shown.
     pub first_variant: Option<usize>,
-    /// The state of the study pane.
-    pub study: StudyState,
     /// The file of the running export.
     pub(crate) exporting: Option<PathBuf>,
     /// The serial of the case whose variants the worker solves.
@@ -145,7 +142,6 @@ impl App {
             teeth: TeethView::default(),
             chart: ChartPane::default(),
             first_variant: None,
-            study: StudyState::default(),
             exporting: None,
             comparing: None,
             is_playing: false,
@@ -209,7 +205,7 @@ impl App {
             Pane::Chart if self.charts().lacks_pattern() => Place::MISSING_CHART,
             Pane::Chart if self.chart.is_pattern() => Place::CHART.or(Place::PATTERN),
             Pane::Chart if self.chart.own_axes().is_some() => Place::OWN_CHART,
-            Pane::Study if self.study.is_tolerance => Place::TOLERANCE,
+            Pane::Study if self.tab.study.state.is_tolerance => Place::TOLERANCE,
             pane => pane.place(),
         }
     }

@@ -183,8 +183,8 @@ fn wheel(app: &mut App, at: Position, by: isize) {
         Some(Pane::Results) => app.tab.results.top = app.scrolled_results(by),
         Some(Pane::Chart) => panes::zoom_chart(app, nearer),
         Some(Pane::Teeth) => panes::zoom_teeth(app, nearer),
-        Some(Pane::Study) if app.study.is_tolerance => studies::scroll(app, by),
-        Some(Pane::Study) if app.study.is_table => studies::move_cursor(app, by, 0),
+        Some(Pane::Study) if app.tab.study.state.is_tolerance => studies::scroll(app, by),
+        Some(Pane::Study) if app.tab.study.state.is_table => studies::move_cursor(app, by, 0),
         Some(Pane::Study) => studies::zoom(app, nearer),
         Some(Pane::Trade) | None => (),
     }

@@ -79,6 +79,11 @@ fn key_and_ends(desk: &Desk) -> Vec<String> {
     ends.collect()
 }
 
+fn key(desk: &Desk) -> &str {
+    let shown = desk.app.tab.study.shown.as_ref().expect("a study");
+    shown.quantity().expect("a result").key
+}
+
 #[test]
 fn a_typed_range_makes_a_curve_or_a_map_and_a_usual_range_replaces_it() {
     let mut desk = study(SMALL, "operation.speed");
@@ -89,7 +94,17 @@ fn a_typed_range_makes_a_curve_or_a_map_and_a_usual_range_replaces_it() {
     desk.keys(&["Ctrl-U", map, "Enter"]);
     let expected = ["operation.speed 1 rpm 2 rpm 1", "driven.tip_relief 0 um 40 um 4"];
     assert_eq!(key_and_ends(&desk), expected);
-    desk.keys(&["s", "p", "Enter", "+"]);
+    // The ranges stay, also those of the case while another one is shown.
+    desk.go_to("driver.bore_radius").keys(&["Esc", "6"]);
+    assert_eq!(key_and_ends(&desk), expected);
+    let path = desk.write("other.toml", TABLE_1);
+    let loaded = Document::read(&path).expect("a good case");
+    desk.act(Action::Loaded(path, Ok(Box::new(loaded))));
+    assert_eq!(key_and_ends(desk.keys(&["Esc", "6"])).len(), 1);
+    desk.keys(&["Alt-1"]);
+    assert_eq!(key_and_ends(&desk), expected);
+    desk.go_to("operation.speed");
+    desk.keys(&["Esc", "6", "s", "p", "Enter", "+"]);
     assert!(key_and_ends(&desk)[0].starts_with("operation.speed 1500 rpm"));
 }
 
@@ -98,11 +113,7 @@ fn the_sweep_command_studies_any_field_and_result_from_every_pane() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "sweep driven.tip_relief = 0..40 um, 5 points", "Enter"]);
     assert_eq!(key_and_ends(&desk), ["driven.tip_relief 0 um 40 um 4"]);
-    let key = |desk: &Desk| {
-        let shown = desk.app.tab.study.shown.as_ref().expect("a study");
-        shown.quantity().expect("a result").key
-    };
-    let usual = key(&desk);
+    let usual = key(&desk).to_owned();
     desk.keys(&["o", "friction_ratio", "Enter"]);
     assert_eq!(key(&desk), "friction_ratio");
     desk.keys(&["o", "F_d,max", "Enter"]);

@@ -66,7 +66,8 @@ const METHODS: [Method; 4] = [Method::Exact, Method::Paper, Method::Static, Meth
 /// Requests the visible study if it differs from the last one; stops a hidden one.
 pub(super) fn request(app: &mut App) {
     let is_visible = app.layout.plan().shows(Pane::Study);
-    app.study.opened = if is_visible { app.study.opened.or(focused(app)) } else { None };
+    app.tab.study.state.opened =
+        if is_visible { app.tab.study.state.opened.or(focused(app)) } else { None };
     let Some(parameters) = is_visible.then(|| parameters(app)) else {
         app.cancel(Slot::Study);
         return;
@@ -97,11 +98,14 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
     let inputs = tab
         .inputs()
         .ok_or("No study: a field is empty or has an error. Alt-E goes to that field.")?;
-    let chosen = app.study.quantity.and_then(Quantity::find);
-    let quantity = chosen.or_else(|| app.marked_result());
+    let chosen = app.tab.study.state.quantity.and_then(Quantity::find);
+    // A selected result that the choice of `auto` lacks stays that of the study.
+    let selected = tab.results.selected.filter(|_| inputs.method == Method::Auto);
+    let quantity = chosen.or_else(|| selected.and_then(Quantity::find));
+    let quantity = quantity.or_else(|| app.marked_result());
     let quantity =
         quantity.or_else(|| Quantity::find("impact_force")).ok_or("No result is selected.")?;
-    if app.study.is_tolerance {
+    if app.tab.study.state.is_tolerance {
         let (mut case, inputs) = (tab.case.clone(), inputs.clone());
         case.drop_empty(None);
         if case.spread.is_empty() {
@@ -109,18 +113,20 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
                 d in this pane shows the field over its range."
                 .to_owned());
         }
-        let (quantity, samples, units) = (quantity.key, app.study.samples(), app.settings.units);
+        let (quantity, samples, units) =
+            (quantity.key, app.tab.study.state.samples(), app.settings.units);
         let parameters = ToleranceParameters { case, inputs, quantity, samples, units };
         return Ok(StudyParameters::Tolerance(Box::new(parameters)));
     }
     let field = field(app).ok_or("A limit has no range: go to a field of the form.")?;
     let (across, up) = map_points(app.layout.plan().area(Pane::Study));
     let place = range_of(app);
-    let axis_of = |field, steps| match app.study.ranges.iter().find(|axis| axis.field == field) {
-        Some(typed) => Ok(typed.clone()),
-        None => place.axis(field, steps),
-    };
-    let axes = match app.study.second.filter(|second| *second != field) {
+    let axis_of =
+        |field, steps| match app.tab.study.state.ranges.iter().find(|axis| axis.field == field) {
+            Some(typed) => Ok(typed.clone()),
+            None => place.axis(field, steps),
+        };
+    let axes = match app.tab.study.state.second.filter(|second| *second != field) {
         Some(second) => {
             vec![axis_of(second, Steps::Round(up))?, axis_of(field, Steps::Round(across))?]
         }
@@ -139,14 +145,14 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
 /// Goes to the study; from the form, of the focused field unless a field is chosen.
 pub(super) fn open(app: &mut App) {
     if app.layout.focus == Pane::Form {
-        app.study.opened = focused(app);
+        app.tab.study.state.opened = focused(app);
     }
     panes::show(app, Pane::Study);
 }
 
 /// The chosen field, otherwise the focused field when the pane opened.
 fn field(app: &App) -> Option<usize> {
-    app.study.field.or(app.study.opened).or(focused(app))
+    app.tab.study.state.field.or(app.tab.study.state.opened).or(focused(app))
 }
 
 fn focused(app: &App) -> Option<usize> {
@@ -209,7 +215,7 @@ pub(super) fn stop(app: &mut App) -> bool {
 }
 
 pub(super) fn scroll(app: &mut App, by: isize) {
-    app.study.top = study::scrolled(app, by);
+    app.tab.study.state.top = study::scrolled(app, by);
 }
 
 pub(super) fn move_cursor(app: &mut App, across: isize, up: isize) {
@@ -219,11 +225,11 @@ pub(super) fn move_cursor(app: &mut App, across: isize, up: isize) {
 
 /// Halves or doubles the range; a usual range replaces a typed one.
 pub(super) fn zoom(app: &mut App, by: i32) {
-    if app.study.is_tolerance {
+    if app.tab.study.state.is_tolerance {
         return app.say("the tolerance has no range to zoom");
     }
-    app.study.ranges.clear();
-    app.study.zoom = (app.study.zoom + by).clamp(-MOST_ZOOM, MOST_ZOOM);
+    app.tab.study.state.ranges.clear();
+    app.tab.study.state.zoom = (app.tab.study.state.zoom + by).clamp(-MOST_ZOOM, MOST_ZOOM);
 }
 
 /// Asks for the range of the study.
@@ -239,7 +245,7 @@ pub(super) fn ask_range(app: &mut App) {
 
 /// The points that a typed text means, with their units.
 fn meaning(app: &App, text: &str) -> (Result<String, String>, Option<String>) {
-    let axes = range::typed_axes(range_of(app), [field(app), app.study.second], text);
+    let axes = range::typed_axes(range_of(app), [field(app), app.tab.study.state.second], text);
     (axes.map(|axes| summary(&axes)), None)
 }
 
@@ -253,24 +259,23 @@ fn summary(axes: &[Axis]) -> String {
 }
 
 fn range_of(app: &App) -> RangeOf<'_> {
-    RangeOf { case: &app.tab.case, units: app.settings.units, zoom: app.study.zoom }
+    RangeOf { case: &app.tab.case, units: app.settings.units, zoom: app.tab.study.state.zoom }
 }
 
 /// Studies the typed ranges.
 pub(super) fn set_range(app: &mut App, text: &str) {
-    let fields = [field(app), app.study.second];
+    let fields = [field(app), app.tab.study.state.second];
     match range::typed_axes(range_of(app), fields, text) {
         Ok(axes) => {
             app.close_titled(RANGE);
             show_grid(app);
-            app.study.field = axes
-                .first()
-                .map(|axis| axis.field)
-                .filter(|own| Some(*own) != fields[0])
-                .or(app.study.field);
-            app.study.second = axes.get(1).map(|axis| axis.field);
+            // Field and result stay while the focus or the choice of `auto` changes.
+            app.tab.study.state.field = axes.first().map(|axis| axis.field);
+            let marked = app.marked_result().map(|quantity| quantity.key);
+            app.tab.results.selected = app.tab.results.selected.or(marked);
+            app.tab.study.state.second = axes.get(1).map(|axis| axis.field);
             app.say(summary(&axes));
-            app.study.ranges = axes;
+            app.tab.study.state.ranges = axes;
         }
         Err(reason) => app.complain(reason),
     }
@@ -278,7 +283,7 @@ pub(super) fn set_range(app: &mut App, text: &str) {
 
 /// Asks for the number of samples of the tolerance.
 pub(super) fn ask_samples(app: &mut App) {
-    let input = Line::whole(app.study.samples().to_string());
+    let input = Line::whole(app.tab.study.state.samples().to_string());
     let done = |app: &mut App, text: &str, _| set_samples(app, text);
     app.prompts.push(Prompt::Path(PathDialog::new(SAMPLES, HOW_MANY, input, done)));
 }
@@ -289,7 +294,7 @@ pub(super) fn set_samples(app: &mut App, text: &str) {
         Ok(count @ 2..=MOST_SAMPLES) => {
             app.close_titled(SAMPLES);
             show_grid(app);
-            let StudyState { is_tolerance, samples, top, .. } = &mut app.study;
+            let StudyState { is_tolerance, samples, top, .. } = &mut app.tab.study.state;
             (*is_tolerance, *samples, *top) = (true, Some(count), 0);
         }
         _ => app.complain(format!("type a number of samples from 2 to {MOST_SAMPLES}")),
@@ -298,7 +303,7 @@ pub(super) fn set_samples(app: &mut App, text: &str) {
 
 // Shows the pane with a curve, a map or a table.
 fn show_grid(app: &mut App) {
-    app.study.is_tolerance = false;
+    app.tab.study.state.is_tolerance = false;
     if app.layout.focus != Pane::Study {
         panes::show(app, Pane::Study);
     }
@@ -306,23 +311,24 @@ fn show_grid(app: &mut App) {
 
 /// Opens the list of fields for the study. Its first line is the focused field of the form.
 pub(super) fn first(app: &mut App) {
-    let follow = Choice::of(|app| (app.study.field, app.study.opened) = (None, None));
+    let follow =
+        Choice::of(|app| (app.tab.study.state.field, app.tab.study.state.opened) = (None, None));
     let about = "study the focused field of the form".to_owned();
     let picker = Picker::fields("Field of the study", false, |app, field| {
-        (app.study.field, app.study.is_tolerance) = (Some(field), false);
-        app.study.second = app.study.second.filter(|second| *second != field);
+        (app.tab.study.state.field, app.tab.study.state.is_tolerance) = (Some(field), false);
+        app.tab.study.state.second = app.tab.study.state.second.filter(|second| *second != field);
     });
     app.pick(picker.after(Item::named(follow, "focused field".to_owned(), about)));
 }
 
 /// Chooses a second field, or leaves the map.
 pub(super) fn second(app: &mut App) {
-    if app.study.second.take().is_none() {
+    if app.tab.study.state.second.take().is_none() {
         let picker = Picker::fields("Second field of the map", false, |app, field| {
             if self::field(app) == Some(field) {
                 return app.complain("the second field is the first one: choose another");
             }
-            (app.study.second, app.study.is_tolerance) = (Some(field), false);
+            (app.tab.study.state.second, app.tab.study.state.is_tolerance) = (Some(field), false);
         });
         app.pick(picker);
     }
@@ -330,25 +336,25 @@ pub(super) fn second(app: &mut App) {
 
 /// Opens the list of results for the study. Its first line follows the selected result again.
 pub(super) fn result(app: &mut App) {
-    let follow = Choice::of(|app| app.study.quantity = None);
+    let follow = Choice::of(|app| app.tab.study.state.quantity = None);
     let about = "the study follows the selected result of pane 2".to_owned();
     let picker = Picker::results("Result of the study", |app, quantity| {
-        app.study.quantity = Some(quantity.key);
+        app.tab.study.state.quantity = Some(quantity.key);
     });
     app.pick(picker.after(Item::named(follow, "selected result".to_owned(), about)));
 }
 
 /// Shows the tolerance, or the curve again.
 pub(super) fn tolerance(app: &mut App) {
-    let is_shown = app.layout.focus == Pane::Study && app.study.is_tolerance;
+    let is_shown = app.layout.focus == Pane::Study && app.tab.study.state.is_tolerance;
     show_grid(app);
-    (app.study.is_tolerance, app.study.top) = (!is_shown, 0);
+    (app.tab.study.state.is_tolerance, app.tab.study.state.top) = (!is_shown, 0);
 }
 
 /// Writes the values at the cursor into the form, as one edit.
 pub(super) fn take(app: &mut App) {
     let values = study::at_cursor(app);
-    if values.is_empty() || app.study.is_tolerance {
+    if values.is_empty() || app.tab.study.state.is_tolerance {
         return app.say("no value under the cursor");
     }
     if app.tab.study.cursor.is_none() {
@@ -474,7 +480,7 @@ fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
             (of.quantity, points, format!(" --samples {samples}"))
         }
     };
-    let word = if app.study.is_tolerance { "tolerance" } else { "sweep" };
+    let word = if app.tab.study.state.is_tolerance { "tolerance" } else { "sweep" };
     let ending = if format == Format::Json { "json" } else { "csv" };
     let (name, case) = (app.tab.short_name(), app.tab.as_edited().render());
     let command = format!("tipstrike {word}{options} --only {quantity} --format {ending} '{name}'");

@@ -42,7 +42,7 @@ const WORDS: u16 = 4;
 
 /// The state of the pane.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct StudyState {
+pub(crate) struct StudyState {
     /// Whether the pane shows the tolerance.
     pub(crate) is_tolerance: bool,
     /// Whether the pane shows the points as a table.
@@ -150,6 +150,8 @@ pub struct LayerFound {
 /// The study of an open case.
 #[derive(Debug, Clone, Default)]
 pub struct Study {
+    /// What the user chose to see.
+    pub(crate) state: StudyState,
     /// The present request.
     pub request: Option<StudyRequest>,
     /// The point of the cursor on the first and on the second axis.
@@ -349,7 +351,7 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
     }
     let (about, width) = (below(app, shown), usize::from(inner.width).saturating_sub(2));
     let (plot, words) = split(inner, text::wrap(&about, width).len());
-    if app.study.is_table {
+    if app.tab.study.state.is_table {
         draw_table(app, shown, plot, buffer);
     } else {
         draw_points(app, shown, plot, buffer);
@@ -360,8 +362,8 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
 /// The hint line while the pane has the focus.
 pub(crate) fn hint(app: &App) -> String {
     let Study { shown, obstacle, .. } = &app.tab.study;
-    if app.study.is_tolerance {
-        let count = app.study.samples();
+    if app.tab.study.state.is_tolerance {
+        let count = app.tab.study.state.samples();
         format!("{count} samples draw every field of [spread] from its distribution.")
     } else if let (Some(shown), None) = (shown, obstacle) {
         refused(shown).unwrap_or_else(|| {
@@ -383,7 +385,7 @@ pub(crate) fn at_cursor(app: &App) -> Vec<(usize, String)> {
 pub(crate) fn moved(app: &App, across: isize, up: isize) -> Option<(usize, usize)> {
     let shown = app.tab.study.shown.as_ref()?;
     let places = places(app, shown);
-    if app.study.is_table && !places.is_empty() {
+    if app.tab.study.state.is_table && !places.is_empty() {
         let [width, height] =
             [0, 1].map(|at| places.get(at).map_or(1, |(axis, _)| axis.points.len()));
         let (x, y) = cursor(app, shown);
@@ -467,13 +469,13 @@ fn page_height(app: &App) -> usize {
 /// The first visible line of the tolerance.
 fn top(app: &App, shown: &StudyResults) -> usize {
     let last = shown.page.len().saturating_sub(page_height(app));
-    app.study.top.min(last)
+    app.tab.study.state.top.min(last)
 }
 
 fn title(app: &App) -> String {
     let shown = app.tab.study.shown.as_ref().filter(|_| app.tab.study.obstacle.is_none());
     let Some(shown) = shown.filter(|shown| shown.quantity().is_some()) else {
-        return if app.study.is_tolerance { "Tolerance" } else { "Study" }.to_owned();
+        return if app.tab.study.state.is_tolerance { "Tolerance" } else { "Study" }.to_owned();
     };
     let state = progress(shown);
     let words = match &shown.request.parameters {
