@@ -262,15 +262,25 @@ fn variants_are_shown_beside_the_case_with_their_differences() {
     desk.keys(&["Esc", "2", "v"]).assert_shows("the case has no variants");
 }
 
-/// `auto` chooses `static`, and `dynamic` only computes the peak force.
 #[test]
-fn a_result_that_auto_lacks_is_one_curve_with_the_present_value() {
+fn a_result_that_the_pair_cannot_have_is_no_missing_contact() {
+    let mut desk = study(SMALL, "driven.tip_relief");
+    desk.run("method static");
+    desk.keys(&["o", "face_load_factor", "Enter"]).has(&["_ no value", "only a helical"]);
+    desk.lacks(&["no contact"]);
+}
+
+/// `auto` chooses `dynamic` for the fast pair, and `static` for the slow one.
+#[test]
+fn a_typed_range_keeps_its_result_of_which_auto_without_it_has_one_curve() {
     let text = TABLE_1.replace("method = \"exact\"", "method = \"auto\"");
-    let mut desk = Desk::on(LARGE, "case.toml", &text.replace("2000 rpm", "100 rpm"));
-    desk.go_to("operation.speed").keys(&["Esc", "6", "o", "F_d,max", "Enter"]);
-    let shown = desk.app.tab.study.shown.as_ref().expect("a study");
-    assert_eq!(shown.layers.len(), 1);
-    desk.assert_shows("● now");
+    let mut desk = Desk::on(LARGE, "case.toml", &text);
+    desk.keys(&["Esc", ":", "sweep operation.speed = 50..150 rpm, 3 points", "Enter"]);
+    let before = key(&desk).to_owned();
+    assert!(before.starts_with("dynamic"), "{before}");
+    desk.fill("operation.speed", "100 rpm").has(&["by static", "● now"]);
+    assert_eq!(key(&desk), before);
+    assert_eq!(desk.app.tab.study.shown.as_ref().expect("a study").layers.len(), 1);
 }
 
 /// `auto` chooses `dynamic` for the fast pair alone, and `static` for the slow one.

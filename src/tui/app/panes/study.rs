@@ -21,6 +21,7 @@ use crate::model::{Inputs, Outcome, Quantity};
 use crate::report::chart::{Axis, Cell as MapCell, Chart, Kind, Labels, Map, Point, Series, Span};
 use crate::report::charts::pieces;
 use crate::report::table::{Cell, Column, Table};
+use crate::report::verdict::Absence;
 use crate::report::{self, common_unit, shown_in, shown_with};
 use crate::study::axis::{Axis as StudyAxis, AxisPoint};
 use crate::study::batch::{self, PointOutcome, Refusals, Refused, Row};
@@ -367,7 +368,8 @@ pub(crate) fn hint(app: &App) -> String {
         format!("{count} samples draw every field of [spread] from its distribution.")
     } else if let (Some(shown), None) = (shown, obstacle) {
         refused(shown).unwrap_or_else(|| {
-            format!("● present value, ▴ cursor, {NO_CONTACT} no contact, {REFUSED} refused point.")
+            let none = shown.layers.first().map_or("no contact", |found| missing(app, found));
+            format!("● present value, ▴ cursor, {NO_CONTACT} {none}, {REFUSED} refused point.")
         })
     } else {
         "The study varies a field over a range; r types the range.".to_owned()
@@ -520,7 +522,9 @@ fn below(app: &App, shown: &StudyResults) -> String {
         Some(End::Failed(reason)) => Some(reason.clone()),
         _ => None,
     };
-    let parts = [failed, Some(values_at_cursor(app, shown))];
+    let absent = shown.layers.first().and_then(|found| absence(app, found));
+    let absent = absent.map(|absence| format!("No value: {absence}"));
+    let parts = [failed, absent, Some(values_at_cursor(app, shown))];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     symbol(&parts.join(". "), app.look.ascii).into_owned()
 }
@@ -536,21 +540,34 @@ fn values_at_cursor(app: &App, shown: &StudyResults) -> String {
     let settings: Vec<String> = settings.collect();
     let index = places.iter().rev().fold(0, |index, (axis, at)| index * axis.points.len() + at);
     let value = |found: &LayerFound| {
-        let words = value_words(found, index, app.settings.units, true)?;
+        let words = value_words(app, found, index, true)?;
         Some(format!("{} {words}", found.layer.name()))
     };
     let values: Vec<String> = shown.layers.iter().filter_map(value).collect();
     format!("{}: {}", settings.join(", "), values.join(", "))
 }
 
+/// Why no point of a curve has a value, if the reason is not missing contact.
+fn absence(app: &App, found: &LayerFound) -> Option<Absence> {
+    let known = found.layer.quantity().filter(|_| found.values().next().is_none())?;
+    let absence = Absence::of(known, app.tab.solution()?);
+    let is_contact = matches!(absence, Absence::NoContact(..) | Absence::NoExit);
+    Some(absence).filter(|_| !is_contact)
+}
+
+/// Why points without corner contact have no value, in two words.
+fn missing(app: &App, found: &LayerFound) -> &'static str {
+    if absence(app, found).is_none() { "no contact" } else { "no value" }
+}
+
 /// The value of a point, with its unit if wanted, or why there is none.
-fn value_words(found: &LayerFound, at: usize, units: System, has_unit: bool) -> Option<String> {
-    let known = found.layer.quantity()?;
+fn value_words(app: &App, found: &LayerFound, at: usize, has_unit: bool) -> Option<String> {
+    let (known, units) = (found.layer.quantity()?, app.settings.units);
     Some(match found.point(at)? {
         (_, Some(value)) if has_unit => shown_in(known, value, units).to_string(),
         (_, Some(value)) => shown_with(known, value, found.unit(units)?).number,
         (PointOutcome::Refused, None) => "refused".to_owned(),
-        (PointOutcome::Solved(Outcome::NoCornerContact), None) => "no contact".to_owned(),
+        (PointOutcome::Solved(Outcome::NoCornerContact), None) => missing(app, found).to_owned(),
         (PointOutcome::Solved(_), None) => "no value".to_owned(),
     })
 }
@@ -667,8 +684,9 @@ fn curves(app: &App, shown: &StudyResults, axis: &StudyAxis) -> Option<(Chart, V
         mark("now", vec![now], ('●', theme.focus));
     }
     let own = shown.layers.first()?;
+    let none = missing(app, own);
     for (sought, sign, name) in [
-        (PointOutcome::Solved(Outcome::NoCornerContact), NO_CONTACT, "no contact"),
+        (PointOutcome::Solved(Outcome::NoCornerContact), NO_CONTACT, none),
         (PointOutcome::Refused, REFUSED, "refused"),
     ] {
         let points = own.points().enumerate();
@@ -695,10 +713,11 @@ fn map(
     let (theme, known, found) = (app.look.theme, shown.quantity()?, shown.layers.first()?);
     let unit = common_unit(known, found.values(), app.settings.units);
     let worded = |value| (value, shown_with(known, value, unit).to_string());
+    let is_contact = absence(app, found).is_none();
     let cell = |point| match point {
         (PointOutcome::Refused, _) => MapCell::Refused,
         (_, Some(value)) => MapCell::Value(value),
-        (PointOutcome::Solved(Outcome::NoCornerContact), None) => MapCell::NoContact,
+        (PointOutcome::Solved(Outcome::NoCornerContact), None) if is_contact => MapCell::NoContact,
         (PointOutcome::Solved(_), None) => MapCell::Blank,
     };
     let limit = app.tab.case.limits.iter().find(|limit| limit.quantity == known);
@@ -804,9 +823,8 @@ fn draw_table(app: &App, shown: &StudyResults, area: Rect, buffer: &mut Buffer) 
             let places = [at / width, at % width];
             let axes = axes.iter().zip(&places[2 - axes.len()..]);
             let fields = axes.map(|(axis, at)| short(axis, *at));
-            let values = layers
-                .iter()
-                .map(|found| value_words(found, at, app.settings.units, false).unwrap_or_default());
+            let values =
+                layers.iter().map(|found| value_words(app, found, at, false).unwrap_or_default());
             fields.chain(values).map(Cell::from).collect()
         };
         Table::new("", columns).with((top..count.min(top + rows)).map(row)).lines()
