@@ -331,6 +331,26 @@ fn number_in(field: usize, value: &str, unit: &str) -> Result<f64, Problem> {
 /// Greatest number of points of a sweep.
 pub const MOST_SWEPT: usize = 100_000_000;
 
+/// How deviations add if [`add_by_sign`].
+pub const ADDED: &str = "Where the base pitch deviations of the gears are of unlike sign, they add as \
+    a sum, and elsewhere as sqrt(f_pb1^2 + f_pb2^2)";
+
+/// Whether the base pitch deviations of a point add as a sum only because of their signs.
+pub fn add_by_sign(axes: &[Axis], inputs: &Inputs) -> bool {
+    let varies_them = |axis: &Axis| {
+        let mut names = axis.fields().map(|field| FIELDS[field].name());
+        names.any(|name| matches!(name, "base_pitch" | "grade" | "combination"))
+    };
+    let Some(at) = axes.iter().position(varies_them) else {
+        return inputs.effective_combination() != inputs.combination;
+    };
+    axes[at].points.iter().any(|point| {
+        let mut inputs = inputs.clone();
+        axes[at].fields().for_each(|field| point.put(field, &mut inputs));
+        add_by_sign(&axes[at + 1..], &inputs)
+    })
+}
+
 /// The grid of a sweep. The first axis varies slowest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {

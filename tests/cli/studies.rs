@@ -153,6 +153,8 @@ fn a_varied_field_without_effect_is_named() {
     let (code, _, errors) = ran("sweep TABLE_1 --vary model.damping_ratio=0..1 --points 2");
     assert_eq!(code, 0);
     has(&errors, &["model.damping_ratio changes no quantity: only the method dynamic"]);
+    let (_, _, errors) = ran("sweep TABLE_1 --vary 'driver.base_pitch=-8..8 um' --points 3");
+    has(&errors, &["of unlike sign, they add as a sum"]);
     let (_folder, case) = with_spread("\"deviations.base_pitch\" = { normal = \"4 um\" }");
     let seek =
         "seek TABLE_1 --vary 'deviations.base_pitch=0..40 um' --until 'impact_force<=2500 N'";

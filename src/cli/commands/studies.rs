@@ -14,7 +14,7 @@ use crate::report::studies::{self, Take};
 use crate::report::svg::draw;
 use crate::report::table::Named;
 use crate::report::verdict::Absence;
-use crate::study::axis::{Axis, Grid};
+use crate::study::axis::{ADDED, Axis, Grid, add_by_sign};
 use crate::study::batch::{Points, Refusals, solve_all};
 use crate::study::seek::headline;
 use crate::study::shard::{
@@ -80,6 +80,7 @@ impl Sweep {
             }
         }
         streams.say_all(absent(&quantities, &grid, &opened));
+        streams.say_all(add_by_sign(&grid.axes, &opened.inputs).then(|| ADDED.to_owned()));
         let points = PointsRequest::Sweep { vary: vary.clone(), points: points.clone(), log: *log };
         let study = of_case(opened, quantities, (format, points), Kind::Sweep(grid));
         run_study(&study, &self.running, streams)

@@ -23,7 +23,7 @@ use crate::report::charts::pieces;
 use crate::report::table::{Cell, Column, Table};
 use crate::report::verdict::Absence;
 use crate::report::{self, common_unit, shown_in, shown_with};
-use crate::study::axis::{Axis as StudyAxis, AxisPoint};
+use crate::study::axis::{ADDED, Axis as StudyAxis, AxisPoint, add_by_sign};
 use crate::study::batch::{self, PointOutcome, Refusals, Refused, Row};
 use crate::study::tolerance::USUAL_SAMPLES;
 use crate::tui::app::App;
@@ -524,7 +524,9 @@ fn below(app: &App, shown: &StudyResults) -> String {
     };
     let absent = shown.layers.first().and_then(|found| absence(app, found));
     let absent = absent.map(|absence| format!("No value: {absence}"));
-    let parts = [failed, absent, Some(values_at_cursor(app, shown))];
+    let is_added = |found: &LayerFound| add_by_sign(shown.axes(), &found.layer.inputs);
+    let added = shown.layers.first().is_some_and(is_added).then(|| ADDED.to_owned());
+    let parts = [failed, absent, added, Some(values_at_cursor(app, shown))];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     symbol(&parts.join(". "), app.look.ascii).into_owned()
 }
