@@ -8,6 +8,7 @@ use crate::model::{Inputs, Quantity};
 use crate::numeric::decimal::significant;
 use crate::study::axis::{Axis, AxisRange, Sampling};
 use crate::tui::rows;
+use crate::tui::text::symbol;
 
 /// Points of a curve over a range.
 pub(crate) const CURVE_POINTS: usize = 101;
@@ -278,9 +279,12 @@ pub(crate) fn typed_axes(
     }
     let usual = (parts.len() == 2).then_some(POINTS_OF_MAP);
     let axis = |(part, field): (&&str, Option<usize>)| {
+        if part.matches("..").count() > 1 {
+            return Err(format!("{part}: a semicolon separates two ranges"));
+        }
         let key = || field.map(|field| FIELDS[field].key);
         let (key, mut values) = match part.split_once('=') {
-            Some((key, values)) => (key.trim(), values),
+            Some((key, values)) => (named(key.trim()), values),
             None => (key().ok_or("name the field: KEY = FROM..TO")?, *part),
         };
         let mut sampling = Sampling::default();
@@ -311,6 +315,13 @@ pub(crate) fn typed_axes(
     let axes = parts.iter().zip(fields).map(axis).collect::<Result<Vec<_>, String>>()?;
     let count: usize = axes.iter().map(|axis| axis.points.len()).product();
     if count > MOST_POINTS { Err(too_many(count)) } else { Ok(axes) }
+}
+
+/// The key of a field that is named by its symbol.
+fn named(name: &str) -> &str {
+    let is_named =
+        |field: &&Field| [symbol(field.symbol, true), field.symbol.into()].contains(&name.into());
+    FIELDS.iter().find(is_named).filter(|_| !name.is_empty()).map_or(name, |field| field.key)
 }
 
 fn too_many(count: usize) -> String {
@@ -408,6 +419,8 @@ mod tests {
             ("50, 80, 200", "operation.torque = 50,80,200 N m"),
             ("driver.teeth = 18..22", "driver.teeth = 18..22, 5 points"),
             ("1..100 N m, 3 points, log", "operation.torque = 1,10,100 N m"),
+            ("f_pb1 = 0..10 um, 3 points", "driver.base_pitch = 0..10 um, 3 points"),
+            ("zeta = 0..0.1, 3 points", "model.damping_ratio = 0..0.1, 3 points"),
         ] {
             let axes = typed_axes(of, [torque, None], text).expect("a range");
             assert_eq!(typed(&axes[0]), expected);
@@ -415,10 +428,12 @@ mod tests {
         }
         let map = typed_axes(of, [torque, None], &format!("50..200; {relief}")).expect("a map");
         assert_eq!(map.iter().map(|axis| axis.points.len()).collect::<Vec<_>>(), [31, 31]);
-        for wrong in ["", "200..50 N m", "50..200 mm", "50..200, x points", "a=1..2", "1;2;3"] {
+        for wrong in ["", "200..50 N m", "50..200 mm", "50..200, x points", "q=1..2", "1;2;3"] {
             assert!(typed_axes(of, [torque, None], wrong).is_err(), "{wrong}");
         }
         assert!(typed_axes(of, [torque, None], "50..200 N m, 30000 points").is_err());
+        let comma = typed_axes(of, [torque, None], &format!("50..200 N m, {relief}"));
+        assert!(comma.is_err_and(|reason| reason.contains("semicolon")));
         let damping = index_of("model.damping_ratio");
         let wrong = typed_axes(of, [damping, None], "100..400 N m").expect_err("a wrong unit");
         assert!(wrong.ends_with("write a range within 0..2"), "{wrong}");
