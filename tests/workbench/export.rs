@@ -105,5 +105,5 @@ fn a_picture_is_refused_by_name_if_no_chart_is_visible() {
     desk.assert_shows("not exported: no chart is visible");
     assert_eq!(names(&desk), ["pair.toml"]);
     desk.keys(&["Esc", "3", "Alt-X", "Ctrl-U", &desk_path(&desk, "a.svg"), "Enter"]);
-    desk.assert_shows("exported the chart force to ");
+    desk.assert_shows(": the chart force");
 }

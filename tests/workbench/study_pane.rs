@@ -158,9 +158,18 @@ fn the_shown_points_are_exported_as_by_the_command_that_is_named() {
     }
     let mut desk = study(SMALL, "operation.speed");
     desk.keys(&["o", "impact_force", "Enter", "r", "1000..1500 rpm, 6 points", "Enter", "y"]);
-    let command = "tipstrike sweep --vary 'operation.speed=1000..1500 rpm' --points 6 --only \
-        impact_force --format csv 'case.toml'";
-    assert_eq!(desk.copied.as_deref(), Some(command));
+    let commands = [
+        ("", "impact_force"),
+        (" --method static", "static_force_at_start"),
+        (" --method dynamic", "dynamic_peak_approach_force"),
+    ];
+    let commands = commands.map(|(method, quantity)| {
+        format!(
+            "tipstrike sweep --vary 'operation.speed=1000..1500 rpm' --points 6{method} --only \
+                {quantity} --format csv 'case.toml'"
+        )
+    });
+    assert_eq!(desk.copied, Some(commands.join("\n")));
 }
 
 #[test]

@@ -109,7 +109,7 @@ fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
     }
     let inputs = app.tab.inputs().cloned().ok_or("a field has an error")?;
     let (name, document, units) = (app.tab.name(), app.tab.as_edited(), app.settings.units);
-    let subject = picture.map_or_else(String::new, |picture| format!(" {picture}"));
+    let subject = picture.map_or_else(String::new, |picture| format!(": {picture}"));
     let content = move |running: &Running<'_>| {
         let source = Unsolved { name: &name, case: &document.case, inputs: &inputs };
         let go_on = |_, _| running.is_wanted();
@@ -170,7 +170,7 @@ fn done(app: &mut App, path: &Path, subject: &str, result: Result<(), Option<Str
     match result {
         Ok(()) => {
             app.close_titled(EXPORT);
-            app.say(format!("exported{subject} to {}", path.display()));
+            app.say(format!("exported to {}{subject}", path.display()));
         }
         Err(None) => {
             app.message = None;
@@ -201,9 +201,10 @@ pub(super) fn copy_value(app: &mut App) {
             }
             None => Err("no cursor and no value to copy: h and l show the cursor".to_owned()),
         },
-        Pane::Study => {
-            studies::command(app).map(|command| (command, "the command of the study".to_owned()))
-        }
+        Pane::Study => studies::command(app).map(|command| {
+            let first = if app.tab.is_unsaved() { "; save the case before it runs" } else { "" };
+            (command, format!("the command of the study{first}"))
+        }),
         Pane::Results | Pane::Trade => {
             let quantity = app.marked_result();
             let found = quantity.map(|quantity| {
@@ -270,6 +271,7 @@ fn copy(app: &mut App, text: String, what: &str) {
             "{what}: {bytes} bytes are too long for the clipboard of a terminal"
         ));
     }
-    app.say(format!("copied {}", if text.lines().count() > 1 { what } else { &text }));
+    let is_long = text.lines().count() > 1 || app.layout.focus == Pane::Study;
+    app.say(format!("copied {}", if is_long { what } else { &text }));
     app.want(Effect::Copy(text));
 }

@@ -374,13 +374,12 @@ pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), Strin
         let chart = study::picture(app).ok_or("there is no curve to draw")?;
         let caption = Named { name: &app.tab.name(), title: app.tab.case.title() }.caption();
         let draw = move |_: &Running<'_>| Ok(svg::draw(&chart, &caption));
-        return Ok((" the picture of the study".to_owned(), Box::new(draw)));
+        return Ok((": the picture of the study".to_owned(), Box::new(draw)));
     }
     let format = format_of(path).unwrap_or(Format::Csv);
-    let (request, command) = repeated(app, format)?;
+    let (request, _) = repeated(app, format)?;
     let mut curves = app.tab.study.curves();
     curves.truncate(if format == Format::Csv { usize::MAX } else { 1 });
-    let beside = if curves.len() > 1 { " with the other curves" } else { "" };
     let content = move |running: &Running<'_>| {
         let refused = |problem: Problem| format!("{}: {}", problem.cause, problem.fix);
         let mut study = Study::restore(&request).map_err(refused)?;
@@ -393,7 +392,7 @@ pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), Strin
         };
         text.map_err(|error| error.to_string())
     };
-    Ok((format!(" the study, as `{command}`{beside},"), Box::new(content)))
+    Ok((": the study (y copies its command)".to_owned(), Box::new(content)))
 }
 
 /// The rows of a study; those of a curve that the pane has solved are not solved again.
@@ -456,17 +455,20 @@ fn text_of_curves(
     String::from_utf8(out).map_err(io::Error::other)
 }
 
-/// The command that repeats the shown study.
+/// The commands that repeat the curves of the shown study, one per line.
 pub(super) fn command(app: &App) -> Result<String, String> {
     Ok(repeated(app, Format::Csv)?.1)
 }
 
-/// The request of the shown study, and its command.
+/// The request of the shown study, and its commands.
 fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
     let study = app.tab.study.request.as_ref().filter(|_| app.tab.study.obstacle.is_none());
+    // Of the other curves, the baseline is another case.
+    let mut others = Vec::new();
     let (quantity, points, options) = match &study.ok_or("there is no study")?.parameters {
         StudyParameters::Grid(grid) => {
             let quantity = grid.layers.first().map_or("", |layer| layer.quantity);
+            others.extend(grid.layers.iter().skip(1).filter(|layer| !layer.is_baseline));
             let (vary, points): (Vec<_>, Vec<_>) = grid.axes.iter().map(range::vary).unzip();
             let points: Vec<usize> = points.into_iter().flatten().collect();
             let varied = vary.iter().map(|text| format!(" --vary '{text}'"));
@@ -483,9 +485,16 @@ fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
     let word = if app.tab.study.state.is_tolerance { "tolerance" } else { "sweep" };
     let ending = if format == Format::Json { "json" } else { "csv" };
     let (name, case) = (app.tab.short_name(), app.tab.as_edited().render());
-    let command = format!("tipstrike {word}{options} --only {quantity} --format {ending} '{name}'");
+    let command = |method: &str, quantity: &str| {
+        format!("tipstrike {word}{options}{method} --only {quantity} --format {ending} '{name}'")
+    };
+    let of_layer = |layer: &Layer| {
+        command(&format!(" --method {}", layer.inputs.method.name()), layer.quantity)
+    };
+    let commands = [command("", quantity)].into_iter().chain(others.into_iter().map(of_layer));
+    let commands = commands.collect::<Vec<_>>().join("\n");
     let quantities = vec![quantity.to_owned()];
-    Ok((Request { name: app.tab.name(), case, quantities, format, points }, command))
+    Ok((Request { name: app.tab.name(), case, quantities, format, points }, commands))
 }
 
 /// The output of the command of a study, from the known points if they are complete.
