@@ -285,7 +285,9 @@ pub fn whine(solution: &Solution) -> Option<String> {
         Ordering::Less => format!("{fall} with falling speed ({rise} with rising speed)"),
         _ => format!("{rise} with rising speed ({fall} with falling speed)"),
     };
-    Some(format!("Greatest dynamic factor {greatest}; mesh frequency {frequency}, {resonance}"))
+    Some(format!(
+        "Greatest dynamic factor without deviations: {greatest}; mesh frequency {frequency}, {resonance}"
+    ))
 }
 
 #[cfg(test)]

@@ -22,6 +22,7 @@ use super::settings::{Look, Settings};
 use super::solver::{self, Answer, Baseline, Request, Wanted};
 use super::store::WatchedFile;
 use crate::case::{Case, Document, Evaluator, Problem};
+use crate::model::inputs::Method;
 use crate::model::{Stage, Stages};
 use crate::report::stations::GRAPHS;
 use crate::study::trade::STEADY;
@@ -429,7 +430,8 @@ impl App {
         if let Some((before, now)) = before.zip(now).filter(|(before, now)| before != now) {
             let earlier = self.message.take().map(|message| ". ".to_owned() + &message.text);
             let (earlier, before) = (earlier.unwrap_or_default(), before.name());
-            self.say(format!("auto: {before} -> {}{earlier}", now.name()));
+            let rest = if now == Method::Static { " (forces at rest)" } else { "" };
+            self.say(format!("auto: {before} -> {}{rest}{earlier}", now.name()));
         }
         self.follow();
     }

@@ -177,11 +177,11 @@ pub(super) const TABLE: &[Quantity] = &[
         .at_exit(),
     AT_REST
         .row(
-            ["static_transmission_error", "TE_st", "transmission error"],
+            ["static_transmission_error", "TE_st", "TE with deviations"],
             ("m", "um", 5),
             |s| Some(s.static_load.as_ref()?.transmission_error),
             "The difference between the largest and the smallest lead of the driver \
-                while the tooth carries load.",
+                while the tooth carries load, with the base pitch deviations of the case.",
             Found("max x - min x from the first contact to the last, x by Σ w_k F_k = F_0", SHARED),
         )
         .equation("max x − min x")
