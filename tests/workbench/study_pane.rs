@@ -289,7 +289,11 @@ fn a_typed_range_keeps_its_result_of_which_auto_without_it_has_one_curve() {
     assert!(before.starts_with("dynamic"), "{before}");
     desk.fill("operation.speed", "100 rpm").has(&["by static", "● now"]);
     assert_eq!(key(&desk), before);
-    assert_eq!(desk.app.tab.study.shown.as_ref().expect("a study").layers.len(), 1);
+    let count = |desk: &Desk| desk.app.tab.study.shown.as_ref().expect("a study").layers.len();
+    assert_eq!(count(&desk), 1);
+    // Another method has the same load at rest.
+    desk.keys(&["Esc", "6", "o", "static_peak_force", "Enter"]);
+    assert_eq!((key(&desk), count(&desk)), ("static_peak_force", 1));
 }
 
 /// `auto` chooses `dynamic` for the fast pair alone, and `static` for the slow one.

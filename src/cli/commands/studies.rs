@@ -69,8 +69,8 @@ impl Sweep {
         let mut quantities = self.only.quantities();
         opened.need(quantities.iter().copied());
         streams.say_all(idle(&grid, &opened));
+        let methods = grid.methods(&opened.inputs);
         if quantities.is_empty() {
-            let methods = grid.methods(&opened.inputs);
             quantities = headline(&opened.document.case, &methods);
             if methods.contains(&Method::Auto) {
                 streams.say(
@@ -78,6 +78,14 @@ impl Sweep {
                      to another method",
                 );
             }
+        } else if methods.contains(&Method::Auto) {
+            let in_motion = |known: &&&Quantity| !Method::Static.stages().has(known.stage);
+            streams.say_all(quantities.iter().filter(in_motion).map(|known| {
+                let key = known.key;
+                format!(
+                    "{key}: if the choice of auto (column method) lacks it, dynamic computes it"
+                )
+            }));
         }
         streams.say_all(absent(&quantities, &grid, &opened));
         streams.say_all(add_by_sign(&grid.axes, &opened.inputs).then(|| ADDED.to_owned()));

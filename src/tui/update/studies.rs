@@ -10,7 +10,7 @@ use crate::case::fields::FIELDS;
 use crate::case::fields::index_of;
 use crate::case::{Case, Evaluator, Problem, Variant};
 use crate::model::inputs::Method;
-use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Solution};
+use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Solution, Stage};
 use crate::report::page::{format_of, is_picture};
 use crate::report::solve::common_method;
 use crate::report::studies::{Take, table_of, write};
@@ -184,6 +184,9 @@ fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer>
     let others = METHODS.into_iter().filter(is_other);
     let others =
         others.filter_map(|method| layer(false, Inputs { method, ..inputs.clone() }, method));
+    // Each method that shares the load has the same load at rest.
+    let is_at_rest = matches!(quantity.stage, Stage::Static | Stage::StaticSpectrum);
+    let others = others.filter(|other| !is_at_rest || other.quantity != quantity.key);
     let pinned = app.baseline.as_ref().map(|baseline| &baseline.answer);
     let pinned = pinned.and_then(|answer| layer(true, answer.inputs.clone(), answer.active));
     std::iter::once(first).chain(others).chain(pinned).collect()
