@@ -15,7 +15,7 @@ use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::{Quantity, Stage};
 use crate::numeric::decimal::{shortest, significant};
 use crate::report::tolerance::ToleranceReport;
-use crate::study::axis::{AxisRange, Grid};
+use crate::study::axis::{AxisRange, Grid, are_geometric};
 use crate::study::batch::{PointOutcome, Points, Refusals, Row, with_unit};
 use crate::study::excitation::{self, Excitation, STIFFNESS, VALUES};
 use crate::study::seek::{Condition, Found, Sample, State};
@@ -300,7 +300,9 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
     let across = across.ok_or(none)?;
     let places = distinct(&[across]);
     let is_number = places.iter().all(|place| place[0].parse::<f64>().is_ok());
-    let place = |text: &str| match text.parse() {
+    let is_log = are_geometric(places.len(), |at| places.get(at)?[0].parse().ok());
+    let place = |text: &str| match text.parse::<f64>() {
+        Ok(number) if is_log => number.log10(),
         Ok(number) if is_number => number,
         _ => places.iter().position(|place| place[0] == text).unwrap_or_default() as f64,
     };
@@ -335,8 +337,9 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
         return Err(format!("the sweep has no values of {}", first.key));
     }
     let (key, across_unit) = names[across];
-    let labels = places.iter().enumerate().map(|(at, place)| (at as f64, place[0].to_owned()));
-    let labels = labels.filter(|_| !is_number).collect();
+    let step = if is_log { (places.len() - 1).div_ceil(4) } else { 1 };
+    let labels = places.iter().step_by(step).map(|cells| (place(cells[0]), cells[0].to_owned()));
+    let labels = labels.filter(|_| is_log || !is_number).collect();
     let dimension = units::Dimension::of_unit(unit).map_or("", units::Dimension::name);
     let common = dimension.trim_start_matches("an ").trim_start_matches("a ");
     let (name, up) = match known.len() {

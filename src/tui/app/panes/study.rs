@@ -23,7 +23,7 @@ use crate::report::charts::pieces;
 use crate::report::table::{Cell, Column, Table};
 use crate::report::verdict::Absence;
 use crate::report::{self, common_unit, shown_in, shown_with};
-use crate::study::axis::{ADDED, Axis as StudyAxis, AxisPoint, add_by_sign};
+use crate::study::axis::{ADDED, Axis as StudyAxis, AxisPoint, add_by_sign, are_geometric};
 use crate::study::batch::{self, PointOutcome, Refusals, Refused, Row};
 use crate::study::tolerance::USUAL_SAMPLES;
 use crate::tui::app::App;
@@ -699,8 +699,10 @@ fn curves(app: &App, shown: &StudyResults, axis: &StudyAxis) -> Option<(Chart, V
             mark(name, points, (sign, theme.note));
         }
     }
-    let names = axis.points.iter().enumerate().map(|(at, point)| (x(axis, at), point.text.clone()));
-    let labels = if is_joined { Labels::new() } else { names.collect() };
+    let step = if is_joined { (axis.points.len() - 1).div_ceil(4).max(1) } else { 1 };
+    let names = (0..axis.points.len()).step_by(step).map(|at| (x(axis, at), short(axis, at)));
+    let has_ticks = is_joined && !is_log(axis);
+    let labels = if has_ticks { Labels::new() } else { names.collect() };
     let (series, looks) = series.into_iter().unzip();
     let across = Axis { labels, ..field_axis(axis) };
     Some((Chart { across, up: up_axis(shown, unit), series, ..Chart::default() }, looks))
@@ -770,7 +772,7 @@ fn present_value(app: &App, shown: &StudyResults) -> Option<f64> {
 /// The position of the present case on an axis.
 fn present(app: &App, axis: &StudyAxis) -> Option<f64> {
     let nearest = || range::nearest(axis, &app.tab.case).map(|at| x(axis, at));
-    range::present(axis, &app.tab.case).or_else(nearest)
+    range::present(axis, &app.tab.case).map(|number| scaled(axis, number)).or_else(nearest)
 }
 
 /// The index of the point at the present case, or a fraction between those around it.
@@ -792,9 +794,19 @@ fn short(axis: &StudyAxis, at: usize) -> String {
     number.map_or_else(|| text.clone(), |number| tidy(number, DIGITS))
 }
 
-/// The position of a point on the axis: its number, or the index of a choice.
+/// The position of a point on the axis: its number or the logarithm, or the index of a choice.
 fn x(axis: &StudyAxis, at: usize) -> f64 {
-    axis.points.get(at).and_then(|point| point.number).unwrap_or(at as f64)
+    let number = axis.points.get(at).and_then(|point| point.number);
+    number.map_or(at as f64, |number| scaled(axis, number))
+}
+
+/// The position of a number on the axis, which is logarithmic if its points have equal ratios.
+fn scaled(axis: &StudyAxis, number: f64) -> f64 {
+    if is_log(axis) { number.log10() } else { number }
+}
+
+fn is_log(axis: &StudyAxis) -> bool {
+    are_geometric(axis.points.len(), |at| axis.points.get(at)?.number)
 }
 
 fn ends(axis: &StudyAxis) -> Span {
