@@ -53,6 +53,8 @@ pub(crate) struct Plot {
     pub(crate) cells: Rect,
     pub(crate) across: Span,
     pub(crate) up: Span,
+    /// Whether each row is a cell of a map.
+    pub(crate) is_map: bool,
 }
 
 impl TerminalChart<'_> {
@@ -78,7 +80,7 @@ impl TerminalChart<'_> {
         let area = Rect { y: area.y + rows, height: area.height - rows, ..area };
         let unit = unit_of(across).width() as u16 + 1;
         let margin = margin.max(label_margin(up, spans.1, area.height)).max(unit);
-        let plot = Plot::new(area, margin, spans);
+        let plot = Plot { is_map: map.is_some(), ..Plot::new(area, margin, spans) };
         if !plot.cells.is_empty() {
             plot.draw_axes(across, up, self.theme, buffer);
             if let Some(map) = map {
@@ -143,7 +145,8 @@ impl Plot {
             ..area
         };
         let has_room = cells.width >= LEAST.0 && cells.height >= LEAST.1;
-        Plot { cells: if has_room { cells } else { Rect::ZERO }, across, up }
+        let cells = if has_room { cells } else { Rect::ZERO };
+        Plot { cells, across, up, is_map: false }
     }
 
     /// The column of a value, if it is in the range.
@@ -162,9 +165,13 @@ impl Plot {
         self.across.from + part * self.across.length()
     }
 
-    /// The row of a value, or the nearest row: that of its Braille dot.
+    /// The row of a value, or the nearest row: that of its Braille dot, on a map that of its cell.
     pub(crate) fn row(&self, y: f64) -> u16 {
-        self.cells.y + row_in(self.cells.height, self.up, y)
+        if !self.is_map {
+            return self.cells.y + row_in(self.cells.height, self.up, y);
+        }
+        let last = f64::from(self.cells.height.saturating_sub(1));
+        self.cells.y + ((1.0 - self.up.part(y)).clamp(0.0, 1.0) * last).round() as u16
     }
 
     /// The value on a row: the first and the last row show the ends of the axis.
@@ -244,16 +251,10 @@ impl Plot {
 
     /// Draws the cursor of a map: its cell, and a mark on both axes.
     pub(crate) fn draw_cursor_at(&self, (x, y): Point, theme: &Theme, buffer: &mut Buffer) {
-        let (Some(column), row) = (self.column(x), self.map_row(y)) else { return };
+        let (Some(column), row) = (self.column(x), self.row(y)) else { return };
         buffer[(column, row)].modifier |= Modifier::REVERSED;
         buffer.set_string(column, self.cells.bottom(), "▴", theme.focus);
         buffer.set_string(self.cells.x - 1, row, "▸", theme.focus);
-    }
-
-    /// The row of a value on a map.
-    fn map_row(&self, y: f64) -> u16 {
-        let last = f64::from(self.cells.height.saturating_sub(1));
-        self.cells.y + ((1.0 - self.up.part(y)).clamp(0.0, 1.0) * last).round() as u16
     }
 
     /// Draws the nearest value of a map in each cell, with the contours of the limit and of contact.

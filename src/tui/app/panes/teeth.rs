@@ -240,7 +240,8 @@ impl<'a> Painter<'a> {
         let (low, high) =
             (self.window.centre - self.window.half, self.window.centre + self.window.half);
         let span = |from, to| Span::of(bounds(from, to).into_iter());
-        Plot { cells: self.area, across: span(low.x, high.x), up: span(low.y, high.y) }
+        let (across, up) = (span(low.x, high.x), span(low.y, high.y));
+        Plot { cells: self.area, across, up, is_map: false }
     }
 
     fn dot_height(&self) -> f64 {
