@@ -438,6 +438,5 @@ fn with_inch_units_a_study_is_in_inches() {
     desk.keys(&["Esc", "6", ":", "units", "Enter"]).assert_shows("over module in in");
     desk.assert_shows("m = 0.19685 in:");
     desk.keys(&["l", "Enter"]);
-    let text = desk.app.tab.case.text(tipstrike::case::fields::index_of("pair.module").unwrap());
-    assert!(text.is_some_and(|text| text.ends_with(" in")), "{text:?}");
+    assert!(desk.text("pair.module").ends_with(" in"));
 }

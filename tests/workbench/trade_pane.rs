@@ -48,15 +48,18 @@ fn arrows_select_from_the_fastest_to_the_slowest() {
 #[test]
 fn enter_uses_the_selected_setting_and_undo_reverts_it() {
     let mut desk = measured(LARGE);
-    let before = own(&desk);
-    let marked = desk.app.tab.traded.as_ref().unwrap().marked.unwrap();
-    desk.keys(&["Enter"]);
-    assert_eq!(own(&desk), marked);
-    assert_eq!(desk.app.tab.answer.as_ref().unwrap().active, Method::Dynamic);
-    desk.assert_shows(&format!("method {marked}; Ctrl-Z undoes"));
-    assert!(!desk.shows("OUTDATED"), "a setting makes no other case");
-    desk.keys(&["u"]);
-    assert_eq!(own(&desk), before);
+    let (before, traded) = (own(&desk), desk.app.tab.traded.as_ref().unwrap());
+    let mut all = traded.trade.as_ref().unwrap().settings.iter().map(|one| one.setting);
+    let beam = all.find(|one| one.to_string() == "static with beam and weber, 64 stations");
+    for marked in [traded.marked, beam].map(Option::unwrap) {
+        desk.app.tab.traded.as_mut().unwrap().marked = Some(marked);
+        desk.keys(&["Enter"]).assert_shows(&format!("method {marked}; Ctrl-Z undoes"));
+        assert_eq!(own(&desk), marked);
+        assert_eq!(desk.app.tab.answer.as_ref().unwrap().active, marked.method);
+        assert!(!desk.shows("OUTDATED"), "a setting makes no other case");
+        desk.keys(&["u"]);
+        assert_eq!(own(&desk), before);
+    }
 }
 
 #[test]
@@ -97,14 +100,12 @@ fn a_measurement_out_of_sight_stops() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "5"]);
     desk.effects("m");
+    for size in [Size::new(20, 5), SMALL] {
+        let effects = update(&mut desk.app, Action::Resize(size));
+        assert!(!stops(&effects), "a briefly too small window does not stop the benchmark");
+    }
     assert!(!stops(&desk.effects("2")), "it is in sight");
     assert!(stops(&desk.effects("3")), "the chart replaces it");
-    let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "5"]);
-    desk.effects("m");
-    let tiny = ratatui::layout::Size::new(20, 5);
-    let effects = update(&mut desk.app, Action::Resize(tiny));
-    assert!(!stops(&effects), "a briefly too small window does not stop the benchmark");
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Alt-T", "Esc", "5"]);
     desk.effects("m");
@@ -122,13 +123,7 @@ fn the_results_of_a_replaced_benchmark_are_ignored_and_a_refusal_is_shown() {
     assert!(count(&desk) == 0 && desk.shows("measuring"), "the second one runs");
     desk.fill("pair.centre_distance", "10 mm").keys(&["Esc", "5", "m"]);
     desk.assert_shows("no benchmark: ").lacks(&["measuring"]);
-}
-
-#[test]
-fn an_invalid_form_is_not_measured() {
-    let mut desk = Desk::new(LARGE);
-    desk.fill("pair.module", "x");
-    desk.keys(&["Esc", "5"]);
+    desk.fill("pair.module", "x").keys(&["Esc", "5"]);
     assert!(desk.effects("m").is_empty());
     desk.assert_shows("no benchmark: fix the fields");
 }
@@ -136,7 +131,8 @@ fn an_invalid_form_is_not_measured() {
 fn timed(size: Size) -> Desk {
     let mut desk = measured(size);
     time_evenly(&mut desk);
-    evened(&mut desk);
+    let trade = desk.app.tab.traded.as_mut().and_then(|traded| traded.trade.as_mut());
+    trade.expect("it is whole").build = Ok([12e-3, 15e-3]);
     desk.app.message = None;
     desk
 }
@@ -161,26 +157,4 @@ fn v_shows_every_method_with_every_compliance_as_a_table() {
         assert_snapshot!(format!("table_{name}"), desk.screen());
         desk.keys(&["v"]).assert_shows("└");
     }
-}
-
-/// Replaces machine-dependent times for the snapshot.
-fn evened(desk: &mut Desk) {
-    let traded = desk.app.tab.traded.as_mut().expect("a measurement");
-    let trade = traded.trade.as_mut().expect("it is whole");
-    trade.build = Ok([12e-3, 15e-3]);
-}
-
-#[test]
-fn enter_also_uses_the_compliance_of_the_selected_setting() {
-    let mut desk = measured(LARGE);
-    let traded = desk.app.tab.traded.as_ref().expect("a measurement");
-    let all = traded.trade.as_ref().expect("it is whole").settings.iter();
-    let name = "static with beam and weber, 64 stations";
-    let beam = all.map(|one| one.setting).find(|setting| setting.to_string() == name);
-    desk.app.tab.traded.as_mut().expect("a measurement").marked = beam;
-    desk.keys(&["Enter"]);
-    assert_eq!(Some(own(&desk)), beam);
-    assert!(!desk.shows("OUTDATED"), "a compliance makes no other case");
-    desk.keys(&["u"]);
-    assert_eq!(own(&desk).method, Method::Exact);
 }
