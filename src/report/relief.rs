@@ -568,12 +568,12 @@ const NUMBERS: [Numbers; 24] = [
     ("driven.tip_relief_length", "La2", "m", ("mm", 4), |_, of| of.length(1)),
     ("transmission_error", "TE", "m", ("um", 3), |_, of| Some(of.nominal.error)),
     ("margin", "gap", "m", ("um", 2), |_, of| Some(of.worst.gap)),
-    ("change", "vs case", "1", ("%", 2), |all, of| {
+    ("change", "change", "1", ("%", 2), |all, of| {
         Some(of.nominal.error / all.choices[0].nominal.error - 1.0)
     }),
     ("worst_transmission_error", "worst", "m", ("um", 3), |_, of| Some(of.worst.error)),
     ("least_load_error", "TE", "m", ("um", 3), |_, of| of.errors.first().copied()),
-    ("least_load_change", "vs case", "1", ("%", 2), |all, of| {
+    ("least_load_change", "change", "1", ("%", 2), |all, of| {
         Some(of.errors.first()? / all.choices[0].errors.first()? - 1.0)
     }),
     ("unloaded_contact_ratio", "ratio", "1", ("1", 3), |all, of| {
