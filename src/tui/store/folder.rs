@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use ratatui::style::Style;
 
-use super::{at_home, load, without_name};
+use super::{at_home, load};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 use crate::case::{Document, EXAMPLES, Example, rexs};
@@ -216,7 +216,7 @@ pub(crate) fn preview(
 ) -> Option<Preview> {
     match target {
         Target::File(path) => match load(&at_home(path)) {
-            Ok(document) => of_document(&document, &at_home(path), system, go_on),
+            Ok(document) => of_document(&document, system, go_on),
             Err(faults) => Some(of_faults(faults)),
         },
         Target::Folder(path) => Some(match entries(&at_home(path), path) {
@@ -238,27 +238,21 @@ pub(crate) fn preview(
             }
             Err(reason) => of_faults(vec![reason]),
         }),
-        Target::Example(example) => {
-            of_document(&example.document(), Path::new(example.name), system, go_on)
-        }
+        Target::Example(example) => of_document(&example.document(), system, go_on),
     }
 }
 
 fn of_document(
     document: &Document,
-    path: &Path,
     system: System,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Preview> {
     let is_newer = document.is_newer();
-    Some(match document.case.inputs() {
+    let mut lines = match document.case.inputs() {
         Ok(inputs) => {
             let digest = solve::digest(&document.case, &inputs, system, go_on)?;
             let Digest { title, pair, load, method, outcome, limits, notes, .. } = digest;
             let mut lines = Preview::new();
-            if is_newer {
-                lines.push(("Newer format: opens read-only.".to_owned(), PROBLEM));
-            }
             let title = if title.is_empty() { "without a title".to_owned() } else { title };
             lines.push((title, |theme| theme.title));
             let plain = [pair, load, format!("method {method}"), String::new()];
@@ -277,17 +271,21 @@ fn of_document(
             }
             lines
         }
-        Err(problems) if !is_newer => {
-            let head: (String, Tone) =
-                ("Required values are missing:".to_owned(), |theme| theme.note);
+        Err(problems) => {
+            let head = if is_newer {
+                "Missing, or not read by this version:"
+            } else {
+                "Required values are missing:"
+            };
+            let head: (String, Tone) = (head.to_owned(), |theme| theme.note);
             let fields = problems.iter().map(|problem| (problem.for_form().field, PLAIN));
             std::iter::once(head).chain(fields).collect()
         }
-        Err(problems) => {
-            let fault = |problem| without_name(path, &document.fault(problem).to_string());
-            of_faults(problems.into_iter().map(fault).collect())
-        }
-    })
+    };
+    if is_newer {
+        lines.insert(0, ("Newer format: opens read-only.".to_owned(), PROBLEM));
+    }
+    Some(lines)
 }
 
 fn of_faults(mut faults: Vec<String>) -> Preview {
