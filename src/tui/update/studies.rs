@@ -617,7 +617,10 @@ fn sample(
         let mut page = report.lines_for_screen(*units);
         let refused = samples.refusals.0.iter().map(|refused| refused.sentence(&so_far.design));
         page.extend(refused);
-        let progress = progress(begun, solved, count);
+        let mut progress = progress(begun, solved, count);
+        if solved >= study.design.samples {
+            progress.1.push_str(", ranking the fields");
+        }
         running.send(move |app| {
             change(app, tab, |results| (results.page, results.progress) = (page, progress));
         });
