@@ -130,16 +130,19 @@ fn differ(solved: Result<Option<f64>, Refusal>, own: Option<f64>) -> Option<bool
 }
 
 /// The inputs with each of these values in a field; with every choice in a choice.
-fn with_values(field: usize, values: &[f64], inputs: &Inputs) -> Vec<Inputs> {
+fn with_values(
+    field: usize,
+    values: &[f64],
+    inputs: Inputs,
+) -> impl Iterator<Item = Inputs> + use<> {
     let known = &FIELDS[field];
     let choices: Vec<f64> = (0..known.choices().len()).map(|at| at as f64).collect();
-    let values = if known.is_choice() { &choices } else { values };
-    let with = |&value: &f64| {
+    let values = if known.is_choice() { choices } else { values.to_vec() };
+    values.into_iter().map(move |value| {
         let mut other = inputs.clone();
         known.put(known.value_of(value), &mut other);
         other
-    };
-    values.iter().map(with).collect()
+    })
 }
 
 /// A step that is small for the field, and the inputs after it.
@@ -152,13 +155,14 @@ fn small_step(field: usize, case: &Case, inputs: &Inputs) -> Option<(&'static st
         Kind::Number(..) => ("+1 %", 1.01 * now),
         _ => ("+1", now + 1.0),
     };
-    Some((text, with_values(field, &[to], inputs).pop()?))
+    Some((text, with_values(field, &[to], inputs.clone()).next()?))
 }
 
 /// Whether a larger change of a field alters a quantity. `None` if no changed pair can be solved.
 fn is_moved(own: Option<f64>, field: usize, case: &Case, base: &Base<'_>) -> Option<bool> {
     let mut known = None;
-    for other in with_values(field, &other_values(field, case, &base.inputs), &base.inputs) {
+    let values = other_values(field, case, &base.inputs);
+    for other in with_values(field, &values, base.inputs.clone()) {
         known = differ(base.solved(&other), own).or(known);
         if known == Some(true) {
             break;
@@ -215,24 +219,22 @@ pub fn is_read(field: usize, inputs: &Inputs) -> bool {
 }
 
 fn readers(field: usize, inputs: &Inputs) -> impl Iterator<Item = Stage> {
-    let others = with_other_values(field, inputs);
-    let reads = move |stage: &Stage| {
-        others.iter().any(|other| {
-            !stage.has_equal_inputs(inputs, other) || !other.method.stages().has(*stage)
+    with_other_values(field, inputs).flat_map(move |other| {
+        inputs.method.stages().iter().filter(move |stage| {
+            !stage.has_equal_inputs(inputs, &other) || !other.method.stages().has(*stage)
         })
-    };
-    inputs.method.stages().iter().filter(reads)
+    })
 }
 
 /// The inputs with other values in a field. At least one value differs from the present value.
-fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
+fn with_other_values(field: usize, inputs: &Inputs) -> impl Iterator<Item = Inputs> + use<> {
     /// Parts of the range: the least value, because the smaller of two values can decide, and two
     /// unusual values.
     const SHARES: [f64; 3] = [0.0, 0.381_966, 0.618_034];
     // Every stage that reads the tooth model also reads the fields that decide its range.
     let held = Inputs { tooth_compliance: Some(model_of(inputs)), ..inputs.clone() };
     let values = FIELDS[field].range().map(|range| SHARES.map(|share| within(range, share)));
-    with_values(field, &values.unwrap_or([0.1, -0.2, 0.3]), &held)
+    with_values(field, &values.unwrap_or([0.1, -0.2, 0.3]), held)
 }
 
 /// Whether a field has an effect on the results.
