@@ -413,6 +413,16 @@ impl App {
         })
     }
 
+    /// Whether every requested result is present, or only the search in motion for the required relief
+    /// and the run over the speed lack, which take longer than a frame.
+    pub(super) fn has_quick_results(&self) -> bool {
+        let answer = self.tab.answer.as_ref().filter(|answer| answer.serial == self.tab.serial);
+        let is_moved = |answer: &Answer| {
+            answer.pending.is_none() && answer.active.stages().has(Stage::SpeedRun)
+        };
+        self.has_results() || answer.is_some_and(is_moved)
+    }
+
     /// Solves the stages that became visible after the last request.
     pub(super) fn catch_up(&mut self) {
         if self.tab.problems.is_empty() && !self.tab.requested.covers(self.wanted()) {

@@ -158,7 +158,7 @@ impl Workbench {
                 Ok(changed) => has_changed |= changed,
                 Err(end) => return Ok(Some(end)),
             }
-            let waits = self.app.is_busy(Slot::Solve) && !self.app.has_results();
+            let waits = self.app.is_busy(Slot::Solve) && !self.app.has_quick_results();
             let waits = waits && Instant::now() < quick;
             batch = if waits { self.events.batch(None, Some(quick)) } else { Vec::new() };
         }
