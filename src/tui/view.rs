@@ -3,8 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
-use ratatui::text::{Line, Span, Text};
-use ratatui::widgets::Widget;
+use ratatui::text::{Line, Span};
 
 use super::app::App;
 use super::app::actions::Binding;
@@ -34,7 +33,7 @@ pub fn draw(app: &App, buffer: &mut Buffer) -> Option<Position> {
             "{}x{} cells needed; this is {}x{}. Nothing is lost.",
             SMALLEST.width, SMALLEST.height, area.width, area.height
         );
-        Text::from_iter(text::wrap(&words, area.width.into())).render(area, buffer);
+        text::draw_lines(text::wrap(&words, area.width.into()), area, buffer);
         None
     } else {
         draw_panes(app, buffer)
@@ -59,13 +58,13 @@ fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
         parts.push((format!("{part:.0} % {what}; {cancel} cancels"), theme.note));
     }
     parts.push((focused(app), Style::new()));
-    let mut lines = Text::default();
+    let mut lines = Vec::new();
     for (words, style) in parts {
-        let room = usize::from(area.height).saturating_sub(lines.height());
+        let room = usize::from(area.height).saturating_sub(lines.len());
         let fitted = text::fitted(&words, area.width.into(), room);
         lines.extend(fitted.into_iter().map(|line| Line::styled(line, style)));
     }
-    lines.render(area, buffer);
+    text::draw_lines(lines, area, buffer);
 }
 
 /// As many keys as fit, from the table of bindings.
@@ -85,13 +84,13 @@ fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
             spans.extend([Span::styled(key, theme.key), format!(" {}  ", binding.name).into()]);
         }
     }
-    spans.render(area, buffer);
+    text::draw_lines([spans], area, buffer);
 }
 
 fn draw_panes(app: &App, buffer: &mut Buffer) -> Option<Position> {
     let plan = app.layout.plan();
     let header = app.header().into_iter().map(|(_, span)| span);
-    header.collect::<Line<'_>>().render(plan.header, buffer);
+    text::draw_lines([header.collect::<Line<'_>>()], plan.header, buffer);
     let mut cursor = None;
     for pane in Pane::ALL.into_iter().filter(|&pane| plan.shows(pane)) {
         match pane {

@@ -274,8 +274,9 @@ fn halves(area: Rect) -> [Rect; 2] {
 /// Draws the details on the right of a list.
 fn draw_details(lines: impl FnOnce(u16) -> Vec<Words<'static>>, area: Rect, buffer: &mut Buffer) {
     let beside = Block::new().borders(Borders::LEFT).padding(Padding::left(1));
-    let inner = text::framed(&beside, area, buffer);
-    Text::from(lines(inner.width)).render(inner, buffer);
+    let inner = beside.inner(area);
+    beside.render(area, buffer);
+    text::draw_lines(lines(inner.width), inner, buffer);
 }
 
 /// The lines of a list in its area, app the selected one; only visible lines are built.

@@ -12,8 +12,7 @@ pub(crate) mod trade;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
-use ratatui::text::{Line, Span, Text};
-use ratatui::widgets::Widget;
+use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
 use super::App;
@@ -41,7 +40,7 @@ pub(crate) fn draw_table(
     };
     let line = |line: &String| text::cut(line, area.width.into());
     let lines = lines.iter().enumerate().map(|(at, text)| Line::styled(line(text), style(at)));
-    lines.collect::<Text<'_>>().render(area, buffer);
+    text::draw_lines(lines, area, buffer);
 }
 
 impl App {

@@ -5,7 +5,6 @@ use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::layout::{Layout, Position, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::Widget;
 
 use crate::case::fields::{GROUPS, Kind};
 use crate::case::{Case, Limit};
@@ -177,7 +176,7 @@ fn reasons(app: &App, row: usize) -> Vec<Row> {
 // Draws a text; the last column separates it from the next text.
 fn put(text: &str, area: Rect, style: Style, buffer: &mut Buffer) {
     let width = usize::from(area.width).saturating_sub(1);
-    Span::styled(text::cut(text, width), style).render(area, buffer);
+    text::put(&text::cut(text, width), area, style, buffer);
 }
 
 // Draws marks, symbol, label and value of a row, and the verdict on a limit. A label gives way to a
@@ -227,9 +226,9 @@ fn draw_line(app: &App, index: usize, line: Rect, buffer: &mut Buffer) -> Option
     let widths = [Length(MARKS), Length(of_symbol), Length(of_label), Fill(1), Length(end)];
     let [marks, of_symbol, of_label, area, end] = line.layout(&Layout::horizontal(widths));
     let unsaved = if rows::differs(case, app.tab.document.loaded(), index) { "*" } else { "" };
-    let marked = [Span::styled(mark, of_mark), Span::styled(unsaved, theme.note)];
-    Line::from_iter(marked).render(marks, buffer);
-    Span::styled(verdict, of_verdict).render(end, buffer);
+    let marked = Line::from_iter([Span::styled(mark, of_mark), Span::styled(unsaved, theme.note)]);
+    text::draw_lines([marked], marks, buffer);
+    text::put(&verdict, end, of_verdict, buffer);
     put(symbol, of_symbol, style, buffer);
     put(label, of_label, style, buffer);
     if is_typed {

@@ -7,10 +7,9 @@ use std::collections::BTreeSet;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::layout::{Layout, Position};
+use ratatui::layout::{Layout, Position, Rect};
 use ratatui::style::Style;
-use ratatui::text::{Line, Span, Text};
-use ratatui::widgets::Widget;
+use ratatui::text::Line;
 
 use crate::case::sanitize::sanitize;
 use crate::case::units::{self, named};
@@ -130,7 +129,7 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
     let [above, body] = text::split(inner, head.len() as u16);
     // The first column has the mark of the selected row.
     let [_, above] = above.layout(&Layout::horizontal([Length(1), Fill(1)]));
-    Text::from(head).render(above, buffer);
+    text::draw_lines(head, above, buffer);
     let Some(answer) = app.shown_answer() else { return };
     let theme = app.look.theme;
     let now = app.tab.answer.as_ref().map(|answer| answer.serial);
@@ -142,28 +141,31 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
     let columns = fitting(app, answer, &listed, rows);
     let cells = columns.first().map_or(0, |column| column.cells.len());
     let header = app.has_result_header().then_some(None);
-    let lines = header.into_iter().chain((0..cells).map(Some)).map(|line| {
-        let widths = widths(&columns, line);
+    let usual: Vec<usize> = columns.iter().map(Column::width).collect();
+    for (line, area) in header.into_iter().chain((0..cells).map(Some)).zip(body.rows()) {
         let is_marked = line.is_some() && row == line && app.has_focus(Pane::Results);
-        let mark = Span::styled(if is_marked { "▸" } else { " " }, theme.focus);
-        let cells = columns.iter().zip(widths).map(|(column, width)| {
+        text::paint(area, base, buffer);
+        let mut at = text::put(if is_marked { "▸" } else { " " }, area, theme.focus, buffer);
+        for (column, width) in columns.iter().zip(widths(&columns, usual.clone(), line)) {
             let (text, style) = match line {
                 Some(line) => (&column.cells[line], column.styles[1]),
                 None => (&column.heading, column.styles[0]),
             };
             let gap = if column.is_number { width.saturating_sub(text::width(text)) } else { 0 };
-            let text = format!("{}{} ", " ".repeat(gap), text::padded(text, width - gap));
-            Span::styled(text, style)
-        });
-        [mark].into_iter().chain(cells).collect::<Line<'_>>().style(base)
-    });
-    lines.collect::<Text<'_>>().render(body, buffer);
+            let part = |from, width: usize| {
+                Rect { x: area.x + from, width: width as u16, ..area }.intersection(area)
+            };
+            text::paint(part(at, width + 1), style, buffer);
+            let text = text::cut(text, width - gap);
+            text::put(&text, part(at + gap as u16, width - gap), style, buffer);
+            at += width as u16 + 1;
+        }
+    }
 }
 
-/// The widths of the columns in a line. A long unit cuts the name before it, and otherwise moves the texts
+/// The widths of the columns in a line, from those in other lines. A long unit cuts the name before it, and otherwise moves the texts
 /// before it to the left.
-fn widths(columns: &[Column], line: Option<usize>) -> Vec<usize> {
-    let mut widths: Vec<usize> = columns.iter().map(Column::width).collect();
+fn widths(columns: &[Column], mut widths: Vec<usize>, line: Option<usize>) -> Vec<usize> {
     let unit = columns.iter().position(|column| column.is_unit);
     let Some((unit, line)) = unit.zip(line) else { return widths };
     let width = |at: usize| text::width(&columns[at].cells[line]);

@@ -8,8 +8,6 @@ use std::mem::discriminant;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
-use ratatui::text::Text;
-use ratatui::widgets::Widget;
 
 use super::chart::curves::sign_of;
 use super::plot::{Look as SeriesLook, NO_CONTACT, REFUSED, TerminalChart};
@@ -459,7 +457,7 @@ fn draw_page(app: &App, shown: &StudyResults, inner: Rect, buffer: &mut Buffer) 
     let top = top(app, shown);
     let page = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let lines = shown.page[top..].iter().map(String::as_str);
-    lines.collect::<Text<'_>>().render(page, buffer);
+    text::draw_lines(lines, page, buffer);
     text::scroll_bar_beside(top, shown.page.len(), page, buffer);
 }
 

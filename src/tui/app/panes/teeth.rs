@@ -7,8 +7,6 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Position, Rect, Size};
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
-use ratatui::text::Line;
-use ratatui::widgets::Widget;
 
 use super::plot::{Plot, bounds, put};
 use crate::case::units::{System, shown};
@@ -184,7 +182,7 @@ pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
             let text = symbol(&value.to_string(), picture.look.ascii).into_owned();
             text::padded(&text, usize::from(VALUE) - 1) + " "
         });
-        Line::raw(format!(" {}", values.collect::<String>())).render(row, buffer);
+        text::put(&format!(" {}", values.collect::<String>()), row, Style::new(), buffer);
     }
     if plot.width >= SMALLEST.0 && plot.height >= SMALLEST.1 {
         Painter::new(picture, plot).draw(moment.as_ref(), buffer);
