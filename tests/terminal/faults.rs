@@ -325,15 +325,9 @@ fn a_save_keeps_the_access_list_and_inherits_none() {
 
 #[test]
 fn a_file_of_another_user_keeps_its_owner_or_is_not_changed() {
-    let nobody = [
-        "setpriv",
-        "--reuid=65534",
-        "--regid=65534",
-        "--clear-groups",
-        "--inh-caps=-all",
-        "--bounding-set=-all",
-        "--",
-    ];
+    let nobody =
+        "setpriv --reuid=65534 --regid=65534 --clear-groups --inh-caps=-all --bounding-set=-all --";
+    let nobody: Vec<&str> = nobody.split(' ').collect();
     let become_nobody = || Command::new(nobody[0]).args(&nobody[1..]).arg("true").status();
     if !is_there("setpriv") || !become_nobody().is_ok_and(|status| status.success()) {
         return skip("this process cannot become nobody");
@@ -410,14 +404,8 @@ fn a_read_error_during_a_save_is_named_and_is_no_change_on_disk() {
 
 #[test]
 fn a_full_output_is_reported_and_a_closed_one_is_not() {
-    for command in [
-        "new",
-        "fields",
-        "man",
-        "completions bash",
-        "solve case.toml",
-        "solve --format json case.toml",
-    ] {
+    let commands = "new,fields,man,completions bash,solve case.toml,solve --format json case.toml";
+    for command in commands.split(',') {
         let (folder, _) = folder_with_case();
         let run = |shell: &str| {
             let line = format!("{PROGRAM} {command} {shell}");
