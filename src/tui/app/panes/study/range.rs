@@ -317,11 +317,17 @@ pub(crate) fn typed_axes(
     if count > MOST_POINTS { Err(too_many(count)) } else { Ok(axes) }
 }
 
-/// The key of a field that is named by its symbol.
+/// The key of the only field with this symbol, or with this last part of its key.
 fn named(name: &str) -> &str {
-    let is_named =
-        |field: &&Field| [symbol(field.symbol, true), field.symbol.into()].contains(&name.into());
-    FIELDS.iter().find(is_named).filter(|_| !name.is_empty()).map_or(name, |field| field.key)
+    let is_named = |field: &&Field| {
+        [symbol(field.symbol, true), field.symbol.into(), field.name().into()]
+            .contains(&name.into())
+    };
+    let mut fields = FIELDS.iter().filter(is_named);
+    match (fields.next(), fields.next()) {
+        (Some(field), None) => field.key,
+        _ => name,
+    }
 }
 
 fn too_many(count: usize) -> String {
@@ -421,6 +427,7 @@ mod tests {
             ("1..100 N m, 3 points, log", "operation.torque = 1,10,100 N m"),
             ("f_pb1 = 0..10 um, 3 points", "driver.base_pitch = 0..10 um, 3 points"),
             ("zeta = 0..0.1, 3 points", "model.damping_ratio = 0..0.1, 3 points"),
+            ("torque = 50..80, 3 points", "operation.torque = 50..80 N m, 3 points"),
         ] {
             let axes = typed_axes(of, [torque, None], text).expect("a range");
             assert_eq!(typed(&axes[0]), expected);
