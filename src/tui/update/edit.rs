@@ -443,15 +443,14 @@ fn names(app: &App) -> &'static [&'static str] {
 }
 
 // Selects the first choice that begins with the letters typed so far. They are the part of the line
-// before its selection. A letter that fits no choice is ignored, but after a single one it starts anew.
+// before its selection. A letter that fits no choice is ignored, but after a single one it is the first.
 fn choose_by_name(app: &mut App, typed: &str) {
     if typed.is_empty() {
         return;
     }
     let (line, typed) = (&app.tab.form.input, typed.to_lowercase());
     let count = line.selected().map_or(0, |rest| rest.start);
-    let before: String = line.value().chars().take(count).collect();
-    let begun = before.clone() + &typed;
+    let begun = line.value().chars().take(count).collect::<String>() + &typed;
     let mut starts = [Some(&begun), Some(&typed).filter(|_| count < 2)].into_iter().flatten();
     let named = |start: &String| names(app).iter().find(|name| name.starts_with(start.as_str()));
     let found = starts.find_map(|start| Some((named(start)?, start.chars().count())));

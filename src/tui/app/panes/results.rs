@@ -163,8 +163,8 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
     }
 }
 
-/// The widths of the columns in a line, from those in other lines. A long unit cuts the name before it, and otherwise moves the texts
-/// before it to the left.
+/// The widths of the columns in a line, from those in other lines. A long unit cuts the name before it,
+/// and otherwise moves the texts before it to the left.
 fn widths(columns: &[Column], mut widths: Vec<usize>, line: Option<usize>) -> Vec<usize> {
     let unit = columns.iter().position(|column| column.is_unit);
     let Some((unit, line)) = unit.zip(line) else { return widths };
