@@ -15,7 +15,7 @@ use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::{Quantity, Stage};
 use crate::numeric::decimal::{shortest, significant};
 use crate::report::tolerance::ToleranceReport;
-use crate::study::axis::{AxisRange, Grid, are_geometric};
+use crate::study::axis::{AxisRange, Grid};
 use crate::study::batch::{PointOutcome, Points, Refusals, Row, with_unit};
 use crate::study::excitation::{self, Excitation, STIFFNESS, VALUES};
 use crate::study::seek::{Condition, Found, Sample, State};
@@ -262,6 +262,15 @@ fn line(grid: &Grid, quantities: &[&Quantity], index: usize, row: &Row) -> Json 
     })
 }
 
+/// Whether numbers have equal ratios, and no equal steps.
+fn are_geometric(numbers: &[f64]) -> bool {
+    let [first, second, third, ..] = *numbers else { return false };
+    let are_near = |one: f64, other: f64| (one / other - 1.0).abs() < 1e-6;
+    (first > 0.0 && (second - first).abs() > 0.0)
+        && !are_near(third - second, second - first)
+        && numbers.windows(2).all(|pair| are_near(pair[1] / pair[0], second / first))
+}
+
 /// The chart of a sweep from its CSV: the quantities, or the selected ones, with the unit of the first,
 /// over the varied field with the most values, with a curve for each combination of the other fields.
 ///
@@ -300,7 +309,8 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
     let across = across.ok_or(none)?;
     let places = distinct(&[across]);
     let is_number = places.iter().all(|place| place[0].parse::<f64>().is_ok());
-    let is_log = are_geometric(places.len(), |at| places.get(at)?[0].parse().ok());
+    let numbers = places.iter().map(|place| place[0].parse().ok());
+    let is_log = numbers.collect::<Option<Vec<f64>>>().is_some_and(|all| are_geometric(&all));
     let place = |text: &str| match text.parse::<f64>() {
         Ok(number) if is_log => number.log10(),
         Ok(number) if is_number => number,
@@ -708,6 +718,20 @@ fn objects(table: &Table, without: &[&str]) -> Vec<Json> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn equal_ratios_alone_are_geometric() {
+        for (numbers, expected) in [
+            (&[1.0, 10.0, 100.0][..], true),
+            (&[1.0, 2.0, 3.0], false),
+            (&[1.0, 1.0, 1.0], false),
+            (&[1.0, 10.0], false),
+            (&[-1.0, -10.0, -100.0], false),
+            (&[1.0, 2.0, 4.0, 9.0], false),
+        ] {
+            assert_eq!(are_geometric(numbers), expected, "{numbers:?}");
+        }
+    }
 
     #[test]
     fn a_sweep_has_a_curve_for_each_combination_with_gaps_without_values() {

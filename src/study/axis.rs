@@ -25,6 +25,8 @@ pub struct Axis {
     pub unit: String,
     /// The values.
     pub points: Vec<AxisPoint>,
+    /// Whether they have equal ratios.
+    pub is_log: bool,
 }
 
 /// One value of a varied field.
@@ -103,7 +105,7 @@ impl Axis {
             AxisPoint::at(number_in(field, item, &unit)?, &unit, field)
         };
         let points = items().map(point).collect::<Result<_, _>>()?;
-        Ok(Axis { field, also: Vec::new(), unit, points })
+        Ok(Axis { field, also: Vec::new(), unit, points, is_log: false })
     }
 
     /// Whether a text is a range, so that a number of points applies.
@@ -246,7 +248,7 @@ impl AxisRange {
             }
         };
         let points = (0..count).map(|index| self.at(number(index))).collect::<Result<_, _>>()?;
-        Ok(Axis { field: self.field, also: Vec::new(), unit: self.unit.clone(), points })
+        Ok(Axis { field: self.field, also: Vec::new(), unit: self.unit.clone(), points, is_log })
     }
 }
 
@@ -334,20 +336,6 @@ pub const MOST_SWEPT: usize = 100_000_000;
 /// How deviations add if [`add_by_sign`].
 pub const ADDED: &str = "Where the base pitch deviations of the gears are of unlike sign, they add as \
     a sum, and elsewhere as sqrt(f_pb1^2 + f_pb2^2)";
-
-/// Whether numbers have equal ratios, and no equal steps.
-pub fn are_geometric(count: usize, number: impl Fn(usize) -> Option<f64>) -> bool {
-    let ends = [0, 1, 2, count.saturating_sub(1)].map(number);
-    let ([Some(first), Some(second), Some(third), Some(last)], 3..) = (ends, count) else {
-        return false;
-    };
-    let (ratio, are_near) =
-        (second / first, |one: f64, other: f64| (one / other - 1.0).abs() < 1e-6);
-    (first > 0.0 && (second - first).abs() > 0.0)
-        && !are_near(third - second, second - first)
-        && are_near(third / second, ratio)
-        && are_near(last / first, ratio.powf(count as f64 - 1.0))
-}
 
 /// Whether the base pitch deviations of a point add as a sum only because of their signs.
 pub fn add_by_sign(axes: &[Axis], inputs: &Inputs) -> bool {
@@ -512,21 +500,6 @@ mod tests {
 
     fn refused(text: &str, points: Option<usize>, is_log: bool) -> String {
         Axis::parse(text, Sampling { points, is_log }).unwrap_err().to_string()
-    }
-
-    #[test]
-    fn equal_ratios_alone_are_geometric() {
-        for (numbers, expected) in [
-            (&[1.0, 10.0, 100.0][..], true),
-            (&[1.0, 2.0, 3.0], false),
-            (&[1.0, 1.0, 1.0], false),
-            (&[1.0, 10.0], false),
-            (&[-1.0, -10.0, -100.0], false),
-            (&[1.0, 2.0, 4.0, 9.0], false),
-        ] {
-            let number = |at: usize| numbers.get(at).copied();
-            assert_eq!(are_geometric(numbers.len(), number), expected, "{numbers:?}");
-        }
     }
 
     #[test]

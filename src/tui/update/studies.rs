@@ -472,12 +472,16 @@ fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
         StudyParameters::Grid(grid) => {
             let quantity = grid.layers.first().map_or("", |layer| layer.quantity);
             others.extend(grid.layers.iter().skip(1).filter(|layer| !layer.is_baseline));
-            let (vary, points): (Vec<_>, Vec<_>) = grid.axes.iter().map(range::vary).unzip();
+            // One option for all ranges.
+            let is_log = grid.axes.iter().any(|axis| axis.is_log);
+            let vary = grid.axes.iter().map(|axis| range::vary(axis, is_log));
+            let (vary, points): (Vec<_>, Vec<_>) = vary.unzip();
             let points: Vec<usize> = points.into_iter().flatten().collect();
             let varied = vary.iter().map(|text| format!(" --vary '{text}'"));
             let counted = points.iter().map(|count| format!(" --points {count}"));
-            let options = varied.chain(counted).collect::<String>();
-            (quantity, PointsRequest::Sweep { vary, points, log: false }, options)
+            let log = is_log.then(|| " --log".to_owned());
+            let options = varied.chain(counted).chain(log).collect::<String>();
+            (quantity, PointsRequest::Sweep { vary, points, log: is_log }, options)
         }
         StudyParameters::Tolerance(of) => {
             let (samples, ranked) = (of.samples, USUAL_RANKED.min(of.samples));

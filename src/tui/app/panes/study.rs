@@ -21,7 +21,7 @@ use crate::report::charts::pieces;
 use crate::report::table::{Cell, Column, Table};
 use crate::report::verdict::Absence;
 use crate::report::{self, common_unit, shown_in, shown_with};
-use crate::study::axis::{ADDED, Axis as StudyAxis, AxisPoint, add_by_sign, are_geometric};
+use crate::study::axis::{ADDED, Axis as StudyAxis, AxisPoint, add_by_sign};
 use crate::study::batch::{self, PointOutcome, Refusals, Refused, Row};
 use crate::study::tolerance::USUAL_SAMPLES;
 use crate::tui::app::App;
@@ -169,6 +169,8 @@ pub struct StudyResults {
     pub request: StudyRequest,
     /// The points of each layer.
     pub layers: Vec<LayerFound>,
+    /// Whether base pitch deviations add by their signs, see [`ADDED`].
+    are_added: bool,
     /// The page of a tolerance study.
     pub page: Vec<String>,
     /// The solved part, and the remaining time in words, unless it is short.
@@ -309,11 +311,15 @@ impl StudyResults {
     }
 
     fn of(request: StudyRequest) -> StudyResults {
-        let layers = match &request.parameters {
+        let layers: Vec<LayerFound> = match &request.parameters {
             StudyParameters::Grid(grid) => grid.layers.iter().map(LayerFound::of).collect(),
             StudyParameters::Tolerance(_) => Vec::new(),
         };
-        StudyResults { request, layers, page: Vec::new(), progress: Default::default(), end: None }
+        let is_added =
+            |found: &LayerFound| add_by_sign(request.parameters.axes(), &found.layer.inputs);
+        let are_added = layers.first().is_some_and(is_added);
+        let (page, progress, end) = (Vec::new(), Default::default(), None);
+        StudyResults { request, layers, are_added, page, progress, end }
     }
 
     /// Adds points to a layer.
@@ -522,8 +528,7 @@ fn below(app: &App, shown: &StudyResults) -> String {
     };
     let absent = shown.layers.first().and_then(|found| absence(app, found));
     let absent = absent.map(|absence| format!("No value: {absence}"));
-    let is_added = |found: &LayerFound| add_by_sign(shown.axes(), &found.layer.inputs);
-    let added = shown.layers.first().is_some_and(is_added).then(|| ADDED.to_owned());
+    let added = shown.are_added.then(|| ADDED.to_owned());
     let parts = [failed, absent, added, Some(values_at_cursor(app, shown))];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     symbol(&parts.join(". "), app.look.ascii).into_owned()
@@ -699,7 +704,7 @@ fn curves(app: &App, shown: &StudyResults, axis: &StudyAxis) -> Option<(Chart, V
     }
     let step = if is_joined { (axis.points.len() - 1).div_ceil(4).max(1) } else { 1 };
     let names = (0..axis.points.len()).step_by(step).map(|at| (x(axis, at), short(axis, at)));
-    let has_ticks = is_joined && !is_log(axis);
+    let has_ticks = is_joined && !axis.is_log;
     let labels = if has_ticks { Labels::new() } else { names.collect() };
     let (series, looks) = series.into_iter().unzip();
     let across = Axis { labels, ..field_axis(axis) };
@@ -798,13 +803,9 @@ fn x(axis: &StudyAxis, at: usize) -> f64 {
     number.map_or(at as f64, |number| scaled(axis, number))
 }
 
-/// The position of a number on the axis, which is logarithmic if its points have equal ratios.
+/// The position of a number on the axis.
 fn scaled(axis: &StudyAxis, number: f64) -> f64 {
-    if is_log(axis) { number.log10() } else { number }
-}
-
-fn is_log(axis: &StudyAxis) -> bool {
-    are_geometric(axis.points.len(), |at| axis.points.get(at)?.number)
+    if axis.is_log { number.log10() } else { number }
 }
 
 fn ends(axis: &StudyAxis) -> Span {

@@ -334,12 +334,13 @@ fn too_many(count: usize) -> String {
     format!("{count} points are more than {MOST_POINTS}: type fewer points")
 }
 
-/// The argument of `--vary` that gives an axis, and its number of points if it is a range.
-pub(crate) fn vary(axis: &Axis) -> (String, Option<usize>) {
+/// The argument of `--vary` that gives an axis, with or without `--log`, and its number of points if it
+/// is a range.
+pub(crate) fn vary(axis: &Axis, is_log: bool) -> (String, Option<usize>) {
     let (count, key) = (axis.points.len(), axis.key());
     let first = axis.points.first().map_or("", |point| point.text.as_str());
     let range = format!("{key}={first}..{}", axis.with_unit(count - 1));
-    let sampling = Sampling { points: Some(count), is_log: false };
+    let sampling = Sampling { points: Some(count), is_log };
     if count > 1 && Axis::parse(&range, sampling).as_ref() == Ok(axis) {
         return (range, Some(count));
     }
@@ -352,13 +353,14 @@ pub(crate) fn typed(axis: &Axis) -> String {
     let without = |at: usize| {
         let mut equal = axis.clone();
         equal.points.remove(at);
-        Some(vary(&equal)).filter(|(_, count)| count.is_some())
+        Some(vary(&equal, false)).filter(|(_, count)| count.is_some())
     };
     let present = Some(axis.points.len()).filter(|count| *count == CURVE_POINTS + 1);
     let steps = present.and_then(|count| (1..count - 1).find_map(without));
-    let (text, count) = steps.unwrap_or_else(|| vary(axis));
+    let (text, count) = steps.unwrap_or_else(|| vary(axis, axis.is_log));
     let text = text.replacen('=', " = ", 1);
-    count.map_or(text.clone(), |count| format!("{text}, {count} points"))
+    let log = if axis.is_log { ", log" } else { "" };
+    count.map_or(text.clone(), |count| format!("{text}, {count} points{log}"))
 }
 
 /// The point of an axis nearest to the present value of its field.
@@ -424,7 +426,7 @@ mod tests {
             ("50..200 N m, 31 points", "operation.torque = 50..200 N m, 31 points"),
             ("50, 80, 200", "operation.torque = 50,80,200 N m"),
             ("driver.teeth = 18..22", "driver.teeth = 18..22, 5 points"),
-            ("1..100 N m, 3 points, log", "operation.torque = 1,10,100 N m"),
+            ("1..100 N m, 3 points, log", "operation.torque = 1..100 N m, 3 points, log"),
             ("f_pb1 = 0..10 um, 3 points", "driver.base_pitch = 0..10 um, 3 points"),
             ("zeta = 0..0.1, 3 points", "model.damping_ratio = 0..0.1, 3 points"),
             ("torque = 50..80, 3 points", "operation.torque = 50..80 N m, 3 points"),
