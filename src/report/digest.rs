@@ -112,9 +112,7 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
     }
     let angle = own("approach_angle_driver", solution);
     let angle = angle.and_then(|own| printed(own.key, solution, system));
-    // The planes of a helical tooth reach their E one after the other.
-    let plane = if solution.helix.is_some() { " in its plane" } else { "" };
-    let angle = angle.map(|angle| format!(" {angle} before E{plane}")).unwrap_or_default();
+    let angle = angle.map(|angle| format!(" {angle} before E")).unwrap_or_default();
     let tip = own("impact_force", solution).and_then(|own| {
         let ratio = times(solution, own.key, "mesh_force")?;
         Some((printed(own.key, solution, system)?, ratio + "the mesh force)"))
@@ -140,19 +138,20 @@ fn at_exit(solution: &Solution, system: System) -> Option<String> {
     let most = of("static_force_at_end", solution).filter(|most| *most > 0.0)?;
     let (angle, force) = shown("static_last_contact_angle").zip(shown("static_force_at_end"))?;
     let relief = solution.clearing.and_then(|clearing| clearing.at_exit);
-    let required = relief.map(|(given, more)| required(more, given, "driver", system));
+    let required = |on| relief.map(|(given, more)| required(more, given, on, system));
     if solution.outcome == Outcome::CornerContact {
         let is_larger = most > LARGER * of("static_force_at_start", solution).unwrap_or(0.0);
-        let required = required
-            .filter(|_| is_larger)
-            .map(|required| format!(", {required} (for both: relief)"));
+        let required = required("on the driver").filter(|_| is_larger);
+        let required = required.map(|required| format!(", {required}"));
         return Some(format!("; at the exit {force}{}", required.unwrap_or_default()));
     }
-    let required = required.unwrap_or("a larger tip relief of the driver prevents it".to_owned());
+    let required =
+        required("tip relief on the driver").map(|required| format!("at least {required}"));
+    let required = required.unwrap_or("a larger tip relief of the driver".to_owned());
     let at_rest = if solution.method == Method::Dynamic { " at rest" } else { "" };
     Some(format!(
         "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's tip; \
-            {required}"
+            {required} prevents it"
     ))
 }
 
@@ -230,21 +229,22 @@ const RELIEF_UNIT: &str = "um";
 /// without corner contact, or if it is unknown.
 pub fn relief(solution: &Solution, system: System, is_pending: bool) -> Option<String> {
     match of("clearing_relief", solution).zip(solution.clearing) {
-        Some((more, clearing)) => Some(required(more, clearing.given, "driven gear", system)),
+        Some((more, clearing)) => {
+            let required = required(more, clearing.given, "tip relief on the driven gear", system);
+            Some(format!("at least {required} prevents it"))
+        }
         None => is_pending.then(|| "tip relief that prevents it: being computed".to_owned()),
     }
 }
 
-/// The additional tip relief of a gear that prevents a contact, in words.
-fn required(more: f64, given: f64, gear: &str, system: System) -> String {
+/// The additional tip relief `on` a gear that prevents a contact.
+fn required(more: f64, given: f64, on: &str, system: System) -> String {
     let unit = system.unit(RELIEF_UNIT);
     let [more, all] = rounded_up(more, given, system);
     if given > 0.0 {
-        format!(
-            "at least {more} {unit} more tip relief on the {gear}, {all} {unit} in all, prevents it"
-        )
+        format!("{more} {unit} more {on} ({all} {unit} in all)")
     } else {
-        format!("at least {more} {unit} tip relief on the {gear} prevents it")
+        format!("{more} {unit} {on}")
     }
 }
 
@@ -365,7 +365,7 @@ mod tests {
         );
         let at_rest = of("static").outcome;
         assert!(at_rest.starts_with("Corner contact "), "{at_rest}");
-        assert!(at_rest.contains(" um more tip relief on the driven gear, "), "{at_rest}");
+        assert!(at_rest.contains(" um more tip relief on the driven gear ("), "{at_rest}");
     }
 
     #[test]

@@ -196,7 +196,7 @@ fn the_printed_equations_have_a_note_on_their_error() {
             &[
                 "exact finds no corner contact; paper governs: the case selects it. Method exact: no \
                  corner contact, Δ = -12.673 um.",
-                " um more tip relief on the driven gear, ",
+                " um more tip relief on the driven gear (",
             ],
         ),
     ]);
