@@ -217,6 +217,8 @@ fn pairs_over_face(inputs: &Inputs) -> Option<f64> {
 /// What the line loads of a tooth add up to over its passage, each with z and the path of its place:
 /// ∫ ds ∫ dz over the base pitch.
 fn over_passage(inputs: &Inputs, of: fn(f64, f64, &Geometry) -> f64) -> Option<f64> {
+    // Enough slices for the ends of the path between two of them.
+    let inputs = &Inputs { slices: Some(257), ..inputs.clone() };
     let solution = solved(inputs, Method::Static)?;
     let (load, face, geometry) = (solution.face_load?, inputs.face()?, solution.geometry);
     let rows = load.paths.iter().zip(&load.pattern);
