@@ -183,14 +183,13 @@ impl FaceInputs {
         places
     }
 
-    /// Number of slices: that of the case, or so many that the shares of the load are within 0.1 %,
-    /// and they change the harmonics of the transmission error by about 1e-5 of the mean deflection, with
-    /// two slices in a coupling length.
+    /// Number of slices: that of the case, or so many that loads are within about 0.1 %, and the harmonics of
+    /// the transmission error within about 1e-5 of the mean deflection.
     pub fn count(&self, base_pitch: f64) -> usize {
         /// Overlap ratio, slices and coupling lengths of the usual number.
         const LEAST: usize = 33;
-        const PER_PITCH: f64 = 54.0;
-        const PER_LENGTH: f64 = 2.0;
+        const PER_PITCH: f64 = 45.0;
+        const PER_LENGTH: f64 = 6.0;
         let overlap = self.width * self.lead.abs() / base_pitch;
         let lengths = self.width / self.coupling_length;
         let by_length = if lengths.is_finite() { PER_LENGTH * lengths } else { 0.0 };

@@ -5,6 +5,7 @@ pub mod balance;
 mod carried;
 mod course;
 pub mod load;
+pub mod loads;
 pub(super) mod motion;
 
 use std::sync::Arc;
@@ -76,6 +77,11 @@ impl Slice {
             ends: [0, 1].map(|gear| mean(z, [from, to], |z| inputs.end_factor(gear, z))),
             ..slice
         }
+    }
+
+    /// q_t of a pair by the means of its sections.
+    fn teeth(&self, [_, _, driver, driven, _]: &[f64; 5]) -> f64 {
+        (driver * self.ends[0] + driven * self.ends[1]).max(0.0)
     }
 }
 
@@ -150,12 +156,25 @@ impl Face {
         (mesh, sections): (&Arc<Mesh>, &Arc<Series<6>>),
         places: &[f64],
     ) -> Face {
-        /// Greatest ε: that of two slices in a coupling length.
+        /// Greatest ε: that of two slices in a coupling length, and of the compliance of the contact over
+        /// that of the teeth, so that the loads stay definite.
         const MOST_EXCESS: f64 = 1.0 / 47.0;
+        const MOST_TAKEN: f64 = 0.25;
+        const STEPS: usize = 16;
         let square = inputs.coupling_length * inputs.coupling_length;
         let step = inputs.width / (places.len() - 1).max(1) as f64;
         let excess = step * step / (12.0 * square - step * step);
-        let excess = if excess > 0.0 { excess.min(MOST_EXCESS) } else { MOST_EXCESS };
+        let ((from, to), end) = (mesh.ends(), 0.5 * inputs.width);
+        let most =
+            [0, 1].map(|gear| inputs.end_factor(gear, -end).max(inputs.end_factor(gear, end)));
+        let softness = |step: usize| {
+            let path = from + (to - from) * step as f64 / STEPS as f64;
+            let [local, driver, driven] = [2, 3, 4].map(|at| sections.slope(at, path));
+            (driver * most[0] + driven * most[1]) / local
+        };
+        let softest = (0..=STEPS).map(softness).fold(0.0, f64::max);
+        let most = MOST_EXCESS.min(MOST_TAKEN / softest);
+        let excess = if excess > 0.0 { excess.min(most) } else { most };
         let excess = if square > 0.0 { excess } else { 0.0 };
         let slice = |number: usize| {
             let z = places[number];

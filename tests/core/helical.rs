@@ -132,9 +132,7 @@ fn first_contact_and_loads_agree_with_an_independent_solution() {
 
 fn helical() -> Inputs {
     let mut inputs = standard_pair(23, 41, 3e-3);
-    for gear in [&mut inputs.driver, &mut inputs.driven] {
-        gear.face_width = 25e-3;
-    }
+    (inputs.driver.face_width, inputs.driven.face_width) = (25e-3, 25e-3);
     inputs.method = Method::Static;
     inputs.drive = Drive::Torque(250.0);
     inputs.base_pitch_deviation = 6e-6;
@@ -319,9 +317,9 @@ fn the_usual_slices_strike_and_excite_within_1e_3_of_many() {
     const PLACES: usize = 512;
     for (degrees, width, misalignment, [relief, length]) in [
         (20.0, 25e-3, 0.0, [0.0; 2]),
-        (10.0, 25e-3, 0.0, [0.0; 2]),
         (30.0, 40e-3, 20e-6, [0.0; 2]),
-        (20.0, 60e-3, 0.0, [0.0; 2]),
+        (4.0, 75e-3, 0.0, [0.0; 2]),
+        (25.0, 45e-3, 15e-6, [0.0; 2]),
         (15.0, 20e-3, 10e-6, [20e-6, 3e-3]),
     ] {
         let mut pair = Inputs { misalignment, ..helical() };
@@ -353,10 +351,15 @@ fn the_usual_slices_strike_and_excite_within_1e_3_of_many() {
             assert!(off < 1e-3, "{degrees} deg, {width} m, order {order}: {off:.1e}");
         }
         let load = |slices| solve(&Inputs { slices, ..pair.clone() }, STATIC).expect("a load");
-        let usual = load(None);
+        let (usual, many) = (load(None), load(Some(513)));
         let spectrum = usual.static_spectrum.expect("a spectrum").expect("a spectrum").spectrum;
         assert!((spectrum.amplitudes[0] / first - 1.0).abs() < 1e-3);
-        for (usual, many) in values(&usual).into_iter().zip(values(&load(Some(513)))) {
+        let of = |found: &Solution| {
+            let peak = found.face_load.as_ref().expect("slices").peak.line_load;
+            let greatest = found.face_cycle.as_ref().expect("slices").peak_line_load;
+            values(found).into_iter().chain([peak, greatest])
+        };
+        for (usual, many) in of(&usual).zip(of(&many)) {
             assert!((usual - many).abs() <= 1e-3 * many, "{degrees} deg: {usual:e} {many:e}");
         }
     }
@@ -367,9 +370,7 @@ fn the_usual_slices_strike_and_excite_within_1e_3_of_many() {
 fn faces_of_1_mm_to_1_m_have_alike_loads() {
     let of_width = |width: f64| {
         let mut pair = Inputs { helix_angle: 12f64.to_radians(), ..helical() };
-        for gear in [&mut pair.driver, &mut pair.driven] {
-            gear.face_width = width;
-        }
+        (pair.driver.face_width, pair.driven.face_width) = (width, width);
         pair.drive = Drive::Torque(1e4 * width);
         let solution = solve(&pair, Stages::of(Stage::StaticSpectrum)).expect("a load");
         let cycle = solution.face_cycle.expect("slices");
@@ -386,13 +387,10 @@ fn faces_of_1_mm_to_1_m_have_alike_loads() {
 #[test]
 fn what_slices_cannot_answer_is_refused_by_name() {
     let code = |inputs: Inputs| solve(&inputs, STATIC).expect_err("a refusal").code();
-    let few = Inputs { slices: Some(3), ..helical() };
-    assert_eq!(code(few), "too-few-slices");
+    assert_eq!(code(Inputs { slices: Some(3), ..helical() }), "too-few-slices");
     let mut short = helical();
     (short.driver.addendum, short.driven.addendum) = (0.45, 0.45);
-    for gear in [&mut short.driver, &mut short.driven] {
-        gear.face_width = 2e-3;
-    }
+    (short.driver.face_width, short.driven.face_width) = (2e-3, 2e-3);
     assert_eq!(code(short), "total-contact-ratio-below-1");
     let mut long = helical();
     (long.driven.end_reliefs, long.driven.end_relief_length) = ([5e-6; 2], Some(15e-3));

@@ -3,89 +3,13 @@
 use std::rc::Rc;
 
 use super::carried::Carried;
+use super::loads::Loads;
 use super::{Face, Slice};
 use crate::model::Refusal;
 use crate::model::budget::PAIRS;
 use crate::model::pair_forces::PITCHES;
 use crate::numeric::banded::{Banded, Rows};
 use smallvec::{SmallVec, smallvec};
-
-/// The line loads of all pairs at a position of the mesh.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Loads {
-    /// Path of the incoming pair since E in the middle of the face, in m.
-    pub s: f64,
-    /// Base pitches by which the first pair is ahead of the incoming one.
-    pub first: i32,
-    /// Number of pairs.
-    pub pairs: usize,
-    /// Displacement of the driver ahead x, in m.
-    pub displacement: f64,
-    /// Deviation of the incoming pair, in m.
-    error: f64,
-    /// Line load of each pair in the middle of each slice, slice by slice, in N/m.
-    pub line_loads: Vec<f64>,
-    /// Its mean over each slice, in N/m.
-    pub mean_loads: Vec<f64>,
-    /// Displacement under the loads minus the gap, in m, above 0 where a pair carries.
-    pub leads: Vec<f64>,
-    /// Displacement of the teeth in the middle of each slice over √q_t, which is smooth along the face,
-    /// and its change of slope, in 1/m². Of independent slices by other pairs alone.
-    teeth: Vec<[f64; 2]>,
-    /// Force that turns the driver, in N.
-    pub force: f64,
-    /// Change of the force with the displacement, in N/m.
-    pub stiffness: f64,
-    /// Change of the stiffness with the displacement, in N/m².
-    pub bend: f64,
-    /// Change of the displacement up to which no slice gains or loses contact all at once, in m.
-    pub smooth: f64,
-}
-
-impl Loads {
-    /// The line load of a pair at a slice, in N/m.
-    pub fn at(&self, ahead: i32, slice: usize) -> f64 {
-        self.index(ahead).map_or(0.0, |pair| self.line_loads[slice * self.pairs + pair])
-    }
-
-    /// Mean line load of a pair over a slice, in N/m.
-    pub fn mean_at(&self, ahead: i32, slice: usize) -> f64 {
-        self.index(ahead).map_or(0.0, |pair| self.mean_loads[slice * self.pairs + pair])
-    }
-
-    /// Mean line load of all pairs over each slice, in N/m.
-    pub fn of_all(&self) -> Vec<f64> {
-        self.mean_loads.chunks(self.pairs.max(1)).map(|of_slice| of_slice.iter().sum()).collect()
-    }
-
-    /// The greatest lead of a pair over the face, in m, with the number of its slice.
-    pub fn lead(&self, ahead: i32) -> (f64, usize) {
-        let Some(pair) = self.index(ahead) else {
-            return (f64::NEG_INFINITY, 0);
-        };
-        let of_pair = self.leads.iter().skip(pair).step_by(self.pairs).enumerate();
-        of_pair.fold(
-            (f64::NEG_INFINITY, 0),
-            |best, (slice, &lead)| {
-                if lead > best.0 { (lead, slice) } else { best }
-            },
-        )
-    }
-
-    /// The lead of a pair at a slice, in m.
-    pub(super) fn lead_at(&self, ahead: i32, slice: usize) -> f64 {
-        self.index(ahead).map_or(f64::NEG_INFINITY, |pair| self.leads[slice * self.pairs + pair])
-    }
-
-    fn index(&self, ahead: i32) -> Option<usize> {
-        usize::try_from(ahead - self.first).ok().filter(|pair| *pair < self.pairs)
-    }
-
-    /// The pairs as base pitches ahead of the incoming pair.
-    pub fn pairs(&self) -> impl Iterator<Item = i32> + use<> {
-        (self.first..).take(self.pairs)
-    }
-}
 
 /// Usual precision of a balance: that of a lead over the displacement. A slice has a small part of the
 /// load, so that force and displacement are more precise. Searches compare loads at places beside
@@ -182,9 +106,8 @@ struct Contact {
     sides: Option<usize>,
     /// Whether the pair can carry here.
     can_carry: bool,
-    /// Compliance of the contact, q_c, less what the load takes from the mean of u, and without that.
+    /// Compliance of the contact, q_c.
     local: f64,
-    whole: f64,
     /// √(1 + ε) √q_t of the teeth.
     root: f64,
     /// The part of the load that turns the driver.
@@ -202,7 +125,6 @@ impl Contact {
         sides: None,
         can_carry: false,
         local: 1.0,
-        whole: 1.0,
         root: 0.0,
         weight: 1.0,
     };
@@ -300,7 +222,7 @@ impl Face {
         let way = borders[1] - borders[0];
         let is_narrow = way.abs() < NARROW * mesh.base_pitch;
         let means = if is_narrow { self.section(place) } else { means(&one, &other, way) };
-        let ([local, teeth], mean) = (self.compliances(slice, &means), means[0]);
+        let (mean, local, teeth) = (means[0], means[1], slice.teeth(&means));
         let (ends, gaps) = ([one, other], slice.border_gaps);
         let found = if is_narrow { None } else { self.sides(slice, borders, ends, (mean, local)) };
         let contact = Contact {
@@ -312,7 +234,6 @@ impl Face {
             sides: found.as_ref().map(|_| sides.len()),
             can_carry: true,
             local,
-            whole: means[1],
             root: self.root(teeth),
             weight: 1.0 - mesh.friction() * self.inputs.oblique * means[4],
         };
@@ -355,17 +276,10 @@ impl Face {
                 mean: of_side[0] - mean + mean_gap - slice.mean_gap,
                 rise: other[0] - one[0] + gaps[1] - gaps[0],
                 bend: bend([one[0] + gaps[0], other[0] + gaps[1]], of_side[0] + mean_gap),
-                ratio: local / self.compliances(slice, &of_side)[0],
+                ratio: local / of_side[1],
             }
         };
         (cuts.len() > 2).then(|| cuts.windows(2).map(side).collect())
-    }
-
-    /// q_c − ε q_t and q_t of a slice by the means of its sections.
-    fn compliances(&self, slice: &Slice, means: &[f64; 5]) -> [f64; 2] {
-        let [_, local, driver, driven, _] = *means;
-        let teeth = (driver * slice.ends[0] + driven * slice.ends[1]).max(0.0);
-        [(local - self.excess * teeth).max(0.5 * local), teeth]
     }
 
     /// Gap, compliances of contact, driver and driven gear, and arm of the friction at a place of the path.
@@ -402,10 +316,15 @@ impl Face {
             part * (value - bend * step * step * (1.0 - part * part) / 6.0)
         };
         let teeth = cubic(rest, one) + cubic(part, other);
-        let (slice, means) = (Slice::at(&self.inputs, z), self.section(path));
-        let root = self.root(self.compliances(&slice, &means)[1]);
-        let lead = ahead_of - self.sections.one(0, path) - slice.gap - root * teeth;
-        Some((lead, means[1] + self.own(root), z))
+        let (local, root) = self.compliances(z, path);
+        let lead = ahead_of - self.sections.one(0, path) - self.inputs.gap(z) - root * teeth;
+        Some((lead, local + self.own(root), z))
+    }
+
+    /// q_c and √(1 + ε) √q_t at a place of the face and of the path.
+    fn compliances(&self, z: f64, path: f64) -> (f64, f64) {
+        let means = self.section(path);
+        (means[1], self.root(Slice::at(&self.inputs, z).teeth(&means)))
     }
 
     /// The line load of a pair at a place of its path between two slices, and z.
@@ -444,8 +363,7 @@ impl Face {
                 let place = s + (f64::from(first) + rear as f64) * mesh.base_pitch;
                 let to_middle = 0.5 * (mesh.length - way) - place;
                 let place = place + to_middle.clamp(-self.reach, self.reach);
-                // An even load has v = f.
-                let neighbour = self.neighbour(place, apart) / (1.0 + self.excess);
+                let neighbour = self.neighbour(place, apart);
                 let front = rear + apart;
                 kappa[front * pairs + rear] = neighbour;
                 kappa[rear * pairs + front] = neighbour;
@@ -564,19 +482,27 @@ impl Position<'_> {
         }
         let known = self.contacts.iter().enumerate().filter(|(_, of)| of.gap < f64::INFINITY);
         for (at, of) in known {
-            let own = self.face.own(of.root);
+            let (own, slice) = (self.face.own(of.root), &self.face.slices[at / self.pairs]);
             // The middle of a slice alone deflects under its own load, not under the mean.
-            let moved =
-                displacement - of.mean - means[at] - (of.whole - of.local + own) * mean_loads[at];
+            let moved = displacement - of.mean - means[at] - own * mean_loads[at];
             let bend = self.face.stiffening * (moved - self.source(at, &mean_loads));
-            let middle = moved - bend * self.face.slices[at / self.pairs].spread;
-            let lead = displacement - of.gap - middle;
-            leads[at] = if lead > 0.0 { lead * of.whole / (of.whole + own) } else { lead };
-            if of.can_carry {
-                line_loads[at] = leads[at].max(0.0) / of.whole;
-            }
+            let middle = moved - bend * slice.spread;
             if of.root > 0.0 {
                 teeth[at] = [middle / of.root, bend / of.root];
+            }
+            let is_inner = (self.pairs..count - self.pairs).contains(&at);
+            // An end of the face is not in the middle of its slice.
+            let (local, root) = if is_inner {
+                (of.local, of.root)
+            } else {
+                let ahead = f64::from(self.first) + (at % self.pairs) as f64;
+                let path = self.s + ahead * self.face.mesh.base_pitch + slice.ahead;
+                self.face.compliances(slice.z, path)
+            };
+            let (own, lead) = (self.face.own(root), displacement - of.gap - root * teeth[at][0]);
+            leads[at] = if lead > 0.0 { lead * local / (local + own) } else { lead };
+            if of.can_carry {
+                line_loads[at] = leads[at].max(0.0) / local;
             }
         }
         let most = displacement - self.face.least_gap + self.error.max(0.0);
@@ -602,12 +528,9 @@ impl Position<'_> {
     fn source(&self, at: usize, mean_loads: &[f64]) -> f64 {
         let (first, own) = (at - at % self.pairs, at % self.pairs);
         let here = self.contacts[first..][..self.pairs].iter().zip(&mean_loads[first..]);
-        let pushes = here.zip(&self.kappa[own * self.pairs..]).enumerate();
-        let parts = pushes.map(|(pair, ((of, load), kappa))| {
-            let kappa = if pair == own { kappa / (1.0 + self.face.excess) } else { *kappa };
-            kappa * of.root * load
-        });
-        self.contacts[at].root * parts.sum::<f64>()
+        let pushes = here.zip(&self.kappa[own * self.pairs..]);
+        let parts = pushes.map(|((of, load), kappa)| kappa * of.root * load);
+        self.contacts[at].root * parts.sum::<f64>() / (1.0 + self.face.excess)
     }
 
     /// The rise of a lead over its slice by the displacement of the teeth, which is linear between the
@@ -657,11 +580,8 @@ impl Position<'_> {
             }
             let mean = |(of, teeth): (&Contact, f64)| {
                 let lead = displacement - of.mean - of.root * teeth;
-                if lead > 0.0 {
-                    lead * of.local / (of.whole + self.face.own(of.root))
-                } else {
-                    lead
-                }
+                let own = self.face.own(of.root);
+                if lead > 0.0 { lead * of.local / (of.local + own) } else { lead }
             };
             let means: Vec<f64> = self.contacts.iter().zip(teeth).map(mean).collect();
             let guess = |(at, of): (usize, &Contact)| {
@@ -801,6 +721,61 @@ impl<'a> System<'a> {
         Some(System { at, active, carried, factors, spans, slots })
     }
 
+    /// ε/(1 + ε).
+    fn taken(&self) -> f64 {
+        self.at.face.excess / (1.0 + self.at.face.excess)
+    }
+
+    /// f of [`Face::new`] at a slice: what a displacement v takes from it, and f without v, by the
+    /// displacement of the driver and by the gaps.
+    ///
+    /// # Formula
+    /// ```text
+    /// p_k = (lead_k − c_k·u)/q_ck,   f = Σ p_k c_k,   u = v − τ f,   τ = ε/(1 + ε),   c_k = root_k C_k
+    /// ```
+    /// Each pair adds a aᵀ/q to the first, with a = c + τ F c by F of the pairs before and
+    /// q = q_c − τ c·a.
+    fn loads<const SLOTS: usize>(
+        &self,
+        number: usize,
+        active: &[(usize, [f64; SLOTS])],
+    ) -> ([[f64; SLOTS]; SLOTS], [[f64; 2]; SLOTS]) {
+        let (mut loads, mut without) = ([[0.0; SLOTS]; SLOTS], [[0.0; 2]; SLOTS]);
+        for (pair, factors) in active {
+            let at = number * self.at.pairs + pair;
+            let Carried { part, rest, .. } = self.carried[at];
+            if part == 0.0 {
+                continue;
+            }
+            let of = &self.at.contacts[at];
+            let (mut all, mut lead) =
+                (factors.map(|factor| factor * of.root), [1.0, of.mean - rest / part]);
+            let (own, mut compliance) = (all, of.local / part);
+            for slot in 0..SLOTS {
+                let taken = self.taken() * own[slot];
+                for (all, known) in all.iter_mut().zip(&loads[slot]) {
+                    *all += taken * known;
+                }
+                for (lead, known) in lead.iter_mut().zip(&without[slot]) {
+                    *lead += taken * known;
+                }
+            }
+            for (all, own) in all.iter().zip(own) {
+                compliance -= self.taken() * own * all;
+            }
+            for slot in 0..SLOTS {
+                let push = all[slot] / compliance;
+                for (known, all) in loads[slot].iter_mut().zip(&all) {
+                    *known += push * all;
+                }
+                for (known, lead) in without[slot].iter_mut().zip(lead) {
+                    *known += push * lead;
+                }
+            }
+        }
+        (loads, without)
+    }
+
     /// See [`Position::lines`]. `ROW` is `SLOTS` + 1.
     fn lines<const SLOTS: usize, const ROW: usize>(&self) -> Option<Vec<[f64; 2]>> {
         let (slices, pairs, count) = (&self.at.face.slices, self.at.pairs, self.spans.len());
@@ -836,20 +811,11 @@ impl<'a> System<'a> {
             for row in block.iter_mut().filter(|row| row[0] == 0.0) {
                 row[0] = 1.0;
             }
-            for (pair, factors) in &active {
-                let at = number * pairs + pair;
-                let Carried { part, rest, .. } = self.carried[at];
-                if part == 0.0 {
-                    continue;
-                }
-                let Contact { mean, local, root, .. } = self.at.contacts[at];
-                let (push, gap) = (part * slice.width * root / local, mean - rest / part);
-                for slot in 0..SLOTS {
-                    let push = push * factors[slot];
-                    sides[slot] = [sides[slot][0] + push, sides[slot][1] + push * gap];
-                    for other in 0..=slot {
-                        block[slot][slot - other] += push * root * factors[other];
-                    }
+            let (loads, without) = self.loads(number, &active);
+            for slot in 0..SLOTS {
+                sides[slot] = without[slot].map(|load| slice.width * load);
+                for other in 0..=slot {
+                    block[slot][slot - other] += slice.width * loads[slot][other];
                 }
             }
         }
@@ -867,6 +833,20 @@ impl<'a> System<'a> {
             for number in last + 1..slices.len() {
                 let decay = slices[number - 1].tail[1];
                 all[place(number)] = all[place(number - 1)].map(|value| decay * value);
+            }
+            // From v to u, f by the equation of v.
+            let mut before = all[place(first.saturating_sub(1))];
+            for number in first..=last {
+                let (slice, here) = (&slices[number], all[place(number)]);
+                let after = all[place((number + 1).min(slices.len() - 1))];
+                let [one, other] = slice.exchange.map(|exchange| exchange / slice.width);
+                all[place(number)] = std::array::from_fn(|column| {
+                    let here = here[column];
+                    let load =
+                        here + one * (here - before[column]) + other * (here - after[column]);
+                    here - self.taken() * load
+                });
+                before = here;
             }
         }
         let mut lines = Vec::with_capacity(self.at.contacts.len());

@@ -1,8 +1,9 @@
 //! The load at rest over the face width: one base pitch without deviations, and the passage of the
 //! incoming tooth.
 
-use super::balance::{Incoming, Loads, PRECISE, Until};
+use super::balance::{Incoming, PRECISE, Until};
 use super::course::Course;
+use super::loads::Loads;
 use super::{Face, Slice};
 use crate::model::Refusal;
 use crate::model::budget::STATIONS;
@@ -281,7 +282,7 @@ impl Face {
         let cycle = FaceCycle {
             mean_displacement: all.iter().map(|loads| loads.displacement).sum::<f64>()
                 / steps as f64,
-            peak_line_load: line_loads.iter().copied().fold(0.0, f64::max),
+            peak_line_load: self.greatest(&line_loads),
             mean_line_load: self.over_face(&line_loads, |_| 1.0) / self.inputs.width,
             swing: extreme(&middle) + extreme(&|loads| -middle(loads)),
         };
@@ -292,6 +293,26 @@ impl Face {
         };
         let tooth_force = extreme(&|loads| self.tooth_force(loads));
         Ok((cycle, StaticSpectrum { spectrum, tooth_force }))
+    }
+
+    /// The greatest of line loads whose means over the slices are known; at an end of the face, that of
+    /// the parabola with the means of three slices.
+    fn greatest(&self, means: &[f64]) -> f64 {
+        let end = |slices: [usize; 3]| {
+            let [mut from, mut force] = [0.0; 2];
+            let [one, two, three] = slices.map(|slice| {
+                from += self.slices[slice].width;
+                force += self.slices[slice].width * means[slice];
+                (from, force)
+            });
+            let part = |(own, force): (f64, f64), (one, _): (f64, f64), (other, _): (f64, f64)| {
+                force * one * other / (own * (one - own) * (other - own))
+            };
+            part(one, two, three) + part(two, one, three) + part(three, one, two)
+        };
+        let last = self.slices.len() - 1;
+        let ends = [end([0, 1, 2]), end([last, last - 1, last - 2])];
+        means.iter().copied().chain(ends).fold(0.0, f64::max)
     }
 
     /// The greatest lead of the incoming tooth in a part of the path over the face, in m; infinitely

@@ -8,9 +8,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::Face;
-use super::balance::{Incoming, Loads, PRECISE, Position, Until};
+use super::balance::{Incoming, PRECISE, Position, Until};
 use super::course::{Course, Moment};
 use super::load::{FaceLoad, PRECISION, Passage, Passed};
+use super::loads::Loads;
 use crate::model::Refusal;
 use crate::model::dynamic::steady::{Start, Steady, periodic};
 use crate::model::dynamic::{Approach, Dynamic, Settings, State};
