@@ -187,7 +187,7 @@ impl FaceInputs {
     /// the transmission error within about 1e-5 of the mean deflection.
     pub fn count(&self, base_pitch: f64) -> usize {
         /// Overlap ratio, slices and coupling lengths of the usual number.
-        const LEAST: usize = 33;
+        const LEAST: usize = 41;
         const PER_PITCH: f64 = 45.0;
         const PER_LENGTH: f64 = 6.0;
         let overlap = self.width * self.lead.abs() / base_pitch;

@@ -11,6 +11,7 @@ use crate::model::static_load::{HARMONICS, Spectrum, StaticLoad, StaticSpectrum}
 use crate::model::stations::{Own, Spacing, Station};
 use crate::numeric;
 use crate::numeric::root::{self, greatest_within};
+use smallvec::SmallVec;
 use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 use std::rc::Rc;
@@ -229,11 +230,17 @@ impl Face {
         for ends in places.windows(2).filter(|ends| ends[0].1.max(ends[1].1) > 0.0) {
             let inside = numeric::steps(ends[0].0, ends[1].0, PARTS).skip(1).take(PARTS - 1);
             let inside = inside.filter_map(|z| at(middle + z * self.inputs.lead));
-            let mut before = ends[0];
-            for here in inside.chain([ends[1]]) {
-                sum += between(before, here);
-                before = here;
-            }
+            let all: SmallVec<[Sample; PARTS + 1]> =
+                [ends[0]].into_iter().chain(inside).chain([ends[1]]).collect();
+            let is_smooth = all.len() == PARTS + 1 && all.iter().all(|sample| sample.1 > 0.0);
+            sum += if is_smooth {
+                // Simpson's rule.
+                let weights = [1.0, 4.0, 2.0, 4.0, 2.0, 4.0, 2.0, 4.0, 1.0];
+                let loads = weights.iter().zip(&all).map(|(weight, sample)| weight * sample.2);
+                loads.sum::<f64>() * (ends[1].0 - ends[0].0) / (3 * PARTS) as f64
+            } else {
+                all.windows(2).map(|ends| between(ends[0], ends[1])).sum()
+            };
         }
         sum
     }
