@@ -151,31 +151,40 @@ impl Face {
         Ok(Face { line, ..Face::at(inputs, (mesh, &sections), &places) })
     }
 
+    /// ε of [`Face::new`] for slices of a width, in m.
+    fn excess(inputs: &FaceInputs, (mesh, sections): (&Mesh, &Series<6>), width: f64) -> f64 {
+        /// Greatest ε: that of two slices in a coupling length.
+        const MOST_EXCESS: f64 = 1.0 / 47.0;
+        /// Greatest ε q_t/q_c, so that the loads stay definite.
+        const MOST_TAKEN: f64 = 0.25;
+        /// Steps over the path.
+        const STEPS: usize = 16;
+        let square = inputs.coupling_length * inputs.coupling_length;
+        if square <= 0.0 {
+            return 0.0;
+        }
+        let ((from, to), end) = (mesh.ends(), 0.5 * inputs.width);
+        let ends =
+            [0, 1].map(|gear| inputs.end_factor(gear, -end).max(inputs.end_factor(gear, end)));
+        let softness = |step: usize| {
+            let path = from + (to - from) * step as f64 / STEPS as f64;
+            let [local, driver, driven] = [2, 3, 4].map(|at| sections.slope(at, path));
+            (driver * ends[0] + driven * ends[1]) / local
+        };
+        let softest = (0..=STEPS).map(softness).fold(0.0, f64::max);
+        let most = MOST_EXCESS.min(MOST_TAKEN / softest);
+        let excess = width * width / (12.0 * square - width * width);
+        if excess > 0.0 { excess.min(most) } else { most }
+    }
+
     fn at(
         inputs: &FaceInputs,
         (mesh, sections): (&Arc<Mesh>, &Arc<Series<6>>),
         places: &[f64],
     ) -> Face {
-        /// Greatest ε: that of two slices in a coupling length, and of the compliance of the contact over
-        /// that of the teeth, so that the loads stay definite.
-        const MOST_EXCESS: f64 = 1.0 / 47.0;
-        const MOST_TAKEN: f64 = 0.25;
-        const STEPS: usize = 16;
         let square = inputs.coupling_length * inputs.coupling_length;
         let step = inputs.width / (places.len() - 1).max(1) as f64;
-        let excess = step * step / (12.0 * square - step * step);
-        let ((from, to), end) = (mesh.ends(), 0.5 * inputs.width);
-        let most =
-            [0, 1].map(|gear| inputs.end_factor(gear, -end).max(inputs.end_factor(gear, end)));
-        let softness = |step: usize| {
-            let path = from + (to - from) * step as f64 / STEPS as f64;
-            let [local, driver, driven] = [2, 3, 4].map(|at| sections.slope(at, path));
-            (driver * most[0] + driven * most[1]) / local
-        };
-        let softest = (0..=STEPS).map(softness).fold(0.0, f64::max);
-        let most = MOST_EXCESS.min(MOST_TAKEN / softest);
-        let excess = if excess > 0.0 { excess.min(most) } else { most };
-        let excess = if square > 0.0 { excess } else { 0.0 };
+        let excess = Face::excess(inputs, (mesh, sections), step);
         let slice = |number: usize| {
             let z = places[number];
             let before = number.checked_sub(1).map_or(z, |before| places[before]);

@@ -549,7 +549,7 @@ impl Position<'_> {
         for (at, of) in self.contacts.iter().enumerate().filter(|(at, _)| carried[*at].touches()) {
             let ends = self.beside(at);
             let beside = ends.map(|end| &self.contacts[end]);
-            if beside.iter().any(|end| end.gap == f64::INFINITY) || of.root <= 0.0 {
+            if beside.into_iter().chain([of]).any(|of| of.root <= 0.0) {
                 continue;
             }
             let is_end = ends[1] - ends[0] == self.pairs;

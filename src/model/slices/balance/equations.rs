@@ -50,8 +50,8 @@ impl<'a> System<'a> {
         self.at.face.excess / (1.0 + self.at.face.excess)
     }
 
-    /// f of [`Face::new`] at a slice: what a displacement v takes from it, and f without v, by the
-    /// displacement of the driver and by the gaps.
+    /// f of `Face::new` at a slice: what v takes from it, and f without v, by the displacement of the
+    /// driver and by the gaps.
     ///
     /// # Formula
     /// ```text
