@@ -508,7 +508,8 @@ impl Position<'_> {
             }
         }
         let added = self.variation(displacement, &carried, &lines, (&means, &mean_loads));
-        if let Until::Force(_) = until {
+        // Without contact there is nothing to correct.
+        if matches!(until, Until::Force(_)) && sums[0] > 0.0 {
             displacement -= added / sums[0];
         }
         let most = displacement - self.face.least_gap + self.error.max(0.0);
