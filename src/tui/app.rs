@@ -8,7 +8,7 @@ pub(crate) mod tab;
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -21,6 +21,7 @@ use super::session::{Access, NEWER, OpenCase};
 use super::settings::{Look, Settings};
 use super::solver::{self, Answer, Baseline, Request, Wanted};
 use super::store::WatchedFile;
+use super::text;
 use crate::case::{Case, Document, Evaluator, Problem};
 use crate::model::inputs::Method;
 use crate::model::{Stage, Stages};
@@ -238,6 +239,14 @@ impl App {
         let Tab { case, form, .. } = &self.tab;
         let written = form.written_unit.as_deref().filter(|_| form.focus == row);
         written.unwrap_or(rows::displayed_unit(case, row, self.settings.units))
+    }
+
+    /// A path for a message. Where a line has too little room, its folder is cut.
+    pub(super) fn in_message(&self, path: &Path) -> String {
+        /// Room for the words of the message.
+        const WORDS: u16 = 20;
+        let room = self.layout.size.width.saturating_sub(WORDS);
+        text::cut_front(&path.display().to_string(), room.into())
     }
 
     /// Shows a message until the next key.

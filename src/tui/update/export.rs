@@ -66,7 +66,7 @@ pub(super) fn begin(app: &mut App, mut path: PathBuf, replaces: bool) {
         return;
     }
     if let Some(running) = &app.exporting {
-        let running = running.display();
+        let running = app.in_message(running);
         return app.complain(format!("the export to {running} still runs: wait for its end"));
     }
     let (subject, content) = match content(app, &path) {
@@ -75,7 +75,7 @@ pub(super) fn begin(app: &mut App, mut path: PathBuf, replaces: bool) {
     };
     let target = at_home(&path);
     let target = std::path::absolute(&target).unwrap_or(target);
-    app.say(format!("writing {}", path.display()));
+    app.say(format!("writing {}", app.in_message(&path)));
     app.exporting = Some(path);
     let write = move |running: &Running<'_>| {
         let path = running.path.to_owned();
@@ -170,7 +170,7 @@ fn done(app: &mut App, path: &Path, subject: &str, result: Result<(), Option<Str
     match result {
         Ok(()) => {
             app.close_titled(EXPORT);
-            app.say(format!("exported to {}{subject}", path.display()));
+            app.say(format!("exported to {}{subject}", app.in_message(&path)));
         }
         Err(None) => {
             app.message = None;

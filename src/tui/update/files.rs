@@ -218,7 +218,7 @@ pub(super) fn saved(
         1 => "; 1 required value is missing".to_owned(),
         count => format!("; {count} required values are missing"),
     };
-    app.say(format!("saved {}{how}{missing}", path.display()));
+    app.say(format!("saved {}{how}{missing}", app.in_message(&path)));
     app.tab.path = Some(path.clone());
     app.want(Effect::Remember(path));
     go(app, next);
@@ -232,7 +232,7 @@ pub(super) fn open(app: &mut App, path: PathBuf) {
         app.say(format!("{} is open already", app.tab.name()));
     } else if rexs::is_model(&path) {
         app.prompts.clear();
-        app.say(format!("reading {}", path.display()));
+        app.say(format!("reading {}", app.in_message(&path)));
         let path = store::at_home(&path);
         let own = path.clone();
         // The heaviest model takes longer than a frame.
