@@ -11,7 +11,7 @@ use super::explanation::tidy;
 use super::geometry::Circles;
 use super::inputs::{Gear, InertiaModel, Method};
 use super::profile::{Profile, Rack, normal_tip_thickness};
-use super::relief::{GearReliefs, Reliefs};
+use super::relief::Relief;
 use super::{Context, Inputs, Solution};
 use crate::numeric::decimal::significant;
 
@@ -166,7 +166,7 @@ const ROWS: &[fn(&Context) -> Option<Note>] = &[
         Some(Note::case("stations-left-out", message))
     },
     barely_clear,
-    long_relief,
+    long_reliefs,
     |k| {
         let (closed, total) = (k.solution.position?.closed_gap, k.solution.deviation.total);
         let message = format!(
@@ -505,25 +505,25 @@ fn barely_clear(k: &Context) -> Option<Note> {
     (enough < (1.0 + CLOSE) * now || has_more_load).then_some(Note::case("barely-clear", message))
 }
 
-/// A relief covers the whole path of contact.
-fn long_relief(k: &Context) -> Option<Note> {
-    let Reliefs { driver, driven, .. } = k.inputs.reliefs();
-    let path = k.solution.geometry.end - k.solution.geometry.start;
-    let of = |name: &'static str, it: GearReliefs| {
-        let reliefs = [("tip", it.tip, it.tip_length), ("root", it.root, it.root_length)];
-        let long = |(place, amount, length): (&'static str, f64, Option<f64>)| {
-            let length = length.filter(|length| amount > 0.0 && *length > path)?;
-            Some(format!("{place} relief of the {name} is {} mm long", milli(length)))
-        };
-        reliefs.into_iter().find_map(long)
+/// The unrelieved flanks alone do not keep contact.
+fn long_reliefs(k: &Context) -> Option<Note> {
+    const ROUNDING: f64 = 1e-9;
+    let (solution, geometry) = (k.solution, &k.solution.geometry);
+    let own = Relief::of(&k.inputs.reliefs(), geometry).unrelieved_contact_ratio(geometry);
+    let ratio = own + solution.helix.as_ref().map_or(0.0, |helix| helix.overlap_ratio);
+    let (code, what) = if own <= 0.0 {
+        let path = milli(geometry.end - geometry.start);
+        let what = format!("the reliefs cover the whole path of contact of {path} mm");
+        ("relief-over-whole-path", what)
+    } else {
+        let ratio = four(ratio);
+        let what = format!("the unrelieved flanks alone have a contact ratio of {ratio}, below 1");
+        ("unrelieved-contact-ratio", what)
     };
-    let found = of("driver", driver).or_else(|| of("driven gear", driven))?;
-    let message = format!(
-        "the {found} and covers the whole path of contact of {} mm: no part of the flank keeps the \
-            involute",
-        milli(path)
-    );
-    k.solution.method.shares_load().then_some(Note::case("relief-over-whole-path", message))
+    let message =
+        format!("{what}: under light load the pairs change on the reliefs, which raises TE");
+    let is_short = own <= 0.0 || ratio < 1.0 - ROUNDING;
+    (is_short && solution.method.shares_load()).then_some(Note::case(code, message))
 }
 
 /// The contact leaves the tip radius at E, and the stiffness of the pair rises in one step.
@@ -591,18 +591,20 @@ mod tests {
     }
 
     #[test]
-    fn a_note_names_a_relief_longer_than_the_path_of_contact() {
-        let of = |length| {
+    fn a_note_names_reliefs_that_leave_less_than_a_base_pitch_of_the_path() {
+        let of = |length, helix_angle: f64| {
             let mut inputs = Inputs { method: Method::Static, ..relieved(30e-6, 0.0) };
             inputs.driven.tip_relief_length = Some(length);
+            inputs.helix_angle = helix_angle;
             let solution = solve(&inputs, Stages::EVERY).unwrap();
-            let found = notes(&inputs, &solution);
-            found.into_iter().find(|note| note.code == "relief-over-whole-path")
+            let found = notes(&inputs, &solution).into_iter();
+            let mut codes = found.map(|note| note.code).filter(|code| code.contains("relie"));
+            codes.next().unwrap_or_default()
         };
-        assert_eq!(of(20e-3), None);
-        assert!(
-            of(50e-3).unwrap().message.contains("tip relief of the driven gear is 50.00 mm long")
-        );
+        // The path of contact is 22.98 mm long, and the base pitch 14.76 mm.
+        assert_eq!([of(8.2e-3, 0.0), of(9e-3, 0.3)], [""; 2]);
+        assert_eq!(of(8.3e-3, 0.0), "unrelieved-contact-ratio");
+        assert_eq!([of(50e-3, 0.0), of(50e-3, 0.3)], ["relief-over-whole-path"; 2]);
     }
 
     fn clears_barely(inputs: &Inputs) -> bool {

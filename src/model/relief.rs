@@ -140,6 +140,18 @@ impl Relief {
         sum(&self.driver, driver) + sum(&self.driven, driven)
     }
 
+    /// The path of contact on unrelieved flanks over the base pitch.
+    pub fn unrelieved_contact_ratio(&self, geometry: &Geometry) -> f64 {
+        let on_driven = |ramp: &Ramp| geometry.tangent_length - ramp.none;
+        let ([tip, root], [other_tip, other_root]) = (&self.driver, &self.driven);
+        let first = [(root, root.none), (other_tip, on_driven(other_tip))].into_iter();
+        let last = [(tip, tip.none), (other_root, on_driven(other_root))].into_iter();
+        let is_given = |(ramp, _): &(&Ramp, f64)| ramp.amount > 0.0;
+        let from = first.filter(is_given).map(|(_, end)| end).fold(geometry.start, f64::max);
+        let to = last.filter(is_given).map(|(_, end)| end).fold(geometry.end, f64::min);
+        (to - from) / geometry.base_pitch
+    }
+
     /// Radii of curvature of the driver's flank at which a relief ends.
     pub fn ends_on_driver(&self) -> impl Iterator<Item = f64> {
         ends(&self.driver)

@@ -227,11 +227,11 @@ impl Specification {
                 ));
             }
         }
-        let ratio = own.reliefs.unloaded_contact_ratio(&self.geometry);
-        if ratio < 1.0 && !self.is_over_face {
+        let ratio = own.reliefs.unloaded_contact_ratio(&self.geometry) + self.overlap_ratio;
+        if ratio < 1.0 {
             lines.push(format!(
                 "The unrelieved flanks alone have a contact ratio of {ratio:.3}, below 1: under \
-                 light load the pairs change on the reliefs."
+                 light load the pairs change on the reliefs, which raises TE."
             ));
         }
         lines.extend(self.alternative(own, units));

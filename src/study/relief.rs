@@ -129,6 +129,8 @@ pub struct Specification {
     pub is_over_face: bool,
     /// The crowning of the driven gear, which stays that of the case, in m.
     pub driven_crowning: f64,
+    /// Overlap ratio; 0 for a spur pair.
+    pub overlap_ratio: f64,
     /// The geometry of the pair.
     pub geometry: Geometry,
     /// The loads, relative to the load of the case.
@@ -344,6 +346,7 @@ pub fn specify(
         mesh_force: solution.mesh_force,
         is_over_face,
         driven_crowning: at_rest.driven.crowning,
+        overlap_ratio: solution.helix.as_ref().map_or(0.0, |helix| helix.overlap_ratio),
         geometry: solution.geometry,
         map: pair.map(&choices[best].reliefs)?,
         loads: loads.into_iter().map(|(load, _)| load).collect(),
