@@ -85,7 +85,7 @@ impl Selection {
     /// The stages that the requested quantities need.
     pub fn stages(&self) -> Stages {
         let stations = if self.stations { Stages::STATIONS } else { Stages::NONE };
-        self.quantities().fold(stations, |stages, quantity| stages.and(Stages::of(quantity.stage)))
+        self.quantities().fold(stations, |stages, quantity| stages.and(quantity.stages()))
     }
 }
 

@@ -213,7 +213,7 @@ def test_a_pair_in_slices_has_arrays_over_face_and_angle():
         assert load.shape == (len(angle), len(z)) and angle[0] > angle[-1] and z[0] < 0 < z[-1]
         assert load.max() == pytest.approx(result[f"{method}_peak_line_load"], rel=0.05)
         at = np.unravel_index(load.argmax(), load.shape)
-        assert z[at[1]] == pytest.approx(result[f"{method}_peak_line_load_z"], abs=z[1] - z[0])
+        assert z[at[1]] == pytest.approx(result[f"{method}_peak_line_load_position"], abs=z[1] - z[0])
         assert np.shape(stations.to_dict()["line_load"]) == load.shape
     assert "line_load" not in tipstrike.solve(TABLE_1, "static").stations
 

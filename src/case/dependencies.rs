@@ -38,7 +38,7 @@ pub fn fields_of(
     (inputs, own): (&Inputs, Option<f64>),
     go_on: &dyn Fn(usize, usize) -> bool,
 ) -> Vec<Dependence> {
-    let behind = Stages::of(quantity.stage);
+    let behind = quantity.stages();
     let is_behind = |&field: &usize| stages_of(field, inputs).within(behind) != Stages::NONE;
     let base = Base::of(quantity, inputs, own);
     let is_over_face = inputs.face().is_some() && behind.has(Stage::Mesh);
@@ -93,7 +93,7 @@ impl<'a> Base<'a> {
     }
 
     fn at(quantity: &'a Quantity, inputs: Inputs) -> Base<'a> {
-        let solution = model::solve(&inputs, Stages::of(quantity.stage));
+        let solution = model::solve(&inputs, quantity.stages());
         Base { quantity, inputs, solution }
     }
 
@@ -107,7 +107,7 @@ impl<'a> Base<'a> {
         let solution = self.solution.as_ref().ok();
         let earlier =
             solution.map(|solution| Earlier { inputs: &self.inputs, solution, gears: None });
-        let wanted = Stages::of(self.quantity.stage);
+        let wanted = self.quantity.stages();
         let solution = solve_after(inputs, wanted, earlier, &|_| true)?;
         Ok(finite(self.quantity, &solution))
     }
@@ -115,7 +115,7 @@ impl<'a> Base<'a> {
 
 /// The value of a quantity with these inputs, in SI.
 pub fn value_of(quantity: &Quantity, inputs: &Inputs) -> Option<f64> {
-    finite(quantity, &model::solve(inputs, Stages::of(quantity.stage)).ok()?)
+    finite(quantity, &model::solve(inputs, quantity.stages()).ok()?)
 }
 
 fn finite(quantity: &Quantity, solution: &Solution) -> Option<f64> {

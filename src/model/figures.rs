@@ -11,6 +11,10 @@ use super::{Geometry, Solution, Station};
 /// Figures of the pair. Values of both gears are in the order driver, driven gear.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Figures {
+    /// Common face width, in m.
+    pub width: f64,
+    /// Thickness of the teeth at the reference circle, in m.
+    pub tooth_thickness: [f64; 2],
     /// Thickness of the teeth between their flanks at the tip circle, in m.
     pub tip_thickness: [f64; 2],
     /// Distance of the tip circle from the root circle of the other gear, in m.
@@ -48,7 +52,13 @@ impl Figures {
         let helix = inputs.helix(geometry, mesh_force);
         let overlap = helix.map_or(0.0, |helix| helix.overlap_ratio);
         let normal = inputs.base_helix_angle().cos().recip();
+        let thickness = |gear: &Gear| {
+            let shift = gear.profile_shift * inputs.module * inputs.pressure_angle.tan();
+            0.5 * PI * inputs.transverse_module() + 2.0 * shift
+        };
         Figures {
+            width,
+            tooth_thickness: [&inputs.driver, &inputs.driven].map(thickness),
             tip_thickness: [driver.0, driven.0],
             tip_clearance: [
                 geometry.centre_distance - driver.1 - driven.2,

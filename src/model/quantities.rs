@@ -23,7 +23,7 @@ pub use impact::spread_force;
 
 use super::explanation::{Check, Formula, Step, When};
 use super::inputs::{Inputs, Method};
-use super::{Solution, Stage};
+use super::{Solution, Stage, Stages};
 
 /// A row of the table.
 #[derive(Debug, Clone, Copy)]
@@ -46,6 +46,8 @@ pub struct Quantity {
     pub equation: &'static str,
     /// The last stage that the value needs.
     pub stage: Stage,
+    /// Another stage that the value reads in the methods that have it.
+    pub also: Option<Stage>,
     /// The value in SI. `None` if the solution has no value.
     pub value: fn(&Solution) -> Option<f64>,
     /// Meaning and use of the quantity, or the words with which every variant begins.
@@ -106,6 +108,7 @@ const PLAIN: Quantity = Quantity {
     digits: 0,
     equation: "",
     stage: Stage::Geometry,
+    also: None,
     value: |_| None,
     meaning: "",
     formula: Formula::Text(""),
@@ -152,6 +155,10 @@ impl Quantity {
         Quantity { is_signed: true, ..self }
     }
 
+    const fn also(self, stage: Stage) -> Quantity {
+        Quantity { also: Some(stage), ..self }
+    }
+
     const fn at_exit(self) -> Quantity {
         Quantity { is_at_exit: true, ..self }
     }
@@ -190,6 +197,17 @@ impl Quantity {
         (self.value)(solution.having(self.stage))
             .filter(|value| value.is_finite())
             .map(|value| value + 0.0)
+    }
+
+    /// The stages that the value needs.
+    pub fn stages(&self) -> Stages {
+        Stages::of(self.stage).and(self.also.map_or(Stages::NONE, Stages::of))
+    }
+
+    /// The last stage that the value needs in a method.
+    pub fn stage_in(&self, method: Method) -> Stage {
+        let also = self.also.filter(|also| method.stages().has(*also));
+        also.map_or(self.stage, |also| also.max(self.stage))
     }
 
     /// Whether the value is true (1) or false (0).

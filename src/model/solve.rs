@@ -500,7 +500,8 @@ impl Auto<'_> {
             return Ok(Solution { beside: None, ..solution });
         };
         let missing = self.inputs.needs.except(solution.method.stages());
-        let wanted = missing.iter().map(Stages::of).fold(Stages::NONE, Stages::and);
+        // A quantity compares the motion with the load at rest.
+        let wanted = missing.iter().map(Stages::of).fold(Stages::of(Stage::Static), Stages::and);
         // A trial motion, or the motion of an earlier solve.
         let known = solution.beside.as_ref().and_then(|known| known.as_deref().ok());
         let beside = Refusal::unless_stopped(self.solve(method, wanted, known))?.map(Box::new);

@@ -96,9 +96,9 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
         Method::Dynamic => printed("dynamic_peak_force", solution, system),
         Method::Paper | Method::Exact | Method::Auto => None,
     };
-    let ratio = times(solution, "dynamic_peak_force", "static_peak_force")
-        .filter(|_| solution.method == Method::Dynamic);
-    let ratio = ratio.map(|ratio| ratio + "the force at rest)").unwrap_or_default();
+    let ratio = of("peak_force_ratio", solution).filter(|_| solution.method == Method::Dynamic);
+    let ratio = ratio.map(|ratio| format!(" ({ratio:.2} times the force at rest)"));
+    let ratio = ratio.unwrap_or_default();
     let at_rest = if solution.method == Method::Static { " at rest" } else { "" };
     let most = most.map(|most| format!("{most} on a tooth{at_rest}{ratio}"));
     if solution.outcome == Outcome::NoCornerContact {
@@ -113,9 +113,10 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
     let angle = own("approach_angle_driver", solution);
     let angle = angle.and_then(|own| printed(own.key, solution, system));
     let angle = angle.map(|angle| format!(" {angle} before E")).unwrap_or_default();
-    let tip = own("impact_force", solution).and_then(|own| {
-        let ratio = times(solution, own.key, "mesh_force")?;
-        Some((printed(own.key, solution, system)?, ratio + "the mesh force)"))
+    let tip = own("impact_force", solution).and_then(|force| {
+        let ratio = value(own("dynamic_factor", solution)?, solution)?;
+        let ratio = format!(" ({ratio:.2} times the mesh force)");
+        Some((printed(force.key, solution, system)?, ratio))
     });
     let forces = match (tip, most) {
         (Some((tip, ratio)), Some(most)) => format!(": up to {tip} on the tip{ratio}, {most}"),
@@ -167,12 +168,6 @@ fn of(key: &str, solution: &Solution) -> Option<f64> {
 fn printed(key: &str, solution: &Solution, system: System) -> Option<String> {
     let quantity = Quantity::find(key)?;
     Some(shown_in(quantity, value(quantity, solution)?, system).to_string())
-}
-
-/// The ratio of two forces, up to the name of the second.
-fn times(solution: &Solution, force: &str, reference: &str) -> Option<String> {
-    let ratio = of(force, solution)? / of(reference, solution)?;
-    ratio.is_finite().then(|| format!(" ({ratio:.2} times "))
 }
 
 /// Other methods with another outcome, and why the governing method counts.

@@ -72,7 +72,12 @@ pub struct Page {
     pub effects: Vec<Effect>,
 }
 
-/// Explains a quantity of a solved case. The solution must include the stage of the quantity. `go_on`
+/// The stages that the page of a quantity shows: also those of its counterpart in the method.
+pub fn stages_of(quantity: &'static Quantity, method: Method) -> Stages {
+    quantity.stages().and(quantity.by(method).map_or(Stages::NONE, Quantity::stages))
+}
+
+/// Explains a quantity of a solved case. The solution must include [`stages_of`] it. `go_on`
 /// receives the number of changed fields and of all fields behind the quantity; once it returns false,
 /// the page is without the accuracy and the effects of these changes.
 pub fn explain(
@@ -295,7 +300,8 @@ fn effects_of(
         tolerance,
         ..known.context.inputs.clone()
     };
-    let is_coarse = quantity.stage == Stage::Dynamic && tolerance < known.context.inputs.tolerance;
+    let is_coarse = quantity.stage_in(fixed.method) == Stage::Dynamic
+        && tolerance < known.context.inputs.tolerance;
     let own = value(quantity, known.context.solution);
     let own = if is_coarse { value_of(quantity, &fixed) } else { own };
     let [within, tolerance] = ["model.within", "model.tolerance"].map(index_of);
@@ -347,7 +353,7 @@ fn noise(quantity: &Quantity, inputs: &Inputs) -> f64 {
     const STEPS: f64 = 10.0;
     const CLOSENESS: f64 = 1e-4;
     const STEADY: f64 = 1e-5;
-    match quantity.stage {
+    match quantity.stage_in(inputs.method) {
         Stage::Dynamic => STEPS * inputs.tolerance,
         Stage::Clearing if inputs.method.shares_load() => CLOSENESS,
         Stage::SteadyMotion | Stage::SpeedRun => STEADY,
@@ -370,7 +376,7 @@ fn accuracy_of(quantity: &Quantity, known: &Known) -> Vec<String> {
 
 fn numerical(quantity: &Quantity, known: &Known) -> Option<String> {
     let inputs = known.context.inputs;
-    let error = match quantity.stage {
+    let error = match quantity.stage_in(inputs.method) {
         _ if quantity.is_flag() => return None,
         Stage::Dynamic => format!("at most {} of the peak force", tolerance(known)),
         Stage::Clearing if inputs.method.shares_load() => {
@@ -430,7 +436,7 @@ fn over_methods(quantity: &Quantity, known: &Known) -> Option<String> {
     let inputs = known.context.inputs;
     let by = |method: Method| {
         let inputs = Inputs { method, ..inputs.clone() };
-        let solution = model::solve(&inputs, Stages::of(quantity.stage)).ok()?;
+        let solution = model::solve(&inputs, quantity.stages()).ok()?;
         let own = known.context.solution.method;
         Some((method, value_as_in(quantity, &solution, own)?))
     };

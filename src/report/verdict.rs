@@ -135,7 +135,7 @@ pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
 pub fn stages(case: &Case) -> Stages {
     let quantities = case.limits.iter().flat_map(Limit::quantities);
     let stages = Stages::of(Stage::Geometry);
-    quantities.fold(stages, |stages, own| stages.and(Stages::of(own.stage)))
+    quantities.fold(stages, |stages, own| stages.and(own.stages()))
 }
 
 /// Every limit of a case that the model refuses: no quantity has a value.

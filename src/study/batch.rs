@@ -224,7 +224,7 @@ struct PointSolver<'a> {
 
 impl<'a> PointSolver<'a> {
     fn new(batch: &'a Batch<'a>) -> PointSolver<'a> {
-        let stages = batch.quantities.iter().map(|quantity| Stages::of(quantity.stage));
+        let stages = batch.quantities.iter().map(|quantity| quantity.stages());
         PointSolver {
             batch,
             write: batch.points.writer(),

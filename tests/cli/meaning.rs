@@ -161,7 +161,7 @@ fn a_refusal_names_the_command_line_and_offers_a_fix_in_one_line() {
         for (name, end) in [
             ("f_s", "unknown quantity `f_s`: did you mean F_S, impact_force?"),
             ("impact_forces", "did you mean impact_force?"),
-            ("exit_force", "did you mean static_force_at_end?"),
+            ("exit_force", " or static_exit_line_load or dynamic_exit_line_load?"),
             ("exit_outcome", "`seek` takes exit_outcome=no-corner-contact"),
             ("'impact_force normal_velocity'", "put commas between names"),
             ("colour", "`tipstrike fields --results` lists every quantity"),

@@ -20,7 +20,7 @@ use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stage, Stages};
 use crate::report::charts::{Picture, find, pictures};
 use crate::report::compare::ComparedCase;
 use crate::report::digest::{Digest, STAGES, sentence};
-use crate::report::explain::{explain, render, write_json};
+use crate::report::explain::{explain, render, stages_of, write_json};
 use crate::report::page::render as render_report;
 use crate::report::solve::{self, compared, comparison};
 use crate::report::table::{Named, item};
@@ -187,7 +187,7 @@ impl Explain {
         }?;
         opened.need([self.quantity]);
         let Opened { name, document, inputs, .. } = &opened;
-        let (wanted, case) = (Stages::of(self.quantity.stage), &document.case);
+        let (wanted, case) = (stages_of(self.quantity, inputs.method), &document.case);
         let page = follow("fields", |go_on| {
             let solution = model::solve_while(inputs, wanted, &|_| go_on(0, FIELDS.len()))?;
             Ok(explain(self.quantity, case, inputs, &solution, go_on))

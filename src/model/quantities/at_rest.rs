@@ -2,15 +2,19 @@
 
 use super::conditions::{always, friction_given, in_slices};
 use super::{Need, PLAIN, Quantity, Variant, checks, of_driver};
-use crate::model::Stage::{Mesh, Static};
+use crate::model::Solution;
+use crate::model::Stage::{Dynamic, Mesh, Static};
 use crate::model::compliance::{ContactPlace, Teeth};
+use crate::model::dynamic::Dynamic as Motion;
 use crate::model::explanation::Formula::{
     self, Cases, Difference, Found, Made, Solved, Text, Words,
 };
 use crate::model::explanation::{Check, Context, Equation, Step, step};
+use crate::model::inputs::Method;
 use crate::model::position::TipContact;
 use crate::model::position::{gap, tip_at};
 use crate::model::relief::Relief;
+use crate::model::static_load::StaticLoad;
 use crate::numeric::quadrature;
 
 const SPRINGS: &str = "Every pair is a spring b/q with a gap, and all pairs share the mesh force \
@@ -212,6 +216,44 @@ pub(super) const TABLE: &[Quantity] = &[
         .signed()
         .needs(Need::Friction),
 ];
+
+/// The force before E, by the method.
+pub(super) const ENTRY_RATIO: Quantity = PLAIN
+    .row(
+        ["entry_force_ratio", "F_E/F_0", "entry force ratio"],
+        ("1", "1", 4),
+        |s| {
+            Some(
+                governing(s, |load| load.force_at_start, |motion| motion.peak_approach_force)?
+                    / s.mesh_force,
+            )
+        },
+        "The greatest force before E, in the corner contact, over the mesh force. Method dynamic \
+            uses the force in motion, method static that at rest.",
+        Made(|k| by_method(k, ["F_st,E/F_0", "F_d,DE/F_0"])),
+    )
+    .equation("by the method")
+    .stage(Static)
+    .also(Dynamic)
+    .source("As for static_force_at_start or dynamic_peak_approach_force.")
+    .assumptions("As for these forces.")
+    .checks(&[checks::teeth]);
+
+/// A force in motion by the method `dynamic`, otherwise that at rest.
+fn governing(
+    solution: &Solution,
+    at_rest: fn(&StaticLoad) -> f64,
+    in_motion: fn(&Motion) -> f64,
+) -> Option<f64> {
+    match solution.method {
+        Method::Dynamic => solution.dynamic.as_ref().map(in_motion),
+        _ => solution.static_load.as_ref().map(at_rest),
+    }
+}
+
+fn by_method(k: &Context, [at_rest, in_motion]: [&str; 2]) -> String {
+    if k.solution.method == Method::Dynamic { in_motion } else { at_rest }.to_owned()
+}
 
 const PITCH_JUMP: Formula = Found(
     "Σ F_k just after the pitch point minus Σ F_k just before it, with Σ w_k \

@@ -1,5 +1,7 @@
 //! Rows of the face width: helical geometry, and the line load of a pair in slices.
 
+use super::at_rest::ENTRY_RATIO;
+use super::motion::PEAK_RATIO;
 use super::{Formula, Need, PLAIN, Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{Dynamic, Geometry, Load, Static, StaticSpectrum};
@@ -64,10 +66,10 @@ const LOAD: Formula =
     Found("line load of the balance ∫ Σ p dz = F_0 in slices, x - gap = displacement", &["F_0"]);
 
 /// The load over the face width, by the names of the rows.
-const fn of_load<const MOVES: bool>(names: [[&'static str; 3]; 5]) -> [Quantity; 5] {
+const fn of_load<const MOVES: bool>(names: &[[&'static str; 3]; 6]) -> [Quantity; 6] {
     const IN_MOTION: Formula =
         Found("line load in motion, x - gap = displacement in slices", &["F_0", "f_n"]);
-    let [first, most, place, before, after] = names;
+    let [first, most, place, before, after, last] = *names;
     let (base, formula) = if MOVES { (MOVING, IN_MOTION) } else { (AT_REST, LOAD) };
     [
         base.row(
@@ -111,23 +113,34 @@ const fn of_load<const MOVES: bool>(names: [[&'static str; 3]; 5]) -> [Quantity;
             formula,
         )
         .at_exit(),
+        base.row(
+            last,
+            ("m", "mm", 4),
+            |s| Some(load::<MOVES>(s)?.last.z),
+            "The place of the last contact of the incoming tooth along the axis, from the middle \
+            of the common face.",
+            formula,
+        )
+        .signed(),
     ]
 }
 
-const STATIC: [Quantity; 5] = of_load::<false>([
-    ["static_first_contact_z", "z_st", "static: first contact at z"],
+const STATIC: [Quantity; 6] = of_load::<false>(&[
+    ["static_first_contact_position", "z_st", "static: first contact at z"],
     ["static_peak_line_load", "w_st,max", "static: peak line load"],
-    ["static_peak_line_load_z", "z_st,max", "static: peak line load at z"],
-    ["static_peak_line_load_before_start", "w_st,DE", "static: peak line load before E"],
-    ["static_peak_line_load_after_end", "w_st,B", "static: peak line load after B"],
+    ["static_peak_line_load_position", "z_st,max", "static: peak line load at z"],
+    ["static_entry_line_load", "w_st,DE", "static: peak line load before E"],
+    ["static_exit_line_load", "w_st,B", "static: peak line load after B"],
+    ["static_last_contact_position", "z_st,B", "static: last contact at z"],
 ]);
 
-const DYNAMIC: [Quantity; 5] = of_load::<true>([
-    ["dynamic_first_contact_z", "z_dyn", "dynamic: first contact at z"],
+const DYNAMIC: [Quantity; 6] = of_load::<true>(&[
+    ["dynamic_first_contact_position", "z_dyn", "dynamic: first contact at z"],
     ["dynamic_peak_line_load", "w_dyn,max", "dynamic: peak line load"],
-    ["dynamic_peak_line_load_z", "z_dyn,max", "dynamic: peak line load at z"],
-    ["dynamic_peak_line_load_before_start", "w_dyn,DE", "dynamic: peak line load before E"],
-    ["dynamic_peak_line_load_after_end", "w_dyn,B", "dynamic: peak line load after B"],
+    ["dynamic_peak_line_load_position", "z_dyn,max", "dynamic: peak line load at z"],
+    ["dynamic_entry_line_load", "w_dyn,DE", "dynamic: peak line load before E"],
+    ["dynamic_exit_line_load", "w_dyn,B", "dynamic: peak line load after B"],
+    ["dynamic_last_contact_position", "z_dyn,B", "dynamic: last contact at z"],
 ]);
 
 fn cycle(solution: &Solution) -> Option<&FaceCycle> {
@@ -245,11 +258,13 @@ pub(super) const TABLE: &[Quantity] = &[
     STATIC[2],
     STATIC[3],
     STATIC[4],
+    STATIC[5],
     DYNAMIC[0],
     DYNAMIC[1],
     DYNAMIC[2],
     DYNAMIC[3],
     DYNAMIC[4],
+    DYNAMIC[5],
     AT_REST
         .row(
             ["face_load_factor", "K_Hβ", "face load factor"],
@@ -279,4 +294,7 @@ pub(super) const TABLE: &[Quantity] = &[
         .equation("∫ z Σp dz/F0")
         .stage(StaticSpectrum)
         .source("Mean of z by the line load, ∫ z Σp dz/F0; balance in slices."),
+    // After the line loads, which are more important.
+    ENTRY_RATIO,
+    PEAK_RATIO,
 ];

@@ -1,6 +1,7 @@
 //! Rows of the figures of ISO 21771 and ISO 6336-1, with their steps.
 
 use super::conditions::{always, any_class, any_coarse, driver_larger, helical};
+use super::geometry::WIDTH;
 use super::{PLAIN, Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{self, Figures};
@@ -95,6 +96,24 @@ macro_rules! gear {
             FIGURE
                 .row(
                     [
+                        concat!("tooth_thickness_", $gear),
+                        concat!("s_t", $n),
+                        concat!("tooth thickness, ", $name),
+                    ],
+                    ("m", "mm", 5),
+                    |s| Some(s.figures?.tooth_thickness[$at]),
+                    concat!(
+                        "The thickness of a tooth of the ",
+                        $name,
+                        " at the reference circle in the transverse section. A backlash does not \
+            make it thinner."
+                    ),
+                    Text(concat!("π m_t/2 + 2 x", $n, " m tan α")),
+                )
+                .source("ISO 21771:2007, transverse tooth thickness at the reference cylinder."),
+            FIGURE
+                .row(
+                    [
                         concat!("tip_clearance_", $gear),
                         concat!("c_a", $n),
                         concat!("tip clearance, ", $name),
@@ -175,7 +194,7 @@ macro_rules! gear {
     };
 }
 
-const DRIVER: [Quantity; 6] = gear!(
+const DRIVER: [Quantity; 7] = gear!(
     0,
     "1",
     "driver",
@@ -187,7 +206,7 @@ const DRIVER: [Quantity; 6] = gear!(
     "1 - N2E/(i N1E)",
     "1 - N2B/(i N1B)"
 );
-const DRIVEN: [Quantity; 6] = gear!(
+const DRIVEN: [Quantity; 7] = gear!(
     1,
     "2",
     "driven",
@@ -233,14 +252,25 @@ fn rolled(solution: &Solution) -> Option<f64> {
 }
 
 pub(super) const TABLE: &[Quantity] = &[
-    DRIVER[0],
-    DRIVEN[0],
+    FIGURE
+        .row(
+            ["common_face_width", "b_w", "common face width"],
+            ("m", "mm", 5),
+            |s| Some(s.figures?.width),
+            "The width over which the faces of both gears overlap.",
+            WIDTH,
+        )
+        .source("ISO 21771:2007, working face width."),
     DRIVER[1],
     DRIVEN[1],
+    DRIVER[0],
+    DRIVEN[0],
     DRIVER[2],
     DRIVEN[2],
     DRIVER[3],
     DRIVEN[3],
+    DRIVER[4],
+    DRIVEN[4],
     FIGURE
         .row(
             ["tangential_force", "F_t", "tangential force"],
@@ -280,10 +310,10 @@ pub(super) const TABLE: &[Quantity] = &[
             at the exit B.",
         Difference("ω_2 N2B - ω_1 N1B"),
     ),
-    DRIVER[4],
-    DRIVEN[4],
     DRIVER[5],
     DRIVEN[5],
+    DRIVER[6],
+    DRIVEN[6],
     PRESSURE
         .row(
             ["hertz_pressure_pitch", "p_C", "Hertz pressure at P"],

@@ -7,7 +7,7 @@ use super::conditions::{
 use super::{PLAIN, Quantity, Variant};
 use crate::model::Stage::{Geometry, Load};
 use crate::model::explanation::Formula::{Cases, Difference, Given, Solved, Text};
-use crate::model::explanation::{Context, Equation, Step, step};
+use crate::model::explanation::{Context, Equation, Formula, Step, step};
 
 const PARALLEL: &str = "External gears on parallel, rigid shafts, with involute flanks down to \
             the contact.";
@@ -104,6 +104,12 @@ pub(super) const TABLE: &[Quantity] = &[
             ),
         ]),
 ];
+
+/// The common face width.
+pub(super) const WIDTH: Formula = Cases(&[
+    (offset, Text("min(b1/2, b2/2 + o) + min(b1/2, b2/2 - o)")),
+    (always, Text("min(b1, b2)")),
+]);
 
 const INVOLUTE: Equation = Equation {
     text: "inv α_w = inv α_t + 2 (x1 + x2) tan α/(z1 + z2), inv t = tan t - t",
@@ -239,16 +245,7 @@ pub(super) const STEPS: &[Step] = &[
         Cases(&[(power_given, Text("P/ω_1")), (always, Given("operation.torque"))]),
         |k| Some(k.inputs.torque()),
     ),
-    step(
-        "b",
-        "common face width",
-        "mm",
-        Cases(&[
-            (offset, Text("min(b1/2, b2/2 + o) + min(b1/2, b2/2 - o)")),
-            (always, Text("min(b1, b2)")),
-        ]),
-        |k| Some(k.inputs.common_width()),
-    ),
+    step("b", "common face width", "mm", WIDTH, |k| Some(k.inputs.common_width())),
     DRIVER[4],
     DRIVEN[4],
 ];

@@ -142,7 +142,8 @@ pub(super) const TABLE: &[Quantity] = &[
             "The impact alone is compared with the steady load alone. K_v of ISO 6336 \
                 includes the whole mesh.",
         )
-        .checks(&[checks::gap_closed, checks::within_approach]),
+        .checks(&[checks::gap_closed, checks::within_approach])
+        .counterparts("entry_force_ratio", "entry_force_ratio"),
     DURATION
         .row(
             ["impact_duration", "T_S", "impact duration"],

@@ -2,7 +2,7 @@
 
 use super::{Need, PLAIN, Quantity, Variant, checks, conditions, of_driver};
 use crate::model::Solution;
-use crate::model::Stage::{Dynamic, Resonance, SpeedRun};
+use crate::model::Stage::{Dynamic, Resonance, SpeedRun, Static};
 use crate::model::explanation::Formula::{Found, Text};
 use crate::model::explanation::{Check, Context, Finding, Formula, Step, four, step};
 use crate::model::speeds::SpeedCurve;
@@ -229,6 +229,23 @@ pub(super) const TABLE: &[Quantity] = &[
     FALLING[0],
     FALLING[1],
 ];
+
+/// The peak force over that at rest.
+pub(super) const PEAK_RATIO: Quantity = IN_MOTION
+    .row(
+        ["peak_force_ratio", "F_d/F_st", "peak force ratio"],
+        ("1", "1", 4),
+        |s| {
+            let ratio = s.dynamic.as_ref()?.peak_force / s.static_load.as_ref()?.peak_force;
+            // A tooth that never touches has no ratio.
+            (!ratio.is_nan()).then_some(ratio)
+        },
+        "The peak force on the incoming tooth in motion over that at rest.",
+        Text("F_d,max/F_st,max"),
+    )
+    .equation("F_d/F_st")
+    .source("The ratio F_d/F_st of the peak forces in motion and at rest, both by this program.")
+    .also(Static);
 
 fn stiffness(k: &Context) -> Option<f64> {
     Some(k.solution.mesh.as_ref()?.mean_stiffness())

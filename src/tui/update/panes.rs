@@ -121,7 +121,7 @@ pub(super) fn explain(app: &mut App) {
     // As in `tipstrike explain`.
     let page = move |running: &Running<'_>| {
         let inputs = inputs.needing([quantity.stage]);
-        Some(match model::solve(&inputs, Stages::of(quantity.stage)) {
+        Some(match model::solve(&inputs, explanation::stages_of(quantity, inputs.method)) {
             Ok(solution) => {
                 let go_on = |_, _| running.is_wanted();
                 let page = explanation::explain(quantity, &case, &inputs, &solution, &go_on);

@@ -185,7 +185,8 @@ fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer>
     let others =
         others.filter_map(|method| layer(false, Inputs { method, ..inputs.clone() }, method));
     // Each method that shares the load has the same load at rest.
-    let is_at_rest = matches!(quantity.stage, Stage::Static | Stage::StaticSpectrum);
+    let is_at_rest =
+        quantity.also.is_none() && matches!(quantity.stage, Stage::Static | Stage::StaticSpectrum);
     let others = others.filter(|other| !is_at_rest || other.quantity != quantity.key);
     let pinned = app.baseline.as_ref().map(|baseline| &baseline.answer);
     let pinned = pinned.and_then(|answer| layer(true, answer.inputs.clone(), answer.active));

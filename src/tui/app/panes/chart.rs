@@ -386,7 +386,7 @@ impl<'a> Charts<'a> {
         let (z, angle) = (self.0.chart.z, pattern.ahead(self.0.chart.z) - cursor);
         let side = if angle < 0.0 { "before" } else { "after" };
         let [z, load] = [
-            ("static_peak_line_load_z", z),
+            ("static_peak_line_load_position", z),
             ("static_peak_line_load", pattern.line_load(angle, z)),
         ]
         .map(|(key, value)| {
