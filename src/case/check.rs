@@ -587,7 +587,7 @@ pub(super) fn unknown_quantity(field: &str, written: &str) -> Problem {
         Err(Some(known)) => {
             return unknown(format!("did you mean {}, {}?", known.symbol, known.key));
         }
-        Err(None) => nearest(name, QUANTITIES.iter().map(|known| known.key)),
+        Err(None) => nearest(name, Quantity::all().map(|known| known.key)),
     };
     if name.is_empty() {
         let fix = "write names with commas between them, such as impact_force,contact_ratio";

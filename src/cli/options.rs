@@ -207,7 +207,7 @@ impl TypedValueParser for Quantities {
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(QUANTITIES.iter().map(|quantity| PossibleValue::new(quantity.key))))
+        Some(Box::new(Quantity::all().map(|quantity| PossibleValue::new(quantity.key))))
     }
 }
 

@@ -264,9 +264,19 @@ impl Quantity {
         }
     }
 
+    /// Every quantity that has a name: those of the table, and the peak force by the method.
+    pub fn all() -> impl Iterator<Item = &'static Quantity> {
+        QUANTITIES.iter().chain([&at_rest::PEAK_FORCE])
+    }
+
+    /// The row of a method for a name that is no row, otherwise this row.
+    pub fn row_in(&'static self, method: Method) -> &'static Quantity {
+        self.by(method).filter(|_| self.key == at_rest::PEAK_FORCE.key).unwrap_or(self)
+    }
+
     /// The quantity of a key.
     pub fn find(key: &str) -> Option<&'static Quantity> {
-        QUANTITIES.iter().find(|quantity| quantity.key == key)
+        Quantity::all().find(|quantity| quantity.key == key)
     }
 
     /// The quantity of a key or of its symbol in any method.
@@ -275,7 +285,7 @@ impl Quantity {
             let mut symbols = Method::ALL.map(|method| quantity.symbol_in(method)).into_iter();
             symbols.any(|symbol| symbol == name)
         };
-        Quantity::find(name).or_else(|| QUANTITIES.iter().find(has_symbol))
+        Quantity::find(name).or_else(|| Quantity::all().find(has_symbol))
     }
 }
 
@@ -356,7 +366,7 @@ mod tests {
 
     #[test]
     fn every_row_is_complete_and_names_only_rows_of_the_table() {
-        for row in QUANTITIES {
+        for row in Quantity::all() {
             let words = [
                 row.key,
                 row.symbol,
@@ -381,7 +391,7 @@ mod tests {
         let symbols = |quantity: &'static Quantity| {
             Method::ALL.map(|method| (quantity.key, quantity.symbol_in(method)))
         };
-        let symbols: Vec<_> = QUANTITIES.iter().flat_map(symbols).collect();
+        let symbols: Vec<_> = Quantity::all().flat_map(symbols).collect();
         let stem = |symbol: &'static str| symbol.split(',').next().unwrap_or_default();
         for (key, symbol) in &symbols {
             let clash = |(_, theirs): &&(&str, &'static str)| {

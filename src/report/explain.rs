@@ -88,6 +88,7 @@ pub fn explain(
     go_on: &dyn Fn(usize, usize) -> bool,
 ) -> Page {
     let (chosen, solution) = (solution.method, solution.having(quantity.stage));
+    let quantity = quantity.row_in(solution.method);
     let is_auto = inputs.method == Method::Auto;
     let used = if is_auto { auto::taken(inputs, solution.method) } else { inputs.clone() };
     let context = Context { inputs: &used, given: inputs, solution };

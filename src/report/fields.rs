@@ -146,7 +146,7 @@ pub fn write_case(out: &mut dyn Write) -> io::Result<()> {
             tables.insert(table.to_owned(), object(title, members));
         }
     }
-    let limits = QUANTITIES.iter().map(|known| (known.key.to_owned(), of_limit(known)));
+    let limits = Quantity::all().map(|known| (known.key.to_owned(), of_limit(known)));
     let help = "Greatest allowed value of any quantity of the results.";
     tables.insert("limits".to_owned(), object(help, limits.collect()));
     let spread = FIELDS.iter().filter_map(|field| Some((field.key.to_owned(), of_spread(field)?)));
@@ -168,7 +168,7 @@ pub fn write_case(out: &mut dyn Write) -> io::Result<()> {
 /// # Errors
 /// Errors of the writer.
 pub fn write_results(out: &mut dyn Write) -> io::Result<()> {
-    let quantities = QUANTITIES.iter().map(|known| (known.key.to_owned(), of_quantity(known)));
+    let quantities = Quantity::all().map(|known| (known.key.to_owned(), of_quantity(known)));
     let help = "Values in SI units; a quantity without a value is absent.";
     let columns = COLUMNS.iter().map(|column| {
         let about = format!("in {}", column.unit);

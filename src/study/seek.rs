@@ -210,7 +210,8 @@ pub fn headline(case: &Case, methods: &[Method]) -> Vec<&'static Quantity> {
     };
     let methods: Vec<Method> = methods.iter().flat_map(single).collect();
     let counterparts = |quantity: &'static Quantity| {
-        methods.iter().filter_map(|&method| quantity.by(method)).collect::<Vec<_>>()
+        let methods = methods.iter().filter(|_| quantity.is_of_free_impact());
+        methods.filter_map(|&method| quantity.by(method)).collect::<Vec<_>>()
     };
     let limited = case.limits.iter().filter(|limit| !limit.text.is_empty());
     let limited = limited.map(|limit| limit.quantity);

@@ -239,6 +239,20 @@ pub(super) const ENTRY_RATIO: Quantity = PLAIN
     .assumptions("As for these forces.")
     .checks(&[checks::teeth]);
 
+/// A name for the peak force in limits and conditions: that of the method. It is no row of the table.
+pub(super) static PEAK_FORCE: Quantity = AT_REST
+    .row(
+        ["peak_force", "F_max", "peak force"],
+        ("N", "N", 5),
+        |s| governing(s, |load| load.peak_force, |motion| motion.peak_force),
+        "The peak force on the incoming tooth. Method dynamic computes it in motion, method static at \
+        rest.",
+        Made(|k| by_method(k, ["F_st,max", "F_d,max"])),
+    )
+    .equation("by the method")
+    .also(Dynamic)
+    .counterparts("static_peak_force", "dynamic_peak_force");
+
 /// A force in motion by the method `dynamic`, otherwise that at rest.
 fn governing(
     solution: &Solution,

@@ -12,7 +12,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::{Dialog, PreviewPane, Window, closing, draw_details, halves, said};
 use crate::case::fields::{FIELDS, Field, Kind};
-use crate::model::{QUANTITIES, Quantity};
+use crate::model::Quantity;
 use crate::tui::app::App;
 use crate::tui::app::actions::{Change, Choice, Work};
 use crate::tui::form_aids::{COMMAND, Entry, HELP, LABEL, query};
@@ -112,7 +112,7 @@ impl Picker {
             let about = format!("{} {}", quantity.symbol, quantity.label.trim_start());
             Item::result(Choice::of(move |app| choose(app, quantity)), quantity, about)
         };
-        Picker::new(title, QUANTITIES.iter().map(item), &[])
+        Picker::new(title, Quantity::all().map(item), &[])
     }
 
     /// The lines that match every typed word, the best first.

@@ -738,7 +738,8 @@ fn mark(app: &App, answer: &Answer, quantity: &Quantity, unit: &'static str) -> 
     let Some(solution) = answer.of(answer.active).filter(|_| !app.tab.is_stale()) else {
         return "";
     };
-    let limit = app.tab.case.limits.iter().find(|limit| limit.quantity == quantity);
+    let limit =
+        app.tab.case.limits.iter().find(|limit| limit.quantity.row_in(answer.active) == quantity);
     let verdict = limit.map(|limit| verdict(limit, solution));
     if verdict.is_some_and(|verdict| verdict.standing == Standing::Exceeded) {
         return EXCEEDED;
