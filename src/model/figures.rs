@@ -493,6 +493,7 @@ mod tests {
         let involute = |angle: f64| angle.tan() - angle;
         let half = PI / 40.0 + involute(inputs.pressure_angle) - involute(at_tip);
         assert_near(figures.tip_thickness[1], 0.11 * half, 12);
+        assert_near(figures.tooth_thickness[1], 2.5e-3 * PI, 12);
         let [entry, exit] = figures.sliding;
         assert_near(entry, -exit, 12);
         // EP on both sides of the pitch point, with twice the speed.
