@@ -53,8 +53,8 @@ impl Figures {
         let overlap = helix.map_or(0.0, |helix| helix.overlap_ratio);
         let normal = inputs.base_helix_angle().cos().recip();
         let thickness = |gear: &Gear| {
-            let shift = gear.profile_shift * inputs.module * inputs.pressure_angle.tan();
-            0.5 * PI * inputs.transverse_module() + 2.0 * shift
+            let shifted = 2.0 * gear.profile_shift * inputs.pressure_angle.tan();
+            inputs.transverse_module() * (0.5 * PI + shifted)
         };
         Figures {
             width,
@@ -501,13 +501,16 @@ mod tests {
         assert_near(entry, 2.0 * inputs.speed * approach, 12);
     }
 
-    /// z 20, m_n 5 mm, β 20 deg: the helix angle at the tip circle is 21.71 deg.
+    /// z 20, m_n 5 mm, β 20 deg, x 0.5: the helix angle at the tip circle is 22.55 deg.
     #[test]
-    fn a_helical_tip_is_thinner_in_the_normal_section() {
-        let inputs = Inputs { helix_angle: 20_f64.to_radians(), ..standard_pair(20, 20, 5e-3) };
+    fn a_helical_tooth_is_thinner_in_the_normal_section() {
+        let mut inputs = Inputs { helix_angle: 20_f64.to_radians(), ..standard_pair(20, 20, 5e-3) };
+        inputs.driver.profile_shift = 0.5;
         let solution = solve(&inputs, Stages::of(Stage::Figures)).unwrap();
         let reference = 50e-3 / 20_f64.to_radians().cos();
-        let at_tip = (20_f64.to_radians().tan() * (reference + 5e-3) / reference).atan();
+        let at_tip = (20_f64.to_radians().tan() * (reference + 7.5e-3) / reference).atan();
+        let thickness = solution.figures.unwrap().tooth_thickness[0] * 20_f64.to_radians().cos();
+        assert_near(thickness, 5e-3 * (PI / 2.0 + 20_f64.to_radians().tan()), 12);
         let normal = normal_tip_thickness(&inputs, &inputs.driver, &solution.geometry.driver);
         assert_near(normal, solution.figures.unwrap().tip_thickness[0] * at_tip.cos(), 12);
     }

@@ -108,7 +108,7 @@ macro_rules! gear {
                         " at the reference circle in the transverse section. A backlash does not \
             make it thinner."
                     ),
-                    Text(concat!("π m_t/2 + 2 x", $n, " m tan α")),
+                    Text(concat!("m_t (π/2 + 2 x", $n, " tan α)")),
                 )
                 .source("ISO 21771:2007, transverse tooth thickness at the reference cylinder."),
             FIGURE
