@@ -37,8 +37,9 @@ struct Slice {
     gap: f64,
     mean_gap: f64,
     border_gaps: [f64; 2],
-    /// Factors of the compliance of driver's and driven tooth.
+    /// Factors of the compliance of driver's and driven tooth, and their changes over the slice.
     ends: [f64; 2],
+    end_changes: [f64; 2],
 }
 
 impl Slice {
@@ -62,6 +63,7 @@ impl Slice {
             mean_gap,
             border_gaps,
             ends,
+            end_changes: none,
         }
     }
 
@@ -75,13 +77,19 @@ impl Slice {
             mean_gap: mean(z, [from, to], |z| inputs.gap(z)),
             border_gaps: [from, to].map(|end| inputs.gap(end)),
             ends: [0, 1].map(|gear| mean(z, [from, to], |z| inputs.end_factor(gear, z))),
+            end_changes: [0, 1]
+                .map(|gear| inputs.end_factor(gear, to) - inputs.end_factor(gear, from)),
             ..slice
         }
     }
 
-    /// q_t of a pair by the means of its sections.
-    fn teeth(&self, [_, _, driver, driven, _]: &[f64; 5]) -> f64 {
-        (driver * self.ends[0] + driven * self.ends[1]).max(0.0)
+    /// q_t of a pair by the means of its sections for driver and driven tooth, and their changes over
+    /// the slice.
+    fn teeth(&self, teeth: [f64; 2], changes: [f64; 2]) -> f64 {
+        let of = |gear: usize| {
+            teeth[gear] * self.ends[gear] + changes[gear] * self.end_changes[gear] / 12.0
+        };
+        (of(0) + of(1)).max(0.0)
     }
 }
 

@@ -110,6 +110,9 @@ struct Contact {
     can_carry: bool,
     /// Compliance of the contact, q_c.
     local: f64,
+    /// Means over the slice of the compliances of the driver's and the driven tooth in the middle of the
+    /// face.
+    teeth: [f64; 2],
     /// √(1 + ε) √q_t of the teeth.
     root: f64,
     /// The part of the load that turns the driver.
@@ -127,6 +130,7 @@ impl Contact {
         sides: None,
         can_carry: false,
         local: 1.0,
+        teeth: [0.0; 2],
         root: 0.0,
         weight: 1.0,
     };
@@ -195,6 +199,7 @@ impl Face {
             for (slice, contact) in self.slices.iter().zip(of_pair) {
                 (*contact, before) = self.contact(slice, path, before, &mut sides);
             }
+            self.deflect(&mut contacts, (pair, pairs));
         }
         let kappa = self.kappa(s, first, pairs);
         Position { face: self, s, first, pairs, error: 0.0, contacts, sides, kappa }
@@ -224,7 +229,7 @@ impl Face {
         let way = borders[1] - borders[0];
         let is_narrow = way.abs() < NARROW * mesh.base_pitch;
         let means = if is_narrow { self.section(place) } else { means(&one, &other, way) };
-        let (mean, local, teeth) = (means[0], means[1], slice.teeth(&means));
+        let (mean, local) = (means[0], means[1]);
         let (ends, gaps) = ([one, other], slice.border_gaps);
         let found = if is_narrow { None } else { self.sides(slice, borders, ends, (mean, local)) };
         let contact = Contact {
@@ -236,11 +241,35 @@ impl Face {
             sides: found.as_ref().map(|_| sides.len()),
             can_carry: true,
             local,
-            root: self.root(teeth),
+            teeth: [means[2], means[3]],
+            root: 0.0,
             weight: 1.0 - mesh.friction() * self.inputs.oblique * means[4],
         };
         sides.extend(found);
         (contact, Some(other))
+    }
+
+    /// The compliance of the teeth of a pair in each slice, where it changes along the path and towards the
+    /// ends of the face at once.
+    fn deflect(&self, contacts: &mut [Contact], (pair, pairs): (usize, usize)) {
+        let known = |contacts: &[Contact], at: usize| {
+            let contact = contacts.get(at * pairs + pair)?;
+            contact.can_carry.then_some((contact.teeth, contact.width))
+        };
+        let mut before = None;
+        for (at, slice) in self.slices.iter().enumerate() {
+            let own = known(contacts, at);
+            if let Some((teeth, width)) = own {
+                // Without a slice beside it, from the middle of the own one.
+                let beside = [before, known(contacts, at + 1)];
+                let [first, last] = beside.map(|beside| beside.unwrap_or((teeth, -width)));
+                let way = width + 0.5 * (first.1 + last.1);
+                let part = if way > 0.0 { width / way } else { 0.0 };
+                let changes = [0, 1].map(|gear| (last.0[gear] - first.0[gear]) * part);
+                contacts[at * pairs + pair].root = self.root(slice.teeth(teeth, changes));
+            }
+            before = own;
+        }
     }
 
     /// The parts of a slice between two borders with their sections and the edges between them. `None`
@@ -326,7 +355,7 @@ impl Face {
     /// q_c and √(1 + ε) √q_t at a place of the face and of the path.
     fn compliances(&self, z: f64, path: f64) -> (f64, f64) {
         let means = self.section(path);
-        (means[1], self.root(Slice::at(&self.inputs, z).teeth(&means)))
+        (means[1], self.root(Slice::at(&self.inputs, z).teeth([means[2], means[3]], [0.0; 2])))
     }
 
     /// The line load of a pair at a place of its path between two slices, and z.
