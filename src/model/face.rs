@@ -140,6 +140,25 @@ impl FaceInputs {
         self.misalignment * z / self.width + driver + driven
     }
 
+    /// Mean of this gap over the face, the least gap and its z, in m.
+    pub fn gaps(&self) -> (f64, f64, f64) {
+        let (mut sum, mut least) = (0.0, (f64::INFINITY, 0.0));
+        // Each piece is a parabola.
+        for ends in self.places(2).windows(2) {
+            let (middle, half) = (f64::midpoint(ends[0], ends[1]), 0.5 * (ends[1] - ends[0]));
+            let [start, inner, end] = [ends[0], middle, ends[1]].map(|z| self.gap(z));
+            sum += (start + 4.0 * inner + end) * half / 3.0;
+            let bend = start - 2.0 * inner + end;
+            let bottom =
+                if bend > 0.0 { (0.5 * (start - end) / bend).clamp(-1.0, 1.0) } else { 0.0 };
+            for z in [ends[0], middle + bottom * half, ends[1]] {
+                let gap = self.gap(z);
+                least = if gap < least.0 { (gap, z) } else { least };
+            }
+        }
+        (sum / self.width, least.0, least.1)
+    }
+
     /// Factor of the compliance of a gear's tooth at z.
     ///
     /// # Formula
@@ -160,17 +179,22 @@ impl FaceInputs {
         1.0 + part(self.ends[0], acute) - part(self.ends[1], obtuse)
     }
 
-    /// z of about `count` slices: both ends of the face, the places where an end relief begins, and
-    /// even steps between them.
-    pub fn places(&self, count: usize) -> Vec<f64> {
-        let (first, last) = (-0.5 * self.width, 0.5 * self.width);
+    /// z of the places where an end relief begins.
+    pub fn bends(&self) -> impl Iterator<Item = f64> {
         let begins = self.flanks.iter().flat_map(|flank| {
             let inner = 0.5 * flank.width - flank.end_relief_length;
             let [minus, plus] = flank.end_reliefs.map(|relief| relief > 0.0);
             let places = [(minus, flank.middle - inner), (plus, flank.middle + inner)];
             places.into_iter().filter(|(is_given, _)| *is_given).map(|(_, z)| z)
         });
-        let borders = begins.filter(|z| *z > first && *z < last).chain([first, last]);
+        begins.filter(|z| z.abs() < 0.5 * self.width)
+    }
+
+    /// z of about `count` slices: both ends of the face, the places where an end relief begins, and
+    /// even steps between them.
+    pub fn places(&self, count: usize) -> Vec<f64> {
+        let (first, last) = (-0.5 * self.width, 0.5 * self.width);
+        let borders = self.bends().chain([first, last]);
         let borders = distinct(borders.collect(), 1e-9 * self.width);
         let step = self.width / (count - 1) as f64;
         let mut places = vec![first];

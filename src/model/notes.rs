@@ -6,6 +6,7 @@ use std::ops::RangeInclusive;
 use super::auto::Inertia;
 use super::compliance::model_of;
 use super::compliance::tooth::preferences;
+use super::deviation::earliness;
 use super::deviation::{Origin, out_of_range};
 use super::explanation::tidy;
 use super::geometry::Circles;
@@ -166,6 +167,7 @@ const ROWS: &[fn(&Context) -> Option<Note>] = &[
         Some(Note::case("stations-left-out", message))
     },
     barely_clear,
+    earliest_on_face,
     long_reliefs,
     |k| {
         let (closed, total) = (k.solution.position?.closed_gap, k.solution.deviation.total);
@@ -503,6 +505,19 @@ fn barely_clear(k: &Context) -> Option<Note> {
         micro(now)
     );
     (enough < (1.0 + CLOSE) * now || has_more_load).then_some(Note::case("barely-clear", message))
+}
+
+/// Misalignment and flank lines let the tip touch at one place of the face first.
+fn earliest_on_face(k: &Context) -> Option<Note> {
+    let ahead = earliness(k.inputs);
+    let (_, _, z) = k.inputs.face()?.gaps();
+    let message = format!(
+        "by misalignment and flank lines the tip is earliest at z = {} mm, by {} um, if the pair ahead \
+         touches over the whole face; method static balances the face",
+        milli(z),
+        micro(ahead)
+    );
+    (ahead > 0.0).then_some(Note::case("earliest-on-face", message))
 }
 
 /// The unrelieved flanks alone do not keep contact.

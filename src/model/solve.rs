@@ -4,7 +4,7 @@ use super::auto::{self, Choice, Reason};
 use super::budget::{MOTION_WORK, Meter};
 use super::clearing::clearing;
 use super::compliance::{ContactPlace, Teeth};
-use super::deviation::{deflected, deflected_over_face, deviation};
+use super::deviation::{deflected, deflected_over_face, deviation, earliness};
 use super::dynamic::steady::steady;
 use super::dynamic::{Settings, dynamic};
 use super::face::{FaceInputs, check_face};
@@ -576,7 +576,8 @@ impl Stage {
             Stage::Figures => equal(cases, figured),
             // The load causes the deflection if the case does not give it.
             Stage::Deviation => {
-                let face = |i: &Inputs| i.face().map(|face| (face.width, face.lead.abs()));
+                let face =
+                    |i: &Inputs| i.face().map(|face| (face.width, face.lead.abs(), earliness(i)));
                 equal(cases, |i| (given_deviations(i), face(i)))
                     && (one.given_deflection().is_some() || equal(cases, Inputs::elasticity))
             }

@@ -183,7 +183,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Ctrl-P Down Down", "Up", "", "▸ cursor to angle "),
     ("Ctrl-P", "Tab", "", "▸ cursor to angle "),
     ("Ctrl-P Down Down", "BackTab", "", "▸ cursor to angle "),
-    ("Esc 2 j j Enter j", "j", "", "m     pair.module"),
+    ("Esc 2 j j Enter j", "j", "", "m      pair.module"),
     ("Esc 2 j j Enter j j", "k", "", "│ θ_1 = 1.366 deg"),
     ("Esc 2 j j Enter", "PageDown", "", "pair.centre_distance = no backlash"),
     ("Esc 2 j j Enter", "Space", "", "pair.centre_distance = no backlash"),

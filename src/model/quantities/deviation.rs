@@ -1,12 +1,13 @@
 //! Rows of the deviations that make a tooth early, and the steps of the deflection.
 
 use super::conditions::{
-    always, any_base_pitch, at_rest, deflection_used, graded, in_motion, paper, pitch_given,
-    shared_load,
+    always, any_base_pitch, at_rest, deflection_used, graded, in_motion, in_slices, paper,
+    pitch_given, shared_load,
 };
 use super::{PLAIN, Quantity, Variant, checks};
 use crate::model::Stage::{Clearing, Deviation};
 use crate::model::compliance::{ContactPlace, Teeth, TeethCompliance};
+use crate::model::deviation::earliness;
 use crate::model::explanation::Formula::{Cases, Difference, Found, Given, Made, Text, Words};
 use crate::model::explanation::{Step, step};
 use crate::model::inputs::{Combination, Method};
@@ -140,7 +141,11 @@ pub(super) const TABLE: &[Quantity] = &[
             MICRONS,
             |s| Some(s.deviation.total),
             "The total distance by which the incoming tooth is early",
-            Cases(&[(shared_load, Difference("Δf_0 + e_m + δ")), (always, Difference("Δf + δ"))]),
+            Cases(&[
+                (shared_load, Difference("Δf_0 + e_m + δ")),
+                (in_slices, Difference("Δf + δ + e_z")),
+                (always, Difference("Δf + δ")),
+            ]),
         )
         .equation("Eq. 5")
         .source("Zhou & Chen 2014, Eq. 5.")
@@ -374,6 +379,13 @@ macro_rules! ahead {
 }
 
 pub(super) const STEPS: &[Step] = &[
+    step(
+        "e_z",
+        "mean gap over the face by misalignment and flank lines, less the least gap",
+        "um",
+        Words("from the flank lines, with the pair ahead in contact over the whole face"),
+        |k| in_slices(k.inputs).then(|| earliness(k.inputs)),
+    ),
     DRIVER[0],
     DRIVEN[0],
     DRIVER[1],
