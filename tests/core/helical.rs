@@ -286,8 +286,8 @@ fn a_slow_motion_has_the_load_at_rest_and_a_smaller_tolerance_the_same_motion() 
     let pair = Inputs { method: Method::Dynamic, ..helical() };
     let still = solve(&Inputs { method: Method::Static, ..pair.clone() }, STATIC).expect("a load");
     let slow = solve(&Inputs { speed: 3.0, ..pair.clone() }, MOVING).expect("a motion");
-    let [peak, slow_peak] =
-        [still.static_load.unwrap().peak_force, slow.dynamic.unwrap().peak_force];
+    let peak = still.static_load.unwrap().peak_force;
+    let slow_peak = slow.dynamic.unwrap().peak_force;
     assert!((slow_peak / peak - 1.0).abs() < 2e-3, "{slow_peak} for {peak}");
     let [at_rest, line_load] =
         [still.face_load.unwrap(), slow.face_motion.unwrap()].map(|face| face.peak.line_load);
@@ -303,11 +303,12 @@ fn the_relief_that_clears_the_motion_clears_it() {
     let pair = Inputs { method: Method::Dynamic, ..helical() };
     let solution = solve(&pair, MOVING.with(Stage::Clearing)).expect("a motion");
     let more = solution.clearing.expect("a relief").relief.expect("a relief");
-    for (part, strikes) in [(0.99, true), (1.01, false)] {
+    for (part, strikes) in [(0.999, true), (1.01, false)] {
         let mut relieved = pair.clone();
         relieved.driven.tip_relief += part * more;
         let found = solve(&relieved, Stages::of(Stage::Dynamic)).expect("a motion");
-        assert_eq!(found.outcome == Outcome::CornerContact, strikes, "{part}");
+        let force = found.dynamic.expect("a motion").peak_approach_force;
+        assert_eq!([found.outcome == Outcome::CornerContact, force > 0.0], [strikes; 2], "{part}");
     }
 }
 

@@ -186,13 +186,25 @@ impl Face {
     /// How far before E the incoming tooth touches, or after B, in the plane where this is farthest, in
     /// m.
     fn deepest(&self, loads: &Loads, part: Part) -> f64 {
-        let touching = (0..self.slices.len()).filter(|&at| loads.at(0, at) > 0.0);
-        let paths = touching.map(|at| self.path(loads, 0, at));
         let beyond = |path: f64| match part {
             Part::AfterEnd => path - self.mesh.length,
             _ => -path,
         };
-        paths.map(beyond).fold(0.0, f64::max)
+        let path = |at: usize| self.path(loads, 0, at);
+        let deeper =
+            |one: &usize, other: &usize| beyond(path(*one)).total_cmp(&beyond(path(*other)));
+        let touching = (0..self.slices.len()).filter(|&at| loads.lead_at(0, at) > 0.0);
+        let Some(at) = touching.max_by(deeper) else {
+            return 0.0;
+        };
+        // The contact ends between this slice and the next one.
+        let beside = [at.wrapping_sub(1), at + 1].into_iter().filter(|at| *at < self.slices.len());
+        let next = beside.filter(|next| beyond(path(*next)) > beyond(path(at))).max_by(deeper);
+        let lead = |path: f64| self.lead_between(loads, 0, path).map(|(lead, ..)| lead);
+        let end = next.map(&path).filter(|end| lead(*end).is_some_and(|lead| lead <= 0.0));
+        let end = end.filter(|_| lead(path(at)).is_some_and(|lead| lead > 0.0));
+        let end = end.map(|end| root::between(end, path(at), |path| lead(path).unwrap_or(0.0)));
+        beyond(end.unwrap_or(path(at))).max(0.0)
     }
 
     /// The force of a pair in a part of the path, in N: all of it as in the balance, a part of it up to its
@@ -302,24 +314,43 @@ impl Face {
         Ok((cycle, StaticSpectrum { spectrum, tooth_force }))
     }
 
-    /// The greatest of line loads whose means over the slices are known; at an end of the face, that of
-    /// the parabola with the means of three slices.
+    /// The greatest of line loads whose means over the slices are known; at an end of the face and where an
+    /// end relief begins, those of the parabolas with the means of three slices on a side.
     fn greatest(&self, means: &[f64]) -> f64 {
-        let end = |slices: [usize; 3]| {
+        /// Of the width: a slice is at the place.
+        const SAME: f64 = 1e-6;
+        /// The line load at a way before the first of three slices with widths and means.
+        fn beside(way: f64, slices: [(f64, f64); 3]) -> f64 {
             let [mut from, mut force] = [0.0; 2];
-            let [one, two, three] = slices.map(|slice| {
-                from += self.slices[slice].width;
-                force += self.slices[slice].width * means[slice];
+            let [one, two, three] = slices.map(|(width, mean)| {
+                from += width;
+                force += width * mean;
                 (from, force)
             });
             let part = |(own, force): (f64, f64), (one, _): (f64, f64), (other, _): (f64, f64)| {
-                force * one * other / (own * (one - own) * (other - own))
+                let slope = (way + one) * (way + other) + way * (2.0 * way + one + other);
+                force * slope / (own * (one - own) * (other - own))
             };
             part(one, two, three) + part(two, one, three) + part(three, one, two)
+        }
+        let slices: Vec<(f64, f64)> =
+            self.slices.iter().map(|slice| slice.width).zip(means.iter().copied()).collect();
+        let count = slices.len();
+        let at_bend = |bend: f64| {
+            let is_there = |slice: &Slice| (slice.z - bend).abs() < SAME * self.inputs.width;
+            let own = self.slices.iter().position(is_there)?;
+            let after = (own + 3 < count).then(|| {
+                beside(0.5 * self.slices[own].step, [1, 2, 3].map(|next| slices[own + next]))
+            });
+            let before = (own >= 3).then(|| {
+                beside(0.5 * self.slices[own - 1].step, [1, 2, 3].map(|next| slices[own - next]))
+            });
+            Some(after.into_iter().chain(before))
         };
-        let last = self.slices.len() - 1;
-        let ends = [end([0, 1, 2]), end([last, last - 1, last - 2])];
-        means.iter().copied().chain(ends).fold(0.0, f64::max)
+        let at_bends = self.inputs.bends().filter_map(at_bend).flatten();
+        let ends = [[0, 1, 2], [1, 2, 3].map(|back| count - back)];
+        let ends = ends.map(|three| beside(0.0, three.map(|at| slices[at])));
+        means.iter().copied().chain(ends).chain(at_bends).fold(0.0, f64::max)
     }
 
     /// The greatest lead of the incoming tooth in a part of the path over the face, in m; infinitely
@@ -609,6 +640,8 @@ impl<'a> Passage<'a> {
 
     /// The load from the first to the last contact. `None` without contact.
     pub(super) fn run(&self, spacing: Spacing) -> Result<Option<Passed>, Refusal> {
+        /// Of a base pitch, down to the shortest strike.
+        const HALVINGS: u32 = 20;
         let (face, mesh) = (self.face, &self.face.mesh);
         let Some((first, last)) = self.ends()? else {
             return Ok(None);
@@ -652,8 +685,21 @@ impl<'a> Passage<'a> {
         let behind = |place: &FacePlace| (place.path - mesh.length) / mesh.base_radii.0;
         let [before_start, after_end] = [Part::BeforeStart, Part::AfterEnd].map(line_peak);
         // Reliefs can let the tooth touch after E at its end and before E farther inside; alike at B.
+        // A strike shorter than the steps between the samples is beside its greatest line load.
+        let in_part = |peak: Option<LinePeak>, of: &dyn Fn(&Loads) -> f64| {
+            let found = extreme(of);
+            let Some(LinePeak { place, .. }) = peak.filter(|_| found <= 0.0) else {
+                return found;
+            };
+            let there = place.path - place.z * face.inputs.lead;
+            let ways = (0..HALVINGS).map(|halvings| mesh.base_pitch / f64::from(1_u32 << halvings));
+            let before = ways.clone().map(|way| there - way);
+            let beside = before.chain([there]).chain(ways.rev().map(|way| there + way));
+            let beside: Vec<_> = beside.filter_map(|s| self.loads(s).ok()).collect();
+            self.greatest(&beside, of).1
+        };
         let strike = |part: Part, peak: Option<LinePeak>, radius: f64| {
-            peak.map(|_| extreme(&|loads| face.deepest(loads, part)) / radius)
+            peak.map(|_| in_part(peak, &|loads| face.deepest(loads, part)) / radius)
         };
         let first_strike = || strike(Part::BeforeStart, before_start, mesh.base_radii.1);
         let last_strike = || strike(Part::AfterEnd, after_end, mesh.base_radii.0);
@@ -663,8 +709,8 @@ impl<'a> Passage<'a> {
         let load = StaticLoad {
             first_contact_angle: Some(ahead(&first_place)).filter(is_apart).or_else(first_strike),
             last_contact_angle: Some(behind(&last_place)).filter(is_apart).or_else(last_strike),
-            force_at_start: extreme(&|loads| face.force(loads, 0, Part::BeforeStart)),
-            force_at_end: extreme(&|loads| face.force(loads, 0, Part::AfterEnd)),
+            force_at_start: in_part(before_start, &|loads| face.force(loads, 0, Part::BeforeStart)),
+            force_at_end: in_part(after_end, &|loads| face.force(loads, 0, Part::AfterEnd)),
             peak_force,
             transmission_error: extreme(&|loads| loads.displacement)
                 + extreme(&|loads| -loads.displacement),
