@@ -168,6 +168,7 @@ const ROWS: &[fn(&Context) -> Option<Note>] = &[
     },
     barely_clear,
     earliest_on_face,
+    strikes_elsewhere,
     long_reliefs,
     |k| {
         let (closed, total) = (k.solution.position?.closed_gap, k.solution.deviation.total);
@@ -518,6 +519,20 @@ fn earliest_on_face(k: &Context) -> Option<Note> {
         micro(ahead)
     );
     (ahead > 0.0).then_some(Note::case("earliest-on-face", message))
+}
+
+/// The place of the first contact is not that of the strike.
+fn strikes_elsewhere(k: &Context) -> Option<Note> {
+    let solution = k.solution;
+    let face = solution.face_motion.as_ref().or(solution.face_load.as_ref())?;
+    let message = format!(
+        "the first contact, at z = {} mm, is {} mm after E; the tip strikes before E at another place of \
+         the face, the hardest at z = {} mm",
+        milli(face.first.z),
+        milli(face.first.path),
+        milli(face.before_start?.place.z)
+    );
+    (face.first.path > 0.0).then_some(Note::case("strikes-elsewhere", message))
 }
 
 /// The unrelieved flanks alone do not keep contact.

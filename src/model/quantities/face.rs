@@ -77,7 +77,8 @@ const fn of_load<const MOVES: bool>(names: &[[&'static str; 3]; 6]) -> [Quantity
             ("m", "mm", 4),
             |s| Some(load::<MOVES>(s)?.first.z),
             "The place of the first contact of the incoming tooth along the axis, from \
-            the middle of the common face.",
+            the middle of the common face. A right-hand driver leads at +z, a left-hand one at -z: at \
+            this end its tooth is acute and the driven tooth obtuse.",
             formula,
         )
         .signed(),
