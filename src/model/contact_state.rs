@@ -12,7 +12,7 @@ use super::mesh::Mesh;
 use super::outline::{on_line_of_action, tip_point};
 use super::position::{TipContact, gap_without, tip_at, velocity};
 use super::static_load::balance;
-use super::{Geometry, Solution, Station, stations};
+use super::{Geometry, Refusal, Solution, Station, stations};
 use nalgebra::Point2;
 
 /// Greatest angle of a tip beyond its end of the path of contact, in rad of its gear.
@@ -258,7 +258,7 @@ pub const DIGITS_BETWEEN: usize = 3;
 
 impl Interpolated {
     /// The results of the solution's method at `roll_angle` before E, in rad of the driver. `None`
-    /// if the tooth is not in contact or has no force.
+    /// if the tooth is not in contact, or has no force or a force over the face that the method lacks.
     ///
     /// # Formula
     /// ```text
@@ -283,6 +283,7 @@ impl Interpolated {
             (None, Some(load)) => {
                 at_rest(solution.mesh.as_deref()?, &load.stations, roll_angle).map(exact)
             }
+            _ if matches!(solution.withheld, Some(Refusal::NotOverFace { .. })) => None,
             (None, None) => struck(inputs, solution, roll_angle).map(exact),
         }
     }

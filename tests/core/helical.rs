@@ -6,7 +6,7 @@ use tipstrike::case::file::Document;
 use tipstrike::model::inputs::{Drive, Hand, Method};
 use tipstrike::model::slices::Face;
 use tipstrike::model::slices::balance::Until;
-use tipstrike::model::{Inputs, Outcome, Solution, Stage, Stages, solve};
+use tipstrike::model::{ContactState, Inputs, Outcome, Solution, Stage, Stages, solve};
 
 const STATIC: Stages = Stages::of(Stage::Static).and(Stages::of(Stage::StaticSpectrum));
 
@@ -402,8 +402,9 @@ fn what_slices_cannot_answer_is_refused_by_name() {
     let light = Inputs { method: Method::Dynamic, ..light };
     let refusal = solve(&light, Stages::of(Stage::Dynamic)).expect_err("back flanks");
     assert_eq!(refusal.code(), "back-flanks-over-face");
-    let exact = Inputs { method: Method::Exact, ..helical() };
-    let exact = solve(&exact, Stages::CLOSED_FORM).expect("a place");
+    let inputs = Inputs { method: Method::Exact, ..helical() };
+    let exact = solve(&inputs, Stages::CLOSED_FORM).expect("a place");
     assert!(exact.position.is_some() && exact.impact.is_none());
     assert_eq!(exact.withheld.map(|refusal| refusal.code()), Some("not-over-face"));
+    assert!(ContactState::at(&inputs, &exact, 0.0).expect("a state").interpolated.is_none());
 }
