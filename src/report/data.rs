@@ -86,7 +86,8 @@ fn inputs(report: &Report) -> Vec<String> {
         };
         // The pressure angle also by default.
         let text = case.effective(at).filter(|_| is_listed)?;
-        Some(format!("{} = {}", field.symbol, sanitize(text)))
+        let name = if field.symbol.is_empty() { field.key } else { field.symbol };
+        Some(format!("{name} = {}", sanitize(text)))
     };
     let shown: Vec<String> = FIELDS.iter().enumerate().filter_map(shown).collect();
     // Each input stays on one line with its unit.
