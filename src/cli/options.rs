@@ -329,7 +329,7 @@ impl Destination {
 }
 
 impl StudyOptions {
-    /// The format of the results. The file of a shard has any extension.
+    /// The format of the results. The file of a shard has any extension; that of a format selects it.
     pub(super) fn format(
         &self,
         given: Option<Format>,
@@ -337,7 +337,10 @@ impl StudyOptions {
         is_drawn: bool,
     ) -> Result<Option<Format>, Failure> {
         match self.shard {
-            Some(_) => Ok(given.or(formats.first().copied())),
+            Some(_) => {
+                let named = || self.destination.format(None, formats, false).ok().flatten();
+                Ok(given.or_else(named).or(formats.first().copied()))
+            }
             None => self.destination.format(given, formats, is_drawn),
         }
     }
