@@ -379,7 +379,8 @@ macro_rules! gear {
                 (Length, 0.0, 5000.0, "um"),
                 Default("0 um"),
                 |inputs, value| inputs.$gear.crowning = value,
-                "Crowning: material removed at both ends of the face, a parabola along it.",
+                "Parabola of material removed towards both ends of the face, along the base tangent \
+                        in the transverse plane.",
             )
             .reasons(&FACE),
             number(
@@ -387,7 +388,8 @@ macro_rules! gear {
                 (Length, 0.0, 5000.0, "um"),
                 Default("0 um"),
                 |inputs, value| inputs.$gear.end_reliefs[0] = value,
-                "Material removed at the end of the face towards -z.",
+                "Material removed at the face end towards -z, along the base tangent in the \
+                        transverse plane.",
             )
             .reasons(&FACE),
             number(
@@ -395,7 +397,8 @@ macro_rules! gear {
                 (Length, 0.0, 5000.0, "um"),
                 Default("0 um"),
                 |inputs, value| inputs.$gear.end_reliefs[1] = value,
-                "Material removed at the end of the face towards +z.",
+                "Material removed at the face end towards +z, along the base tangent in the \
+                        transverse plane.",
             )
             .reasons(&FACE),
             number(
