@@ -3,6 +3,7 @@ use crate::support::{inputs, standard_pair};
 use tipstrike::case::fields::key_of;
 use tipstrike::model::compliance::tooth::beam;
 use tipstrike::model::compliance::{ContactPlace, Teeth};
+use tipstrike::model::figures::{rack_factor, single_stiffness, theoretical_stiffness};
 use tipstrike::model::geometry::{Geometry, geometry};
 use tipstrike::model::inputs::{ContactCompliance, Gear, Method, ToothCompliance};
 use tipstrike::model::{Inputs, Refusal, Stages, solve};
@@ -10,20 +11,16 @@ use tipstrike::model::{Inputs, Refusal, Stages, solve};
 /// Load of ISO 6336-1's linear range, in N/m.
 const LINE_LOAD: f64 = 300e3;
 
+/// Theoretical single stiffness c'_th of ISO 6336-1, in N/(µm mm).
+pub(crate) fn theoretical(inputs: &Inputs) -> f64 {
+    let gears = [&inputs.driver, &inputs.driven];
+    let virtual_teeth = gears.map(|gear| inputs.virtual_teeth(gear));
+    1e-9 * theoretical_stiffness(virtual_teeth, gears.map(|gear| gear.profile_shift))
+}
+
 /// Single stiffness c' of ISO 6336-1 method B for a solid disc and the standard rack, in N/(µm mm).
 pub(crate) fn iso_single_stiffness(inputs: &Inputs) -> f64 {
-    const DEDENDUM: f64 = 1.25;
-    let (z1, z2) = (f64::from(inputs.driver.teeth), f64::from(inputs.driven.teeth));
-    let (x1, x2) = (inputs.driver.profile_shift, inputs.driven.profile_shift);
-    let linear = 0.04723 + 0.15551 / z1 + 0.25791 / z2
-        - 0.00635 * x1
-        - 0.11654 * x1 / z1
-        - 0.00193 * x2
-        - 0.24188 * x2 / z2;
-    let flexibility = linear + 0.00529 * x1 * x1 + 0.00182 * x2 * x2;
-    let rack =
-        (1.0 + 0.5 * (1.2 - DEDENDUM)) * (1.0 - 0.02 * (20.0 - inputs.pressure_angle.to_degrees()));
-    0.8 * rack / flexibility
+    single_stiffness(theoretical(inputs), rack_factor([1.25; 2], inputs.pressure_angle), 1.0)
 }
 
 /// A pair with bores of a third of the root radius, as for a disc on its shaft.
