@@ -509,7 +509,8 @@ impl Position<'_> {
         let (mut leads, mut line_loads) = (means.clone(), vec![0.0; count]);
         let (mut mean_loads, mut teeth) = (line_loads.clone(), vec![[0.0; 2]; count]);
         for (at, of) in self.contacts.iter().enumerate().filter(|(at, _)| carried[*at].touches()) {
-            mean_loads[at] = carried[at].mean(means[at]) / of.local;
+            // The last digits of a part that just touches may be below 0.
+            mean_loads[at] = carried[at].mean(means[at]).max(0.0) / of.local;
         }
         let known = self.contacts.iter().enumerate().filter(|(_, of)| of.gap < f64::INFINITY);
         for (at, of) in known {
