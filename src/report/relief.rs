@@ -227,13 +227,21 @@ impl Specification {
                 ));
             }
         }
-        let ratio = own.reliefs.unloaded_contact_ratio(&self.geometry) + self.overlap_ratio;
+        let ratio = own.reliefs.unloaded_contact_ratio(&self.geometry)
+            + self.helix.map_or(0.0, |helix| helix.overlap_ratio);
         if ratio < 1.0 {
             lines.push(format!(
                 "The unrelieved flanks alone have a contact ratio of {ratio:.3}, below 1: under \
                  light load the pairs change on the reliefs, which raises TE."
             ));
         }
+        lines.extend(self.helix.map(|helix| {
+            format!(
+                "The amounts are lengths in the transverse plane along the base tangent; normal to \
+                 the flank they are {:.3} of this.",
+                helix.base_helix_angle.cos()
+            )
+        }));
         lines.extend(self.alternative(own, units));
         if self.is_cut {
             lines.push("The search ended with its budget; a better relief may exist.".to_owned());

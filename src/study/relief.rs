@@ -11,6 +11,7 @@ use std::cmp::Ordering::Equal;
 use std::fmt;
 
 use crate::model::geometry::Geometry;
+use crate::model::helix::Helix;
 use crate::model::inputs::{Drive, Gear, Method, ReliefShape};
 use crate::model::profile::{Profile, Rack};
 use crate::model::slices::Face;
@@ -129,8 +130,8 @@ pub struct Specification {
     pub is_over_face: bool,
     /// The crowning of the driven gear, which stays that of the case, in m.
     pub driven_crowning: f64,
-    /// Overlap ratio; 0 for a spur pair.
-    pub overlap_ratio: f64,
+    /// The helical geometry; `None` for a spur pair.
+    pub helix: Option<Helix>,
     /// The geometry of the pair.
     pub geometry: Geometry,
     /// The loads, relative to the load of the case.
@@ -346,7 +347,7 @@ pub fn specify(
         mesh_force: solution.mesh_force,
         is_over_face,
         driven_crowning: at_rest.driven.crowning,
-        overlap_ratio: solution.helix.as_ref().map_or(0.0, |helix| helix.overlap_ratio),
+        helix: solution.helix,
         geometry: solution.geometry,
         map: pair.map(&choices[best].reliefs)?,
         loads: loads.into_iter().map(|(load, _)| load).collect(),

@@ -286,8 +286,8 @@ macro_rules! gear {
                 (Length, 0.0, 5000.0, "um"),
                 Default("0 um"),
                 |inputs, value| inputs.$gear.tip_relief = value,
-                "Material removed at the tip, normal to the \
-                        flank.",
+                "Material removed at the tip, along the base tangent: normal to the profile in the \
+                    transverse plane.",
             )
             .reasons(&[Idle(|inputs| is_driver($i) && by_impact(inputs), AT_EXIT)]),
             number(
@@ -295,8 +295,8 @@ macro_rules! gear {
                 (Length, 0.0, 5000.0, "um"),
                 Default("0 um"),
                 |inputs, value| inputs.$gear.root_relief = value,
-                "Material removed at the root, normal to the \
-                        flank.",
+                "Material removed at the root, along the base tangent: normal to the profile in the \
+                    transverse plane.",
             )
             .reasons(&[Idle(|inputs| !is_driver($i) && by_impact(inputs), AT_EXIT)]),
             number(
