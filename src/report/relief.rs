@@ -107,10 +107,17 @@ impl Specification {
             0.0 => String::new(),
             tilt => format!(", misalignment +-{}", units.text(tilt, "um", 3)),
         };
+        let sum: f64 = demand.spectrum.iter().map(|(_, share)| share).sum();
+        let share = |(load, share)| format!("{}%:{}", percent(load), tidy(share, 4));
+        let loads = if demand.spectrum.is_empty() || (sum - 1.0).abs() < 1e-9 {
+            demand.loads_text().replace("..", " to ")
+        } else {
+            let used: Vec<String> = demand.loads().into_iter().map(share).collect();
+            format!("{} (shares of the sum {})", used.join(", "), tidy(sum, 4))
+        };
         format!(
-            "Tip relief for {} of {} with the least {}, tolerances {} on amounts and {} on \
+            "Tip relief for {loads} of {} with the least {}, tolerances {} on amounts and {} on \
              lengths{tilt}; computed by method {}{reason}.",
-            demand.loads_text().replace("..", " to "),
             units.text(*torque, "N m", 4),
             self.criterion(),
             units.text(demand.tolerance, "um", 3),

@@ -15,10 +15,11 @@ fn objects(line: &str) -> Vec<Value> {
 
 #[test]
 fn the_formats_of_a_relief_agree_and_the_chosen_relief_solves_without_contact() {
-    let command = "relief TABLE_1 --spectrum '50%:0.3, 100%:0.7' --tolerance-length '0.2 mm'";
+    let command = "relief TABLE_1 --spectrum '50%:0.6, 100%:1.4' --tolerance-length '0.2 mm'";
     let found = json(&format!("{command} --format json"));
     assert_eq!((&found["minimise"], &found["tolerance_length"]), (&"te".into(), &2e-4.into()));
     assert_eq!(found["shares"], serde_json::json!([0.3, 0.7]));
+    has(&page(command), &["50%:0.3, 100%:0.7 (shares of the sum 2)"]);
     let csv = page(&format!("{command} --format csv"));
     let mut reader = csv::Reader::from_reader(csv.as_bytes());
     let header = reader.headers().unwrap().clone();
