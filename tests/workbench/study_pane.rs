@@ -166,7 +166,8 @@ fn the_shown_points_are_exported_as_by_the_command_that_is_named() {
     let commands = commands.map(|(method, quantity)| {
         format!(
             "tipstrike sweep --vary 'operation.speed=1000..1500 rpm' --points 6{method} --only \
-                {quantity} --format csv 'case.toml'"
+                {quantity} --format csv '{}'",
+            desk.folder.path().join("case.toml").display()
         )
     });
     assert_eq!(desk.copied, Some(commands.join("\n")));

@@ -492,9 +492,12 @@ fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
     };
     let word = if app.tab.study.state.is_tolerance { "tolerance" } else { "sweep" };
     let ending = if format == Format::Json { "json" } else { "csv" };
-    let (name, case) = (app.tab.short_name(), app.tab.as_edited().render());
+    let (name, case) = (app.tab.name(), app.tab.as_edited().render());
+    let shell_name = name.replace('\'', r"'\''");
     let command = |method: &str, quantity: &str| {
-        format!("tipstrike {word}{options}{method} --only {quantity} --format {ending} '{name}'")
+        format!(
+            "tipstrike {word}{options}{method} --only {quantity} --format {ending} '{shell_name}'"
+        )
     };
     let of_layer = |layer: &Layer| {
         command(&format!(" --method {}", layer.inputs.method.name()), layer.quantity)
@@ -502,7 +505,7 @@ fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
     let commands = [command("", quantity)].into_iter().chain(others.into_iter().map(of_layer));
     let commands = commands.collect::<Vec<_>>().join("\n");
     let quantities = vec![quantity.to_owned()];
-    Ok((Request { name: app.tab.name(), case, quantities, format, points }, commands))
+    Ok((Request { name, case, quantities, format, points }, commands))
 }
 
 /// The output of the command of a study, from the known points if they are complete.
