@@ -255,18 +255,14 @@ fn variant_keeps_the_edits_and_without_edits_shows_them_again() {
 #[test]
 fn variants_are_shown_beside_the_case_with_their_differences() {
     let variants = "\n[variants.relieved]\n\"driven.tip_relief\" = \"30 \
-            um\"\n[variants.far]\npair.centre_distance = \"200 mm\"\n";
+            um\"\n[variants.far]\npair.centre_distance = \"200 mm\"\noperation.speed = \"1 rpm\"\n\
+            driver.tip_relief = \"1 um\"\n";
     for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
         let mut desk = Desk::on(size, "case.toml", &format!("{TABLE_1}{variants}"));
         desk.keys(&["Esc", "2", "v"]).has(&["relieved", "-40.1 %"]);
         assert_snapshot!(format!("variants_{name}"), desk.screen());
         desk.assert_shows(", variants").lacks(&["% N", "um um"]);
-        for _ in 0..3 {
-            if desk.app.first_variant.is_some() {
-                desk.keys(&["v"]);
-            }
-        }
-        assert_eq!(desk.app.first_variant, None);
+        assert!((0..3).any(|_| desk.keys(&["v"]).app.first_variant.is_none()));
     }
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.keys(&["Esc", "2", "v"]).assert_shows("the case has no variants");

@@ -791,6 +791,7 @@ pub(super) fn next_variants(app: &mut App) {
     if app.first_variant.is_some() && app.tab.variants.is_none() {
         app.say(SOLVING);
     }
+    app.follow();
 }
 
 /// Solves the visible variants, unless they are solved already; where the method is `auto`, by the
@@ -852,6 +853,7 @@ pub(super) fn request_variants(app: &mut App) {
         if let Some(tab) = app.tab_with(id) {
             tab.variants = Some(found);
             app.message.take_if(|message| message.text == SOLVING);
+            app.follow();
         }
     }));
 }

@@ -60,7 +60,7 @@ impl App {
         self.listed_results().get(self.result_row()).copied()
     }
 
-    /// The number of visible quantities.
+    /// The number of visible lines of the table.
     pub fn results_page(&self) -> usize {
         parts(self).1
     }
@@ -79,29 +79,34 @@ impl App {
 
     /// The first visible line after scrolling by lines downwards.
     pub(crate) fn scrolled_results(&self, by: isize) -> usize {
-        let last = self.listed_results().len().saturating_sub(self.results_page());
+        let last = self.table_lines().saturating_sub(self.results_page());
         self.tab.results.top.saturating_add_signed(by).min(last)
     }
 
     /// The first visible line such that the selected quantity is visible.
     pub(crate) fn top_of_results(&self) -> usize {
-        let row = self.result_row();
-        if row == 0 {
-            return 0;
-        }
+        let row = inputs(self).len() + self.result_row();
         let rows = self.results_page().max(1);
         let least = (row + 1).saturating_sub(rows);
-        let last = self.listed_results().len().saturating_sub(rows);
+        if self.result_row() == 0 {
+            return least;
+        }
+        let last = self.table_lines().saturating_sub(rows);
         self.tab.results.top.clamp(least, row.max(least)).min(last)
     }
 
     /// The key of the quantity at a cell, if any.
     pub(crate) fn result_at(&self, at: Position) -> Option<&'static str> {
         let (head, rows) = parts(self);
-        let above = head.len() + 1 + usize::from(self.has_result_header()) + inputs(self).len();
+        let above = head.len() + 1 + usize::from(self.has_result_header());
         let line = usize::from(at.y - self.area(Pane::Results).y).checked_sub(above)?;
-        let listed = self.listed_results();
-        listed.get(self.tab.results.top + line).filter(|_| line < rows).map(|quantity| quantity.key)
+        let row = (self.tab.results.top + line).checked_sub(inputs(self).len())?;
+        self.listed_results().get(row).filter(|_| line < rows).map(|quantity| quantity.key)
+    }
+
+    /// The number of inputs that differ between the variants, and of quantities below them.
+    fn table_lines(&self) -> usize {
+        inputs(self).len() + self.listed_results().len()
     }
 
     /// Whether the columns need names; otherwise the title names the only method.
@@ -125,7 +130,7 @@ impl App {
 pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
     let (head, rows) = parts(app);
     let listed = app.listed_results();
-    let inner = app.draw_title(Pane::Results, &title(app, listed.len(), rows), buffer);
+    let inner = app.draw_title(Pane::Results, &title(app, app.table_lines(), rows), buffer);
     let [above, body] = text::split(inner, head.len() as u16);
     // The first column has the mark of the selected row.
     let [_, above] = above.layout(&Layout::horizontal([Length(1), Fill(1)]));
@@ -136,8 +141,7 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
     let is_outdated =
         app.shown_variants().is_some_and(|(variants, _)| Some(variants.serial) != now);
     let base = if app.tab.is_stale() || is_outdated { theme.faint } else { Style::new() };
-    let row = app.result_row().checked_sub(app.tab.results.top).filter(|row| *row < rows);
-    let row = row.map(|row| row + inputs(app).len());
+    let row = (inputs(app).len() + app.result_row()).checked_sub(app.tab.results.top);
     let columns = fitting(app, answer, &listed, rows);
     let cells = columns.first().map_or(0, |column| column.cells.len());
     let header = app.has_result_header().then_some(None);
@@ -202,12 +206,12 @@ enum Place {
     Page,
 }
 
-/// The lines above the table, and the number of quantities that fit below them.
+/// The lines above the table, and the number of its lines that fit below them.
 fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
     let width = usize::from(app.area(Pane::Results).width.saturating_sub(1));
     let height = usize::from(app.area(Pane::Results).height.saturating_sub(1));
     let (mut head, mut has_more) = (Vec::new(), false);
-    let height = height.saturating_sub(usize::from(app.has_result_header()) + inputs(app).len());
+    let height = height.saturating_sub(usize::from(app.has_result_header()));
     let kept = |rows: usize| height.saturating_sub(rows);
     let most = if app.tab.answer.is_some() { kept(LEAST_ROWS + 1) } else { height };
     for Sentence { text, style, place } in sentences(app) {
@@ -570,8 +574,12 @@ pub(crate) fn compared(app: &App, quantity: &'static Quantity) -> Option<String>
 /// The columns of the visible rows that fit, each after a blank. Texts have the room of all rows, so
 /// that columns do not move; variants need all the room.
 fn fitting(app: &App, answer: &Answer, listed: &[&'static Quantity], rows: usize) -> Vec<Column> {
-    let known: Vec<_> = listed.iter().copied().skip(app.tab.results.top).take(rows).collect();
-    let mut columns = columns(app, answer, listed, &known);
+    let (top, inputs) = (app.tab.results.top, inputs(app));
+    let hidden = top.min(inputs.len());
+    let inputs: Vec<_> = inputs.into_iter().skip(hidden).take(rows).collect();
+    let known = listed.iter().copied().skip(top - hidden).take(rows - inputs.len());
+    let mut columns = columns(app, answer, listed, &known.collect::<Vec<_>>());
+    add_inputs(app, &inputs, &mut columns);
     if app.shown_variants().is_some() {
         columns.iter_mut().filter(|column| !column.is_unit).for_each(|column| column.room = 0);
     }
@@ -695,13 +703,12 @@ fn columns(
     } else if variants.is_none() {
         columns.push(words(99, 12, theme.faint, &|of| of.equation.into()));
     }
-    add_inputs(app, &mut columns);
     columns
 }
 
-/// Inserts the differing inputs of the variants above the quantities.
-fn add_inputs(app: &App, columns: &mut [Column]) {
-    for (row, (field, texts)) in inputs(app).iter().enumerate() {
+/// Inserts differing inputs of the variants above the quantities.
+fn add_inputs(app: &App, inputs: &[(usize, Vec<String>)], columns: &mut [Column]) {
+    for (row, (field, texts)) in inputs.iter().enumerate() {
         let unit = units::split(&texts[0], "").map_or("", |(_, unit)| unit);
         let is_alike = texts.iter().all(|text| text.ends_with(unit));
         let value = |text: &String| {
@@ -718,9 +725,8 @@ fn add_inputs(app: &App, columns: &mut [Column]) {
     }
 }
 
-/// The first fields that differ between the case and its variants, with the text of each.
+/// The fields that differ between the case and its variants, with the text of each.
 fn inputs(app: &App) -> Vec<(usize, Vec<String>)> {
-    const MOST: usize = 3;
     let Some((variants, _)) = app.shown_variants() else { return Vec::new() };
     let own = &app.tab.case;
     let of_variant = |(name, _): &(String, _)| own.variant(name).map(|variant| own.with(variant));
@@ -730,7 +736,7 @@ fn inputs(app: &App) -> Vec<(usize, Vec<String>)> {
     let texts = |field| cases.iter().map(|case| text(case, field)).collect::<Vec<_>>();
     let fields = (0..FIELDS.len()).filter(|field| !FIELDS[*field].table().is_empty());
     let differing = fields.map(|field| (field, texts(field)));
-    differing.filter(|(_, texts)| texts.iter().any(|text| *text != texts[0])).take(MOST).collect()
+    differing.filter(|(_, texts)| texts.iter().any(|text| *text != texts[0])).collect()
 }
 
 // The mark of a quantity: above its limit, or changed.
