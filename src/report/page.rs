@@ -1,7 +1,7 @@
 //! Solved cases side by side as one page: HTML with charts, or Markdown. The first sheet has the
 //! verdict, the inputs, the main results and charts; the appendix has the rest.
 
-use super::data::{self, verdict};
+use super::data::{self, subject, verdict};
 use super::{Report, common_unit, grouped, is_default, numbers, shown_with, value};
 use crate::case::fields::{Absent, index_of};
 use crate::case::file::without_comments;
@@ -125,7 +125,7 @@ pub struct Page<'a> {
     date: String,
     cases: Vec<PageCase<'a>>,
     inputs: Table,
-    main: Table,
+    main: Vec<Table>,
     results: Vec<Table>,
     units: System,
 }
@@ -220,7 +220,7 @@ impl<'a> Page<'a> {
     /// The results without headings.
     fn all_results(&self) -> Table {
         let rows = self.results.iter().flat_map(|table| table.rows.iter().cloned());
-        Table::new("", self.main.columns.clone()).with(rows)
+        Table::new("", self.main[0].columns.clone()).with(rows)
     }
 
     fn is_single(&self) -> bool {
@@ -426,12 +426,12 @@ fn input(at: usize, report: &Report, units: System) -> (Option<String>, bool) {
 }
 
 /// The main results, and all results in groups, in the order of the method of the first case.
-fn results(cases: &[PageCase], units: System) -> (Table, Vec<Table>) {
+fn results(cases: &[PageCase], units: System) -> (Vec<Table>, Vec<Table>) {
     let mut columns = columns("quantity", titles(cases));
     columns.extend(["unit", "source"].map(|key| Column::text(key, key)));
     let main = Table::new("", columns);
     let Some(method) = cases.first().map(|case| case.report.solution.method) else {
-        return (main, Vec::new());
+        return (vec![main], Vec::new());
     };
     let row = |quantity: &'static Quantity| {
         let values = cases.iter().map(|case| value(quantity, &case.report.solution));
@@ -448,8 +448,13 @@ fn results(cases: &[PageCase], units: System) -> (Table, Vec<Table>) {
     let limited = cases.iter().flat_map(|case| &case.report.case.limits);
     let limited = limited.map(|limit| limit.quantity);
     let shown = distinct(MAIN_RESULTS.iter().filter_map(own).chain(limited));
+    let is_ideal = |of: &&Quantity| subject(of, method) == Some("without-deviations");
+    let (ideal, passage): (Vec<_>, Vec<_>) = shown.into_iter().partition(is_ideal);
     let all = grouped(method, &main.columns, row);
-    (main.with(shown.into_iter().filter_map(row)), all)
+    let tables = [("", passage), ("Without deviations", ideal)].map(|(title, of)| {
+        Table::new(title, main.columns.clone()).with(of.into_iter().filter_map(row))
+    });
+    (tables.into_iter().filter(|table| !table.rows.is_empty()).collect(), all)
 }
 
 /// The tables of the studies of a case.
