@@ -451,7 +451,7 @@ fn results(cases: &[PageCase], units: System) -> (Vec<Table>, Vec<Table>) {
     let is_ideal = |of: &&Quantity| subject(of, method) == Some("without-deviations");
     let (ideal, passage): (Vec<_>, Vec<_>) = shown.into_iter().partition(is_ideal);
     let all = grouped(method, &main.columns, row);
-    let tables = [("", passage), ("Without deviations", ideal)].map(|(title, of)| {
+    let tables = [("", passage), ("Without base pitch deviations", ideal)].map(|(title, of)| {
         Table::new(title, main.columns.clone()).with(of.into_iter().filter_map(row))
     });
     (tables.into_iter().filter(|table| !table.rows.is_empty()).collect(), all)
