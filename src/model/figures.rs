@@ -406,7 +406,7 @@ mod tests {
     }
 
     /// ISO/TR 6336-30:2017, example 1: m_n 8 mm, z 17/103, x 0.145/0, beta 15.8 deg, h_fP* 1.4, published
-    /// c'_th 17.85584 and c' 12.37047 N/(mm µm).
+    /// c'_th 17.85584, c' 12.37047, c_γα 17.46485 N/(mm µm).
     #[test]
     fn the_stiffness_of_a_published_helical_pair_is_reproduced() {
         let (beta, alpha) = (15.8f64.to_radians(), 20f64.to_radians());
@@ -419,6 +419,22 @@ mod tests {
         assert_near(swapped, theoretical, 14);
         let single = single_stiffness(theoretical, rack_factor([1.4, 1.4], alpha), beta.cos());
         assert_near(single, 12.37047e9, 6);
+        // Transverse contact ratio of the pair with a = 500 mm.
+        let transverse = (alpha.tan() / beta.cos()).atan();
+        let working = {
+            let bases = 8.0 / beta.cos() * 60.0 * transverse.cos();
+            (bases / 500.0).acos()
+        };
+        let path = |teeth: f64, shift: f64| {
+            let reference = 4.0 * teeth / beta.cos();
+            let tip = reference + 8.0 * (1.0 + shift);
+            let base = reference * transverse.cos();
+            ((tip * tip - base * base).sqrt(), base)
+        };
+        let ((one, base), (other, other_base)) = (path(17.0, 0.145), path(103.0, 0.0));
+        let length = one + other - (base + other_base) * working.tan();
+        let ratio = length / (PI * 8.0 / beta.cos() * transverse.cos());
+        assert_near(mesh_stiffness(single, ratio), 17.46485e9, 3);
     }
 
     /// K_v by hand, with B_p = 0.5, B_f = 0.3, B_k = 0.4.
