@@ -193,6 +193,20 @@ impl Case {
         }
     }
 
+    /// The symbol of a field. The module and pressure angle of a helical pair are those of the normal
+    /// section.
+    pub fn symbol(&self, field: usize) -> &'static str {
+        let is_helical = || {
+            let angle = fields::index_of("pair.helix_angle").and_then(|at| self.value(at));
+            angle.is_some_and(|angle| angle > 0.0)
+        };
+        match FIELDS[field].key {
+            "pair.module" if is_helical() => "m_n",
+            "pair.pressure_angle" if is_helical() => "α_n",
+            _ => FIELDS[field].symbol,
+        }
+    }
+
     /// The value in SI of a number field, given or by default. `None` if the model needs no value,
     /// or if the text is invalid.
     pub fn value(&self, field: usize) -> Option<f64> {

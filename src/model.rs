@@ -124,8 +124,10 @@ pub struct Solution {
     pub geometry: Geometry,
     /// Force along the line of action F₀ = T₁/r_b1, in N.
     pub mesh_force: f64,
-    /// Helical geometry and axial force; `None` for a spur pair.
-    pub helix: Option<Helix>,
+    /// Helical geometry and axial force.
+    pub helix: Helix,
+    /// Whether the load varies over the face width: a helical, misaligned or crowned pair.
+    pub is_over_face: bool,
     /// Reduced mass m_red of Eq. 33, in kg.
     pub reduced_mass: f64,
     /// The deviation that makes the tooth early.
@@ -182,7 +184,12 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Whether the load of the incoming tooth varies over the face width.
+    /// Whether the pair is helical.
+    pub fn is_helical(&self) -> bool {
+        self.helix.base_helix_angle > 0.0
+    }
+
+    /// Whether the load of the incoming tooth is shared over the face width.
     pub fn has_slices(&self) -> bool {
         self.face_load.is_some() || self.face_motion.is_some()
     }
@@ -202,17 +209,18 @@ impl Solution {
     }
 
     /// The results of geometry, load, masses and deviation.
-    fn new(method: Method, geometry: Geometry, mesh_force: f64, kept: Kept) -> Solution {
+    fn new(inputs: &Inputs, geometry: Geometry, mesh_force: f64, kept: Kept) -> Solution {
         let deviation = kept.deviation.rounded();
         Solution {
-            method,
+            method: inputs.method,
             choice: None,
             outcome: Outcome::of_contact(deviation.total > 0.0),
             stages: Stages::NONE,
             ran: Stages::NONE,
             geometry,
             mesh_force,
-            helix: None,
+            helix: inputs.helix(&geometry, mesh_force),
+            is_over_face: inputs.face().is_some(),
             reduced_mass: kept.masses.reduced(),
             deviation,
             kept,

@@ -79,7 +79,9 @@ impl Selection {
 
     /// The requested quantities that have a value, in SI: finite, and zero without a sign.
     pub fn values(&self, solution: &Solution) -> impl Iterator<Item = (&'static Quantity, f64)> {
-        self.quantities().filter_map(|quantity| Some((quantity, value(quantity, solution)?)))
+        let is_listed = |quantity: &&Quantity| !self.is_whole() || quantity.is_listed(solution);
+        let listed = self.quantities().filter(is_listed);
+        listed.filter_map(|quantity| Some((quantity, value(quantity, solution)?)))
     }
 
     /// The stages that the requested quantities need.

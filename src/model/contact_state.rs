@@ -82,7 +82,7 @@ pub fn first_contact_of_driver(solution: &Solution) -> Option<f64> {
 /// the middle of the face, not that of the plane of the contact. `None` if no tooth strikes.
 pub fn first_touch_of_driver(solution: &Solution) -> Option<f64> {
     let contact = first_contact_of_driver(solution)?;
-    let first = solution.own_stations().first().filter(|_| solution.helix.is_some());
+    let first = solution.own_stations().first().filter(|_| solution.is_helical());
     Some(first.map_or(contact, |station| station.roll_angle_driver))
 }
 

@@ -50,7 +50,6 @@ impl Figures {
         let line_load = tangential_force / width;
         let stiffness = IsoStiffness::of(inputs, geometry.contact_ratio, line_load);
         let helix = inputs.helix(geometry, mesh_force);
-        let overlap = helix.map_or(0.0, |helix| helix.overlap_ratio);
         let normal = inputs.base_helix_angle().cos().recip();
         let thickness = |gear: &Gear| {
             let shifted = 2.0 * gear.profile_shift * inputs.pressure_angle.tan();
@@ -68,13 +67,13 @@ impl Figures {
             pitch_line_speed: inputs.speed * geometry.driver.reference,
             sliding: [geometry.start, geometry.end].map(sliding),
             pitch_pressure: Hertz::of(inputs).pressure(
-                mesh_force * pitch_share(geometry.contact_ratio, overlap),
+                mesh_force * pitch_share(geometry.contact_ratio, helix.overlap_ratio),
                 normal * pitch * (1.0 - pitch / geometry.tangent_length),
             ),
             stiffness,
             dynamic: IsoDynamic::of(
                 inputs,
-                geometry.contact_ratio + overlap,
+                geometry.contact_ratio + helix.overlap_ratio,
                 line_load,
                 &stiffness,
                 mass,

@@ -16,7 +16,7 @@ pub struct Helix {
     pub base_helix_angle: f64,
     /// Virtual number of teeth z_n of driver and driven gear.
     pub virtual_teeth: [f64; 2],
-    /// Axial pitch p_x, in m.
+    /// Axial pitch p_x, in m; infinite for β = 0.
     pub axial_pitch: f64,
     /// Overlap ratio ε_β.
     pub overlap_ratio: f64,
@@ -31,7 +31,7 @@ impl Inputs {
         f64::from(gear.teeth) / (across * across * self.helix_cosine())
     }
 
-    /// Helical geometry; `None` for a spur pair.
+    /// Helical geometry. A spur pair has β = 0, and no axial pitch.
     ///
     /// # Formula
     /// ```text
@@ -42,13 +42,10 @@ impl Inputs {
     ///
     /// # Source
     /// ISO 21771:2007.
-    pub fn helix(&self, geometry: &Geometry, mesh_force: f64) -> Option<Helix> {
-        if self.helix_angle == 0.0 {
-            return None;
-        }
+    pub fn helix(&self, geometry: &Geometry, mesh_force: f64) -> Helix {
         let base_helix_angle = self.base_helix_angle();
         let axial_pitch = PI * self.module / self.helix_angle.sin();
-        Some(Helix {
+        Helix {
             transverse_module: self.transverse_module(),
             transverse_pressure_angle: self.transverse_pressure_angle(),
             base_helix_angle,
@@ -56,6 +53,6 @@ impl Inputs {
             axial_pitch,
             overlap_ratio: self.common_width() * base_helix_angle.tan() / geometry.base_pitch,
             axial_force: self.driver_hand.sign() * mesh_force * base_helix_angle.tan(),
-        })
+        }
     }
 }

@@ -540,7 +540,7 @@ fn long_reliefs(k: &Context) -> Option<Note> {
     const ROUNDING: f64 = 1e-9;
     let (solution, geometry) = (k.solution, &k.solution.geometry);
     let own = Relief::of(&k.inputs.reliefs(), geometry).unrelieved_contact_ratio(geometry);
-    let ratio = own + solution.helix.as_ref().map_or(0.0, |helix| helix.overlap_ratio);
+    let ratio = own + solution.helix.overlap_ratio;
     let (code, what) = if own <= 0.0 {
         let path = milli(geometry.end - geometry.start);
         let what = format!("the reliefs cover the whole path of contact of {path} mm");
@@ -596,7 +596,7 @@ fn back_strikes(k: &Context) -> Option<Note> {
 pub(super) fn inertia_at_rest(k: &Context) -> Option<[f64; 3]> {
     let angle = k.solution.static_load.as_ref()?.first_contact_angle?;
     // The contact line of a helical tooth grows until its other end is at E.
-    let along = k.solution.helix.map_or(0.0, |helix| helix.overlap_ratio);
+    let along = k.solution.helix.overlap_ratio;
     let angle = angle + along * TAU / f64::from(k.inputs.driven.teeth);
     let stiffness = k.solution.mesh.as_ref()?.mean_stiffness();
     let time = angle / k.inputs.driven_speed();

@@ -199,6 +199,12 @@ impl Quantity {
             .map(|value| value + 0.0)
     }
 
+    /// Whether a list of every quantity has the quantity: rows of the face width are only in those of
+    /// a pair whose load varies over it.
+    pub fn is_listed(&self, solution: &Solution) -> bool {
+        self.needs != Need::Slices || solution.is_over_face
+    }
+
     /// The stages that the value needs.
     pub fn stages(&self) -> Stages {
         Stages::of(self.stage).and(self.also.map_or(Stages::NONE, Stages::of))

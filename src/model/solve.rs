@@ -120,8 +120,7 @@ pub(crate) fn solve_by_method(
     let own = Lazy::default();
     let lazy = run.earlier.and_then(|earlier| earlier.gears).unwrap_or(&own);
     let (geometry, mesh_force, kept) = run.begin(lazy)?;
-    let mut solution = Solution::new(inputs.method, geometry, mesh_force, kept);
-    solution.helix = inputs.helix(&geometry, mesh_force);
+    let mut solution = Solution::new(inputs, geometry, mesh_force, kept);
     let figures = || {
         let Solution { geometry, mesh_force, reduced_mass, .. } = &solution;
         Ok(Figures::of(inputs, geometry, *mesh_force, *reduced_mass))

@@ -84,6 +84,18 @@ impl SpeedCurve {
         greatest(&self.down)
     }
 
+    /// The greatest peak of the run-up whose N differs from `ratio` by less than a quarter.
+    pub fn peak_near(&self, ratio: f64) -> Option<&AtSpeed> {
+        const NEAR: f64 = 0.25;
+        let points: Vec<&AtSpeed> = self.up.iter().flatten().collect();
+        let is_peak = |of: &[&AtSpeed]| {
+            let around = of[0].tooth_factor.max(of[2].tooth_factor);
+            of[1].tooth_factor >= around && (of[1].ratio / ratio - 1.0).abs() < NEAR
+        };
+        let peaks = points.windows(3).filter(|of| is_peak(of)).map(|of| of[1]);
+        peaks.max_by(|one, other| one.tooth_factor.total_cmp(&other.tooth_factor))
+    }
+
     /// The intervals of speed with loss of contact in the run-up or run-down, in rad/s.
     pub fn lost(&self) -> Vec<(f64, f64)> {
         let mut found: Vec<(usize, usize)> = Vec::new();

@@ -437,7 +437,7 @@ fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
     };
     let [rising, falling] = [curve.peak_rising(), curve.peak_falling()].map(peak);
     let falling = falling.filter(|falling| rising.as_ref() != Some(falling));
-    let near = near_resonance(curve).filter(|near| curve.peak_rising() != Some(*near));
+    let near = curve.peak_near(1.0).filter(|near| curve.peak_rising() != Some(*near));
     let called =
         |run: &str, peak: Option<String>| of(name, &(run.to_owned() + &peak.unwrap_or_default()));
     let jumps: Vec<AtSpeed> = curve.jumps().copied().collect();
@@ -467,18 +467,6 @@ fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
         },
     ];
     all.into_iter().filter(|series| !series.pieces.is_empty()).collect()
-}
-
-/// The greatest peak of the rising run near the resonance.
-fn near_resonance(curve: &SpeedCurve) -> Option<&AtSpeed> {
-    const NEAR: f64 = 0.25;
-    let points: Vec<&AtSpeed> = curve.up.iter().flatten().collect();
-    let is_peak = |of: &[&AtSpeed]| {
-        let around = of[0].tooth_factor.max(of[2].tooth_factor);
-        of[1].tooth_factor >= around && (of[1].speed / curve.resonance - 1.0).abs() < NEAR
-    };
-    let peaks = points.windows(3).filter(|of| is_peak(of)).map(|of| of[1]);
-    peaks.max_by(|one, other| one.tooth_factor.total_cmp(&other.tooth_factor))
 }
 
 /// Every fifth point with loss of contact, so that the curve between them is visible.

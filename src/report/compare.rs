@@ -12,7 +12,7 @@ use crate::case::fields::index_of;
 use crate::case::file::FORMAT;
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::case::units::{counted, named};
+use crate::case::units::{Dimension, counted, named, symbol as symbol_of, written_unit};
 use crate::case::{Case, FIELDS, Problem};
 use crate::model::inputs::Method;
 use crate::model::{Quantity, Solution};
@@ -137,6 +137,9 @@ impl Comparison {
 
     /// A quantity by the definition of a method; CSV has the values by the methods of the cases.
     fn row(&self, quantity: &'static Quantity, method: Method, units: System) -> Option<Vec<Cell>> {
+        if !self.is_listed(quantity) {
+            return None;
+        }
         let of = |case: &ComparedCase| value_as_in(quantity, case.solution()?, method);
         let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
         let known: Vec<Option<f64>> = self.cases.iter().map(of).map(finite).collect();
@@ -187,11 +190,28 @@ impl Comparison {
             };
             text.map_or_else(|| NONE.to_owned(), |text| sanitize(&text))
         };
-        let values: Vec<String> = self.cases.iter().map(text).collect();
-        let names = [key.to_owned(), String::new(), symbol(key), label(key), String::new()];
-        let blank = vec![String::new(); values.len() - 1];
-        let is_shown = values.iter().any(|value| *value != values[0]);
-        is_shown.then(|| names.into_iter().chain(values).chain(blank).map(Cell::Text).collect())
+        let texts: Vec<String> = self.cases.iter().map(text).collect();
+        if texts.iter().all(|text| *text == texts[0]) {
+            return None;
+        }
+        let field = index_of(key);
+        let known: Vec<Option<f64>> =
+            self.cases.iter().map(|case| case.case.value(field?)).collect();
+        let usual = field.map_or("", |field| FIELDS[field].usual_unit());
+        let dimension = Dimension::of_unit(usual);
+        let unit = dimension.and_then(|own| symbol_of(written_unit(&texts[0], own)?));
+        let unit = unit.unwrap_or(usual);
+        let names = [key, dimension.map_or("", Dimension::si_unit), &symbol(key), &label(key), ""];
+        let difference = |&now: &Option<f64>| match known[0].zip(now) {
+            Some((base, now)) => Cell::Shown(now - base, signed(now, base, unit)),
+            None => Cell::Text(String::new()),
+        };
+        let differences = known[1..].iter().map(difference);
+        let values = known.iter().zip(texts.iter()).map(|(known, text)| match *known {
+            Some(known) => Cell::Shown(known, text.clone()),
+            None => Cell::Text(text.clone()),
+        });
+        Some(names.map(Cell::from).into_iter().chain(values).chain(differences).collect())
     }
 
     /// The columns of a further case: its value and its difference.
@@ -266,8 +286,8 @@ impl Comparison {
         Ok(())
     }
 
-    /// Writes one row per quantity: its name and unit, the value of each case, and the differences
-    /// from the first one.
+    /// Writes one row per input that differs and per quantity: its name and unit, the value of each
+    /// case, and the differences from the first one.
     ///
     /// # Errors
     /// Errors of the writer.
@@ -281,6 +301,7 @@ impl Comparison {
             words("method", |case| case.method().unwrap_or_default()),
             words("outcome", ComparedCase::outcome),
         ];
+        rows.extend(self.inputs());
         let tables = self.tables(System::Metric);
         let results = tables.iter().flat_map(|table| &table.rows);
         rows.extend(self.quantities().filter_map(|quantity| {
@@ -291,10 +312,16 @@ impl Comparison {
         Table::new("", self.columns()).with(rows).of(&columns).write_csv(out)
     }
 
+    /// Whether a quantity is named, or in the list of every quantity of a case.
+    fn is_listed(&self, quantity: &Quantity) -> bool {
+        let mut solutions = self.cases.iter().filter_map(ComparedCase::solution);
+        !self.selection.is_whole() || solutions.any(|solution| quantity.is_listed(solution))
+    }
+
     /// The quantities with a value in some case.
     fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
         let has_value = |quantity: &&'static Quantity| {
-            self.cases.iter().any(|case| case.value(quantity).is_some())
+            self.is_listed(quantity) && self.cases.iter().any(|case| case.value(quantity).is_some())
         };
         self.selection.quantities().filter(has_value)
     }
@@ -434,6 +461,14 @@ pub fn difference(quantity: &Quantity, now: f64, base: f64, unit: &'static str) 
     }
     if let Some(percent) = percent(quantity, now, base) {
         return in_percent(percent);
+    }
+    signed(now, base, unit)
+}
+
+/// A difference in a unit, with its sign.
+fn signed(now: f64, base: f64, unit: &'static str) -> String {
+    if is_unchanged(now, base) {
+        return UNCHANGED.to_owned();
     }
     let number = counted((now - base).abs(), unit, 3);
     let sign = if now < base { '-' } else { '+' };

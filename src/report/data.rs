@@ -39,7 +39,8 @@ fn methods(report: &Report) -> String {
     let is_beside = |(quantity, _): &(&Quantity, f64)| beside(quantity, solution).is_some();
     let others: Vec<&Quantity> =
         report.values().filter(is_beside).map(|(known, _)| known).collect();
-    let own = format!("method {}", solution.method.name());
+    let plane = if solution.is_helical() { ", transverse plane" } else { "" };
+    let own = format!("method {}{plane}", solution.method.name());
     let Some(slower) = others.first().and_then(|first| beside(first, solution)) else { return own };
     let named = match others[..] {
         [one] => one.symbol.to_owned(),
@@ -86,7 +87,7 @@ fn inputs(report: &Report) -> Vec<String> {
         };
         // The pressure angle also by default.
         let text = case.effective(at).filter(|_| is_listed)?;
-        let name = if field.symbol.is_empty() { field.key } else { field.symbol };
+        let name = Some(case.symbol(at)).filter(|symbol| !symbol.is_empty()).unwrap_or(field.key);
         Some(format!("{name} = {}", sanitize(text)))
     };
     let shown: Vec<String> = FIELDS.iter().enumerate().filter_map(shown).collect();
@@ -108,6 +109,9 @@ fn quantity_lines(report: &Report) -> Vec<String> {
         Column::text("equation", "").wide(2, 0),
     ];
     let row = |quantity: &'static Quantity| {
+        if is_whole && !quantity.is_listed(solution) {
+            return None;
+        }
         let shown = shown(quantity, value(quantity, solution)?);
         // With every quantity the headings of the groups say this.
         let beside = match subject(quantity, method) {
@@ -201,6 +205,7 @@ pub fn write_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         "format": FORMAT,
         "version": env!("CARGO_PKG_VERSION"),
         "method": solution.method.name(),
+        "plane": solution.is_helical().then_some("transverse"),
         "outcome": solution.outcome.name(),
         "exit_outcome": solution.exit_outcome().map(Outcome::name),
         "quantities": object(quantities),

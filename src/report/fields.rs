@@ -192,6 +192,7 @@ pub fn write_results(out: &mut dyn Write) -> io::Result<()> {
             "format": {"const": FORMAT},
             "version": {"type": "string"},
             "method": {"enum": methods},
+            "plane": {"const": "transverse"},
             "outcome": {"enum": outcomes},
             "exit_outcome": {"enum": outcomes},
             "quantities": object(help, quantities.collect()),

@@ -374,7 +374,8 @@ fn inputs(cases: &[PageCase], units: System) -> Table {
             let text = words.join(" / ");
             if is_default { Cell::Default(text) } else { Cell::Text(text) }
         });
-        let symbols: Vec<&str> = fields.iter().map(|&field| FIELDS[field].symbol).collect();
+        let symbols: Vec<&str> =
+            fields.iter().map(|&field| cases[0].report.case.symbol(field)).collect();
         let names = [field.label.to_owned(), symbols.join(" / ")].map(Cell::from);
         is_shown.then(|| names.into_iter().chain(values).collect())
     });
@@ -447,10 +448,14 @@ fn results(cases: &[PageCase], units: System) -> (Vec<Table>, Vec<Table>) {
     };
     let limited = cases.iter().flat_map(|case| &case.report.case.limits);
     let limited = limited.map(|limit| limit.quantity);
-    let shown = distinct(MAIN_RESULTS.iter().filter_map(own).chain(limited));
+    let is_listed =
+        |quantity: &&Quantity| cases.iter().any(|case| quantity.is_listed(&case.report.solution));
+    let main_results = MAIN_RESULTS.iter().filter_map(own).filter(is_listed);
+    let shown = distinct(main_results.chain(limited));
     let is_ideal = |of: &&Quantity| subject(of, method) == Some("without-deviations");
     let (ideal, passage): (Vec<_>, Vec<_>) = shown.into_iter().partition(is_ideal);
-    let all = grouped(method, &main.columns, row);
+    let all =
+        grouped(method, &main.columns, |quantity| is_listed(&quantity).then(|| row(quantity))?);
     let tables = [("", passage), ("Without base pitch deviations", ideal)].map(|(title, of)| {
         Table::new(title, main.columns.clone()).with(of.into_iter().filter_map(row))
     });

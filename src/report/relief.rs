@@ -23,14 +23,11 @@ impl Specification {
     /// The specification with one of its choices, without its gains if these are shown elsewhere:
     /// rows of tables of at most 80 columns, and unwrapped sentences.
     pub fn of_choice(&self, at: usize, has_gains: bool, units: System) -> Vec<String> {
-        let is_moving = self.method == Method::Dynamic;
         let (figure, greatest) = (self.figure(), percent(self.demand.greatest_load()));
-        let [um, force_unit] = ["um", "N"].map(|unit| units.unit(unit));
-        let costs = ["least_load_error", "least_load_change", "unloaded_contact_ratio"];
-        let costs = costs.into_iter().chain(["worst_entry_force"]);
-        let costs = costs.chain(is_moving.then_some("dynamic_factor"));
-        let costs: Vec<&str> = costs.chain(["margin", "greatest_load"]).collect();
-        let force = if is_moving { "in motion" } else { "at rest" };
+        let um = units.unit("um");
+        let costs = ["least_load_error", "least_load_change", "unloaded_contact_ratio", "margin"];
+        let costs: Vec<&str> = costs.into_iter().chain(["greatest_load"]).collect();
+        let force = if self.is_moving() { "in motion" } else { "at rest" };
         let gains = has_gains.then(|| {
             (format!("What each relief gains; {}", self.legend(units)), self.gains(units))
         });
@@ -42,8 +39,7 @@ impl Specification {
             (
                 format!(
                     "What each relief costs; TE in {um} at {} % of the load, contact ratio of the \
-                     unrelieved flanks; within the tolerances: force before E in {force_unit}, gap \
-                     in {um}, load at which it closes",
+                     unrelieved flanks; gap in {um} within the tolerances, load at which it closes",
                     percent(self.loads[0])
                 ),
                 self.of_choices(&costs, units),
@@ -85,9 +81,10 @@ impl Specification {
             0.0 => "without force before E".to_owned(),
             worth => format!("with {figure} within {:.0} % of the least", 100.0 * worth),
         };
+        let factor = if self.is_moving() { ", dynamic factor K" } else { "" };
         format!(
-            "Ca, TE (transmission error) in {um}, La in {mm}; worst TE, peak force ({force}): in \
-             tolerance; * smallest relief {rule}"
+            "Ca, TE (transmission error) in {um}, La in {mm}{factor}; worst TE, entry and peak force \
+             ({force}): in tolerance; * smallest relief {rule}"
         )
     }
 
@@ -234,21 +231,20 @@ impl Specification {
                 ));
             }
         }
-        let ratio = own.reliefs.unloaded_contact_ratio(&self.geometry)
-            + self.helix.map_or(0.0, |helix| helix.overlap_ratio);
+        let ratio = own.reliefs.unloaded_contact_ratio(&self.geometry) + self.helix.overlap_ratio;
         if ratio < 1.0 {
             lines.push(format!(
                 "The unrelieved flanks alone have a contact ratio of {ratio:.3}, below 1: under \
                  light load the pairs change on the reliefs, which raises TE."
             ));
         }
-        lines.extend(self.helix.map(|helix| {
-            format!(
+        if self.helix.base_helix_angle > 0.0 {
+            lines.push(format!(
                 "The amounts are lengths in the transverse plane along the base tangent; normal to \
                  the flank they are {:.3} of this.",
-                helix.base_helix_angle.cos()
-            )
-        }));
+                self.helix.base_helix_angle.cos()
+            ));
+        }
         lines.extend(self.alternative(own, units));
         if self.is_cut {
             lines.push("The search ended with its budget; a better relief may exist.".to_owned());
@@ -309,7 +305,11 @@ impl Specification {
         Table::of_texts(head, rows)
     }
 
-    /// One row per choice: the relief, its transmission error and its peak force.
+    fn is_moving(&self) -> bool {
+        self.method == Method::Dynamic
+    }
+
+    /// One row per choice: the relief, its transmission error, its forces and its dynamic factor.
     pub fn gains(&self, units: System) -> Table {
         let [amounts, lengths] = KEYS;
         let reliefs = [amounts[0], lengths[0], amounts[1], lengths[1]].into_iter();
@@ -317,8 +317,10 @@ impl Specification {
         // A line has room for the change or for the crowning.
         let change = (!self.is_over_face).then_some("change");
         let errors = ["transmission_error"].into_iter().chain(change);
-        let results = errors.chain(["worst_transmission_error", "worst_peak_force"]);
-        self.of_choices(&reliefs.chain(crowning).chain(results).collect::<Vec<_>>(), units)
+        let results = ["worst_transmission_error", "worst_entry_force", "worst_peak_force"];
+        let results = results.into_iter().chain(self.is_moving().then_some("dynamic_factor"));
+        let keys = reliefs.chain(crowning).chain(errors).chain(results);
+        self.of_choices(&keys.collect::<Vec<_>>(), units)
     }
 
     /// One row per choice with these columns of the whole table, and a mark at the relief to

@@ -314,9 +314,10 @@ impl Absence {
         };
         let has_friction = || solution.mesh.as_ref().is_some_and(|mesh| mesh.friction() > 0.0);
         match (stage, quantity.needs, refused, solution.withheld) {
-            (_, Need::Slices, ..) if solution.helix.is_none() && !solution.has_slices() => {
+            (_, Need::Slices, ..) if !solution.is_over_face => {
                 Absence::Because("only a helical, misaligned or crowned pair has this quantity")
             }
+            (Stage::Geometry, Need::Slices, ..) => Absence::Because("a spur pair has none"),
             _ if quantity.is_at_exit => Absence::NoExit,
             _ if is_without && !solution.method.shares_load() => no_contact,
             (_, Need::Friction, ..) if is_shared && !has_friction() => {

@@ -130,8 +130,8 @@ pub struct Specification {
     pub is_over_face: bool,
     /// The crowning of the driven gear, which stays that of the case, in m.
     pub driven_crowning: f64,
-    /// The helical geometry; `None` for a spur pair.
-    pub helix: Option<Helix>,
+    /// The helical geometry.
+    pub helix: Helix,
     /// The geometry of the pair.
     pub geometry: Geometry,
     /// The loads, relative to the load of the case.

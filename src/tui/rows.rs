@@ -179,7 +179,7 @@ pub fn field(case: &Case, at: usize) -> Option<&'static Field> {
 pub(crate) fn names_of(case: &Case, at: usize) -> (&'static str, Cow<'static, str>) {
     let plain = |symbol, label: &'static str| (symbol, Cow::Borrowed(label));
     match row(case, at) {
-        Row::Field(field) => plain(FIELDS[field].symbol, FIELDS[field].label),
+        Row::Field(field) => plain(case.symbol(field), FIELDS[field].label),
         Row::Limit(Limit { quantity, .. }) => plain(quantity.symbol, quantity.label.trim_start()),
         Row::Spread(spread) => index_of(spread.field).map_or(plain("", spread.field), |field| {
             (FIELDS[field].symbol, FIELDS[field].full_label().into())

@@ -1,5 +1,7 @@
 //! The table of attributes that give the fields of a case, and the driver with its speed and load.
 
+use std::collections::BTreeSet;
+
 use super::{Index, Node};
 use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::quoted;
@@ -179,6 +181,13 @@ const ROWS: &[Row] = &[
     )]),
 ];
 
+/// The attributes of the position of a gear.
+const PLACE: [&str; 4] = [
+    "support_vector",
+    "u_axis_vector",
+    "reference_component_for_position",
+    "datum_face_orientation",
+];
 const SPEED: Source = from("rotational_speed", "rpm");
 const TORQUE_OF_GEAR: Source = from("torque", "N m");
 const TORQUE_OF_LOAD: Source = from("torque_around_u_axis", "N m");
@@ -236,6 +245,11 @@ impl Values {
         let unused: Vec<String> = pair.unused().iter().map(|part| part.label()).collect();
         if !unused.is_empty() {
             self.remarks.push(format!("left out: {}", unused.join(", ")));
+        }
+        let unread = pair.unread();
+        if !unread.is_empty() {
+            self.remarks
+                .push(format!("attributes without a field: {}", Vec::from_iter(unread).join(", ")));
         }
     }
 
@@ -370,13 +384,33 @@ impl<'m> Pair<'m> {
         ["left", "right"].map(|side| self.index.related("flank", gear, side).next())
     }
 
-    /// Modifications without a field.
-    fn unused(&self) -> Vec<&'m Node> {
-        let gears = [0, 1].into_iter().flat_map(|gear| {
+    /// Both gears and their flanks.
+    fn bodies(&self) -> impl Iterator<Item = &'m Node> {
+        [0, 1].into_iter().flat_map(|gear| {
             let [left, right] = self.flanks(gear);
             [Some(self.gears[gear]), left, right].into_iter().flatten()
-        });
-        let linked = gears.flat_map(|part| self.index.linked(&part.id));
+        })
+    }
+
+    /// The attributes of the stage, of gears and flanks and of the components that describe them that
+    /// give no field, in alphabetical order.
+    fn unread(&self) -> BTreeSet<&'m str> {
+        let linked = self.bodies().flat_map(|part| self.index.linked(&part.id));
+        let parts = linked.filter(|part| PARTS.contains(&&*part.kind));
+        let parts = parts.chain(self.bodies()).chain([self.stage]);
+        let sources = ROWS.iter().flat_map(|row| row.sources).chain([&SPEED]);
+        let read: Vec<&str> = sources
+            .flat_map(|source| [source.attribute, source.also])
+            .map(|name| name.rsplit('.').next().unwrap_or(name))
+            .chain(PLACE)
+            .collect();
+        let given = parts.flat_map(|part| &part.nodes).filter(|own| !own.value.is_empty());
+        given.map(|own| &*own.id).filter(|id| !read.contains(id)).collect()
+    }
+
+    /// Modifications without a field.
+    fn unused(&self) -> Vec<&'m Node> {
+        let linked = self.bodies().flat_map(|part| self.index.linked(&part.id));
         let mut unused: Vec<&Node> = linked.filter(|part| UNUSED.contains(&&*part.kind)).collect();
         unused.dedup_by(|one, other| std::ptr::eq(*one, *other));
         unused

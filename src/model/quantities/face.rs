@@ -7,7 +7,6 @@ use crate::model::Solution;
 use crate::model::Stage::{Dynamic, Geometry, Load, Static, StaticSpectrum};
 use crate::model::explanation::Formula::{Found, Made, Text, Words};
 use crate::model::explanation::{Check, Context, Step, step};
-use crate::model::helix::Helix;
 use crate::model::slices::load::{FaceCycle, FaceLoad};
 
 const HELICAL: &str = "External helical gears on parallel, rigid shafts, with involute flanks \
@@ -53,13 +52,29 @@ const MOVING: Quantity = Quantity {
     ..AT_REST
 };
 
-fn helix(solution: &Solution) -> Option<&Helix> {
-    solution.helix.as_ref()
-}
-
 /// The load over the face width at rest or in motion.
 fn load<const MOVES: bool>(solution: &Solution) -> Option<&FaceLoad> {
     if MOVES { solution.face_motion.as_deref() } else { solution.face_load.as_deref() }
+}
+
+/// The peak line load; without slices that of an even load.
+fn peak_line_load<const MOVES: bool>(solution: &Solution) -> Option<f64> {
+    let even = || {
+        let force = match MOVES {
+            true => solution.dynamic.as_ref()?.peak_force,
+            false => solution.static_load.as_ref()?.peak_force,
+        };
+        Some(force / solution.mesh.as_ref()?.width)
+    };
+    load::<MOVES>(solution).map(|load| load.peak.line_load).or_else(even)
+}
+
+/// The face load factor; without slices that of an even load.
+fn face_load_factor(solution: &Solution) -> Option<f64> {
+    match &solution.face_cycle {
+        Some(cycle) => Some(cycle.peak_line_load / cycle.mean_line_load),
+        None => solution.static_spectrum.as_ref()?.is_ok().then_some(1.0),
+    }
 }
 
 const LOAD: Formula =
@@ -85,7 +100,7 @@ const fn of_load<const MOVES: bool>(names: &[[&'static str; 3]; 6]) -> [Quantity
         base.row(
             most,
             ("N/m", "N/mm", 5),
-            |s| Some(load::<MOVES>(s)?.peak.line_load),
+            |s| peak_line_load::<MOVES>(s),
             "The greatest force per width of the incoming tooth.",
             formula,
         ),
@@ -175,7 +190,7 @@ pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["transverse_module", "m_t", "transverse module"],
         ("m", "mm", 5),
-        |s| Some(helix(s)?.transverse_module),
+        |s| Some(s.helix.transverse_module),
         "The module in the plane across the axis; the case gives that of the normal \
             section.",
         Text("m/cos β"),
@@ -183,7 +198,7 @@ pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["transverse_pressure_angle", "α_t", "transverse pressure angle"],
         ("rad", "deg", 5),
-        |s| Some(helix(s)?.transverse_pressure_angle),
+        |s| Some(s.helix.transverse_pressure_angle),
         "The pressure angle in the plane across the axis; the case gives that of \
             the normal section.",
         Text("atan(tan α/cos β)"),
@@ -191,7 +206,7 @@ pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["base_helix_angle", "β_b", "base helix angle"],
         ("rad", "deg", 5),
-        |s| Some(helix(s)?.base_helix_angle),
+        |s| Some(s.helix.base_helix_angle),
         "The helix angle at the base cylinder: the angle of the contact lines on \
             the plane of action.",
         Text("asin(sin β cos α)"),
@@ -199,7 +214,7 @@ pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["virtual_teeth_driver", "z_n1", "virtual teeth of the driver"],
         ("1", "1", 5),
-        |s| Some(helix(s)?.virtual_teeth[0]),
+        |s| Some(s.helix.virtual_teeth[0]),
         "The number of teeth of the spur gear with the curvature of the normal \
             section; rounded, the gear whose compliance the driver has.",
         Text("z1/((cos β_b)² cos β)"),
@@ -207,7 +222,7 @@ pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["virtual_teeth_driven", "z_n2", "virtual teeth of the driven gear"],
         ("1", "1", 5),
-        |s| Some(helix(s)?.virtual_teeth[1]),
+        |s| Some(s.helix.virtual_teeth[1]),
         "The number of teeth of the spur gear with the curvature of the normal \
             section; rounded, the gear whose compliance the driven gear has.",
         Text("z2/((cos β_b)² cos β)"),
@@ -215,21 +230,21 @@ pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["axial_pitch", "p_x", "axial pitch"],
         ("m", "mm", 5),
-        |s| Some(helix(s)?.axial_pitch),
+        |s| Some(s.helix.axial_pitch).filter(|pitch| pitch.is_finite()),
         "The distance of neighbouring flanks along the axis.",
         Text("π m/sin β"),
     ),
     HELIX.row(
         ["overlap_ratio", "ε_β", "overlap ratio"],
         ("1", "1", 5),
-        |s| Some(helix(s)?.overlap_ratio),
+        |s| Some(s.helix.overlap_ratio),
         "The base pitches by which one end of the face is ahead of the other.",
         Text("b tan β_b/p_b"),
     ),
     HELIX.row(
         ["total_contact_ratio", "ε_γ", "total contact ratio"],
         ("1", "1", 5),
-        |s| Some(s.geometry.contact_ratio + helix(s)?.overlap_ratio),
+        |s| Some(s.geometry.contact_ratio + s.helix.overlap_ratio),
         "The mean number of tooth pairs with a contact line on the face.",
         Text("ε + ε_β"),
     ),
@@ -237,7 +252,7 @@ pub(super) const TABLE: &[Quantity] = &[
         .row(
             ["axial_force", "F_ax", "axial force on the driver"],
             ("N", "N", 5),
-            |s| Some(helix(s)?.axial_force),
+            |s| Some(s.helix.axial_force),
             "The force along the axis on the driver, towards +z above 0; the driver \
             turns positively about +z. The driven gear has the opposite force.",
             Made(axial_force),
@@ -270,7 +285,7 @@ pub(super) const TABLE: &[Quantity] = &[
         .row(
             ["face_load_factor", "K_Hβ", "face load factor"],
             ("1", "1", 5),
-            |s| Some(cycle(s)?.peak_line_load / cycle(s)?.mean_line_load),
+            face_load_factor,
             "The greatest line load of all pairs, averaged over a base pitch without base pitch \
             deviations, over its mean over the face. Misalignment, helix slopes and \
             modifications of the flank lines count.",

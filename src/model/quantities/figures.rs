@@ -409,8 +409,7 @@ fn dynamic(k: &Context) -> Option<IsoDynamic> {
 
 /// The total contact ratio.
 fn contact_ratio(k: &Context) -> f64 {
-    let overlap = k.solution.helix.as_ref().map_or(0.0, |helix| helix.overlap_ratio);
-    k.solution.geometry.contact_ratio + overlap
+    k.solution.geometry.contact_ratio + k.solution.helix.overlap_ratio
 }
 
 /// C_v2, C_v3, C_v4, C_v6 and C_v7, as text.

@@ -228,6 +228,8 @@ pub(super) const TABLE: &[Quantity] = &[
     RISING[1],
     FALLING[0],
     FALLING[1],
+    NEAR_HALF,
+    NEAR_THIRD,
 ];
 
 /// The peak force over that at rest.
@@ -268,8 +270,8 @@ const RIGID: &str = "One mass m_red on the mean stiffness of the mesh; shafts, b
 
 const OVER_SPEED: &str = "Steady motion at each of 121 speeds from N = 0.1 to 1.6 or more, as in \
             tooth_force_factor, at the torque of the case; each motion starts from \
-            that at the speed before. Speed and factor are those of the speed with the \
-            greatest factor.";
+            that at the speed before. Speed and factor are those of the computed speed \
+            with the greatest factor.";
 
 /// The rows of the greatest peak over the speed: key, symbol and label of its speed and of its factor,
 /// the direction in words, and the point of the curve.
@@ -327,6 +329,31 @@ const FALLING: [Quantity; 2] = peak!(
     "falling",
     peak_falling
 );
+
+/// The row of the peak at a fraction of the resonance: key and symbol, N in words and as a number,
+/// and the harmonic that is there in resonance.
+macro_rules! peak_near {
+    ($key:literal, $symbol:literal, $ratio:literal, $of:expr, $harmonic:literal) => {
+        PEAK.row(
+            [$key, $symbol, concat!("peak factor near N = ", $ratio)],
+            ("1", "1", 4),
+            |s| Some(over_speed(s)?.peak_near($of)?.tooth_factor),
+            concat!(
+                "The peak of the dynamic factor of a tooth near N = ",
+                $ratio,
+                ", with rising speed: the ",
+                $harmonic,
+                " harmonic of the mesh frequency is near the natural frequency."
+            ),
+            Found("the greatest peak of max F/max F_st, N within a quarter", STEADY),
+        )
+    };
+}
+
+const NEAR_HALF: Quantity =
+    peak_near!("resonance_factor_half", "K_pk,1/2", "1/2", 1.0 / 2.0, "second");
+const NEAR_THIRD: Quantity =
+    peak_near!("resonance_factor_third", "K_pk,1/3", "1/3", 1.0 / 3.0, "third");
 
 const STEADY: &[&str] = &["m_red", "f_n", "F_0"];
 

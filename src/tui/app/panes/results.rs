@@ -214,8 +214,17 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
     let height = height.saturating_sub(usize::from(app.has_result_header()));
     let kept = |rows: usize| height.saturating_sub(rows);
     let most = if app.tab.answer.is_some() { kept(LEAST_ROWS + 1) } else { height };
-    for Sentence { text, style, place } in sentences(app) {
-        let lines = text::wrap(&text, width).into_iter().map(|line| Line::styled(line, style));
+    let lines = |sentence: &Sentence| {
+        let lines = text::wrap(&sentence.text, width).into_iter();
+        lines.map(|line| Line::styled(line, sentence.style)).collect::<Vec<_>>()
+    };
+    let mut shown = sentences(app, false);
+    let always = shown.iter().filter(|sentence| sentence.place == Place::Pane);
+    if always.flat_map(lines).count() > kept(USUAL_ROWS) {
+        shown = sentences(app, true);
+    }
+    for sentence in shown {
+        let (lines, place) = (lines(&sentence), sentence.place);
         // The last line names the page of the hidden sentences.
         let room = kept(USUAL_ROWS).saturating_sub(head.len() + 1);
         match place {
@@ -258,12 +267,12 @@ fn folded(app: &App, answer: &Answer) -> Option<String> {
 
 /// Every sentence in full, one per line: the page of notes.
 pub(crate) fn in_full(app: &App) -> Vec<String> {
-    sentences(app).into_iter().flat_map(|sentence| [sentence.text, String::new()]).collect()
+    sentences(app, false).into_iter().flat_map(|sentence| [sentence.text, String::new()]).collect()
 }
 
 /// Faults, limits that are not met, verdict, figures, limits that are met, and notes, the most
-/// important first.
-fn sentences(app: &App) -> Vec<Sentence> {
+/// important first. If `is_short`, the limits that are not met share a line before the verdict.
+fn sentences(app: &App, is_short: bool) -> Vec<Sentence> {
     let theme = app.look.theme;
     let mut all = Vec::new();
     let mut add = |text: String, style: Style, place: Place| {
@@ -288,21 +297,26 @@ fn sentences(app: &App) -> Vec<Sentence> {
         };
         let is_unknown = |verdict: &&Verdict<'_>| verdict.standing == Standing::Unknown;
         let (unknown, exceeded): (Vec<_>, Vec<_>) = unmet.into_iter().partition(is_unknown);
-        for verdict in exceeded {
+        // Long sentences follow the verdict.
+        let (first, later) = if is_short { (Vec::new(), exceeded) } else { (exceeded, Vec::new()) };
+        for verdict in first {
             add(format!("! {}", limit(verdict)), theme.problem, Place::Pane);
         }
-        // The reasons are long and follow the verdict.
-        if !unknown.is_empty() {
-            let symbols: Vec<_> = unknown.iter().map(|of| of.limit.quantity.symbol).collect();
-            let text = format!("! Limit unknown: {}.", symbols.join(", "));
-            add(text, theme.problem, Place::Pane);
+        let symbols = |(standing, of): (Standing, &Vec<&Verdict<'_>>)| {
+            let symbols: Vec<_> = of.iter().map(|of| of.limit.quantity.symbol).collect();
+            (!of.is_empty()).then(|| format!("{}: {}", standing.word(), symbols.join(", ")))
+        };
+        let named = [(Standing::Exceeded, &later), (Standing::Unknown, &unknown)];
+        let named: Vec<String> = named.into_iter().filter_map(symbols).collect();
+        if !named.is_empty() {
+            add(format!("! Limit {}.", named.join("; ")), theme.problem, Place::Pane);
         }
         let place = if has_fault { Place::Room } else { Place::Pane };
         let age = age(app, answer);
         let is_pending = answer.strikes() && app.tab.lacks(Stage::Clearing);
         let verdict = digest::sentence(solution, app.settings.units, is_pending);
         add(format!("{age}{verdict}"), fresh(theme.focus), place);
-        for verdict in unknown {
+        for verdict in later.into_iter().chain(unknown) {
             add(format!("! {}", limit(verdict)), theme.problem, Place::Room);
         }
         let figures = [differing(answer, solution), digest::whine(solution)];
