@@ -33,9 +33,10 @@ pub(super) const LEAST: &str = "least amount";
 const LEAST_OVERLAP: &str = "least overlap";
 
 /// Start lengths are multiples of this part of the longest length if they are the same on both gears.
-const PARTS: i32 = 20;
+/// The best length can be one step wide, between lengths that are far worse.
+const PARTS: i32 = 40;
 /// Start lengths of gears with different lengths, in these parts.
-const OWN_PARTS: [i32; 6] = [6, 9, 12, 15, 18, 20];
+const OWN_PARTS: [i32; 6] = [12, 18, 24, 30, 36, 40];
 /// Start amounts, relative to the least amount without corner contact.
 const TIMES: [f64; 4] = [1.0, 1.15, 1.4, 1.8];
 /// Number of starts that the search follows.
