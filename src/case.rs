@@ -72,9 +72,7 @@ impl Limit {
         let known = Quantity::find(key).ok_or_else(|| check::unknown_quantity(&field, key))?;
         let (key, owned) = (known.key, text.to_owned());
         if let Some((factor, other)) = relative(text) {
-            let nominal = if known.unit == "N" { "mesh_force" } else { other };
-            let other = if other == "nominal" { nominal } else { other };
-            let of = quantity(&field, other)?;
+            let of = quantity(&field, if other == "nominal" { "mesh_force" } else { other })?;
             if of.unit != known.unit || of.is_flag() {
                 let cause = format!("{} has another unit than {key}", of.key);
                 return Err(Problem::new(&field, cause, "name a result in the same unit"));

@@ -82,7 +82,7 @@ fn inputs(report: &Report) -> Vec<String> {
     let shown = |(at, field): (usize, &Field)| {
         let is_listed = match field.table() {
             "" => false,
-            "model" => field.name() == "deflection" && case.text(at).is_some(),
+            "model" => !["method", "stations"].contains(&field.name()) && !is_default(at, case),
             _ => field.name() == "pressure_angle" || !is_default(at, case),
         };
         // The pressure angle also by default.

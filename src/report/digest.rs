@@ -119,7 +119,14 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
         Some((printed(force.key, solution, system)?, ratio))
     });
     let forces = match (tip, most) {
-        (Some((tip, ratio)), Some(most)) => format!(": up to {tip} on the tip{ratio}, {most}"),
+        (Some((tip, ratio)), Some(most)) => {
+            // The greatest force of the tooth can be that on the tip.
+            let most = match most.strip_prefix(&tip) {
+                Some(rest) => format!("the most{rest}"),
+                None => most,
+            };
+            format!(": up to {tip} on the tip{ratio}, {most}")
+        }
         (Some((tip, ratio)), None) if solution.leaves_gap_open() => {
             format!(": free impact {tip}{ratio}, too small by the printed equations")
         }
@@ -142,7 +149,7 @@ fn at_exit(solution: &Solution, system: System) -> Option<String> {
     let required = |on| relief.map(|(given, more)| required(more, given, on, system));
     if solution.outcome == Outcome::CornerContact {
         let is_larger = most > LARGER * of("static_force_at_start", solution).unwrap_or(0.0);
-        let required = required("on the driver").filter(|_| is_larger);
+        let required = required("relief on the driver").filter(|_| is_larger);
         let required = required.map(|required| format!(", {required}"));
         return Some(format!("; at the exit {force}{}", required.unwrap_or_default()));
     }

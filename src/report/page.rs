@@ -349,7 +349,14 @@ fn titles<'a>(cases: &'a [PageCase]) -> impl Iterator<Item = String> + 'a {
 /// The fields that differ from their defaults in a case, and those that define the pair. A field of
 /// both gears is one row, the driver first.
 fn inputs(cases: &[PageCase], units: System) -> Table {
+    let has_relief = |case: &PageCase| {
+        let Inputs { driver, driven, .. } = &case.report.inputs;
+        driver.tip_relief + driven.tip_relief > 0.0
+    };
+    let is_relieved = cases.iter().any(has_relief);
     let rows = FIELDS.iter().enumerate().filter_map(|(at, field)| {
+        let defines =
+            DEFINING.contains(&field.name()) || field.name() == "relief_shape" && is_relieved;
         let fields: Vec<usize> = match field.table() {
             "" | "driven" => return None,
             "driver" => [Some(at), index_of(&format!("driven.{}", field.name()))]
@@ -365,7 +372,7 @@ fn inputs(cases: &[PageCase], units: System) -> Table {
         let texts: Vec<_> = texts.collect();
         let mut all = texts.iter().flatten();
         let is_shown = all.clone().any(|(_, is_default)| !is_default)
-            || DEFINING.contains(&field.name()) && all.any(|(text, _)| text.is_some());
+            || defines && all.any(|(text, _)| text.is_some());
         let values = texts.iter().map(|texts| {
             let words = texts.iter().map(|(text, _)| text.as_deref().unwrap_or("–"));
             let mut words: Vec<&str> = words.collect();
@@ -379,11 +386,7 @@ fn inputs(cases: &[PageCase], units: System) -> Table {
         let names = [field.label.to_owned(), symbols.join(" / ")].map(Cell::from);
         is_shown.then(|| names.into_iter().chain(values).collect())
     });
-    let has_relief = |case: &PageCase| {
-        let Inputs { driver, driven, .. } = &case.report.inputs;
-        driver.tip_relief + driven.tip_relief > 0.0
-    };
-    let places = BEGINS.iter().filter(|_| cases.iter().any(has_relief));
+    let places = BEGINS.iter().filter(|_| is_relieved);
     let places = places.map(|(label, symbol, unit, place)| {
         let of = |case: &PageCase| {
             let geometry = &case.report.solution.geometry;

@@ -50,11 +50,11 @@ pub struct Figures {
 }
 
 impl Figures {
-    /// Whether the values differ by rounding alone.
+    /// Whether the values differ by less than the accuracy of the motion.
     pub fn is_constant(&self) -> bool {
-        const ROUNDING: f64 = 1e-12;
+        const ACCURACY: f64 = 1e-7;
         let (from, to) = self.range;
-        to - from <= ROUNDING * from.abs().max(to.abs())
+        to - from <= ACCURACY * from.abs().max(to.abs())
     }
 }
 

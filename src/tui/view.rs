@@ -21,6 +21,7 @@ use super::update::commands::BINDINGS;
 use crate::case::fields::{Absent, Field, Kind, in_unit, index_of};
 use crate::case::{Acting, FIELDS, Limit, Spread, partial_relevance, relevance};
 use crate::model::inputs::Method;
+use crate::model::{QUANTITIES, Quantity};
 use crate::report::verdict::verdicts;
 use crate::study::tolerance::centre;
 use crate::study::trade::Trade;
@@ -196,11 +197,13 @@ fn about_limit(app: &App, limit: &Limit) -> String {
     let sentence = verdict.map(|verdict| {
         format!("{} {}. ", verdict.standing.word(), verdict.sentence(app.settings.units))
     });
-    format!(
-        "{}Upper limit of {name}, or a multiple such as 1.3 x mesh_force or 1.3 x nominal; empty: no \
-            limit.",
-        sentence.unwrap_or_default()
-    )
+    let own = limit.quantity;
+    let is_alike = |other: &&Quantity| other.unit == own.unit && !other.is_flag() && *other != own;
+    let other = if own.unit == "N" { Quantity::find("mesh_force") } else { None };
+    let other = other.or_else(|| QUANTITIES.iter().find(is_alike));
+    let multiple =
+        other.map_or_else(String::new, |of| format!(", or a multiple such as 1.3 x {}", of.key));
+    format!("{}Upper limit of {name}{multiple}; empty: no limit.", sentence.unwrap_or_default())
 }
 
 fn about_spread(app: &App, spread: &Spread) -> String {

@@ -176,7 +176,8 @@ fn done(app: &mut App, path: &Path, subject: &str, result: Result<(), Option<Str
             app.message = None;
             let text = format!("{} exists. Overwrite replaces it with the export.", path.display());
             let over = Choice::of(move |app| begin(app, path.clone(), true));
-            let buttons = [("Overwrite", over), ("Cancel", Choice::none())];
+            let kept = Choice::of(|app| app.say("not exported; the file stays as it was"));
+            let buttons = [("Overwrite", over), ("Cancel", kept)];
             app.ask(Question::new("The file exists", text, buttons));
         }
         Err(Some(reason)) => app.complain(format!("not exported: {reason}")),
@@ -203,7 +204,8 @@ pub(super) fn copy_value(app: &mut App) {
         },
         Pane::Study => studies::command(app).map(|command| {
             let first = if app.tab.is_unsaved() { "; save the case before it runs" } else { "" };
-            (command, format!("the command of the study{first}"))
+            let what = format!("the command of the study{first}: {command}");
+            (command, what)
         }),
         Pane::Results | Pane::Trade => {
             let quantity = app.marked_result();

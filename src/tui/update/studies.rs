@@ -101,8 +101,10 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
     let chosen = app.tab.study.state.quantity.and_then(Quantity::find);
     // A selected result that the choice of `auto` lacks stays that of the study.
     let selected = tab.results.selected.filter(|_| inputs.method == Method::Auto);
-    let quantity = chosen.or_else(|| selected.and_then(Quantity::find));
-    let quantity = quantity.or_else(|| app.marked_result());
+    let selected = selected.and_then(Quantity::find).or_else(|| app.marked_result());
+    // A run over the speed for each point takes minutes: only a chosen result gets one.
+    let selected = selected.filter(|quantity| quantity.stage != Stage::SpeedRun);
+    let quantity = chosen.or(selected).or_else(|| app.listed_results().first().copied());
     let quantity =
         quantity.or_else(|| Quantity::find("impact_force")).ok_or("No result is selected.")?;
     if app.tab.study.state.is_tolerance {

@@ -396,7 +396,7 @@ impl<'a> Charts<'a> {
             })
         });
         let angle = significant(angle.abs().to_degrees(), DIGITS);
-        let place = format!("In the plane at z {z} {angle} deg {side} E");
+        let place = format!("In the plane at z {z} {angle} deg {side} its E");
         format!("{place}: line load {load}. {}", readout(self, cursor))
     }
 
@@ -444,12 +444,21 @@ impl<'a> Charts<'a> {
         let speed = self.answer().map_or(0.0, |answer| answer.inputs.speed);
         let micros = 1f64.to_radians() / speed * 1e6;
         let longest = micros * window.from.abs().max(window.to.abs());
+        let roll_angle =
+            |side: &str| Axis::new(format!("roll angle {side} {}", self.entry()), "deg");
         match self.0.chart.by_time {
-            false if window.to > window.from.abs() => (1.0, Axis::new("roll angle after E", "deg")),
-            false => (-1.0, Axis::new("roll angle before E", "deg")),
+            false if window.to > window.from.abs() => (1.0, roll_angle("after")),
+            false => (-1.0, roll_angle("before")),
             true if longest < MOST_MICROS => (micros, Axis::new("time after E", "us")),
             true => (1e-3 * micros, Axis::new("time after E", "ms")),
         }
+    }
+
+    /// The point from which roll angles count: each plane across the axis of a helical pair has its
+    /// own E.
+    pub(crate) fn entry(self) -> &'static str {
+        let is_helical = self.answer().is_some_and(|answer| answer.inputs.helix_angle > 0.0);
+        if is_helical { "E in mid-face" } else { "E" }
     }
 
     /// The values of a chart within the visible roll angles, with round ends.

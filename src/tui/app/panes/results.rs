@@ -336,10 +336,12 @@ fn sentences(app: &App, is_short: bool) -> Vec<Sentence> {
         let Ok(variant) = app.tab.case.variant(name) else { continue };
         let mut changes = changes::between(&app.tab.case, &app.tab.case.with(variant));
         changes.retain(|change| !change.key.starts_with("variants."));
-        let refused = found.as_ref().err().map(|reason| format!("; refused: {reason}"));
-        let place = if refused.is_some() { Place::Room } else { Place::Page };
-        let (inputs, refused) = (session::summary(&changes), refused.unwrap_or_default());
-        add(format!("Variant {name}: {inputs}{refused}."), fresh(theme.note), place);
+        let found = match found {
+            Ok(solution) => digest::sentence(solution, app.settings.units, false),
+            Err(reason) => format!("Refused: {reason}."),
+        };
+        let inputs = session::summary(&changes);
+        add(format!("Variant {name}: {inputs}. {found}"), fresh(theme.note), Place::Room);
     }
     for note in &answer.notes {
         let place = if note.is_general { Place::Page } else { Place::Room };

@@ -247,7 +247,7 @@ pub fn readout(charts: Charts<'_>, cursor: f64) -> String {
 
 fn place_of_cursor(charts: Charts<'_>, cursor: f64) -> String {
     if cursor == 0.0 {
-        return "At E".to_owned();
+        return format!("At {}", charts.entry());
     }
     let side = if cursor < 0.0 { "after" } else { "before" };
     let speed = charts.answer().map_or(0.0, |answer| answer.inputs.speed);
@@ -257,7 +257,8 @@ fn place_of_cursor(charts: Charts<'_>, cursor: f64) -> String {
     } else {
         String::new()
     };
-    format!("{:.4} deg of the driver {side} E{time}", cursor.abs().to_degrees())
+    let angle = cursor.abs().to_degrees();
+    format!("{angle:.4} deg of the driver {side} {}{time}", charts.entry())
 }
 
 /// Values in SI with their numbers of significant digits, in the unit of the greatest value.

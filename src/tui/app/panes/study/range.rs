@@ -288,17 +288,22 @@ pub(crate) fn typed_axes(
             None => (key().ok_or("name the field: KEY = FROM..TO")?, *part),
         };
         let mut sampling = Sampling::default();
-        while let Some((rest, last)) = values.rsplit_once(',') {
-            let words: Vec<&str> = last.split_whitespace().collect();
-            match words[..] {
-                ["log"] => sampling.is_log = true,
-                [count, "points"] => {
-                    let count = count.parse();
-                    sampling.points = Some(count.map_err(|_| "type a number before points")?);
+        while let Some((rest, word)) = last_word(values) {
+            values = match word {
+                "log" => {
+                    sampling.is_log = true;
+                    rest
+                }
+                "points" => {
+                    let counted =
+                        last_word(rest).and_then(|(rest, count)| Some((rest, count.parse().ok()?)));
+                    let (rest, count) = counted.ok_or("type a number before points")?;
+                    sampling.points = Some(count);
+                    rest
                 }
                 _ => break,
-            }
-            values = rest;
+            };
+            values = values.trim_end_matches([',', ' ']);
         }
         if let Some(count) = sampling.points.filter(|count| *count > MOST_POINTS) {
             return Err(too_many(count));
@@ -315,6 +320,11 @@ pub(crate) fn typed_axes(
     let axes = parts.iter().zip(fields).map(axis).collect::<Result<Vec<_>, String>>()?;
     let count: usize = axes.iter().map(|axis| axis.points.len()).product();
     if count > MOST_POINTS { Err(too_many(count)) } else { Ok(axes) }
+}
+
+/// The text before its last word, and this word; commas and blanks separate words.
+fn last_word(text: &str) -> Option<(&str, &str)> {
+    text.trim_end().rsplit_once([',', ' '])
 }
 
 /// The key of the only field with this symbol, or with this last part of its key.
