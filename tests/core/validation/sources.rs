@@ -321,7 +321,8 @@ pub(super) const SOURCES: &[Source] = &[
             figure("mean mesh stiffness", "N/um", 353.2, mean_stiffness,
                 "partly. The source uses the potential-energy method."),
             figure("equivalent mass", "kg", 0.3493, |inputs| exact(inputs, "reduced_mass"),
-                "partly. The source's body is not known to us in full; the density is assumed.").by_no_model(),
+                "partly. The source has a ring to the root circle, and the mass of each tooth at its centre of \
+                gravity; tipstrike integrates the outline.").by_no_model(),
             figure("relief of least dynamic load, on both gears", "um", 43.58, required_relief,
                 "no, because the teeth of the source are softer by the potential-energy method on base-circle \
                 cantilevers. With that stiffness model the formula of tipstrike gives 43.23 um (-0.8 %). The \
