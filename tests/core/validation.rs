@@ -31,13 +31,15 @@ face load factor, but not its gear pair and its shafts. The cases are in `tests/
 test without the variable checks it.
 ";
 
+type Text = &'static str;
+
 /// A program or standard with published figures.
 pub(crate) struct Source {
-    title: &'static str,
+    title: Text,
     /// The origin of the figures.
-    from: &'static str,
+    from: Text,
     /// The file in `tests/validation`, without its extension.
-    case: &'static str,
+    case: Text,
     figures: &'static [Figure],
 }
 
@@ -46,26 +48,20 @@ type Ours = fn(&Inputs) -> Option<f64>;
 
 /// A published figure.
 pub(crate) struct Figure {
-    name: &'static str,
-    unit: &'static str,
+    name: Text,
+    unit: Text,
     published: f64,
-    ours: fn(&Inputs) -> Option<f64>,
+    ours: Ours,
     /// Whether it depends on the tooth compliance.
     by_model: bool,
     /// The value with the finite elements and without a coupling, which has this name.
-    without: Option<(&'static str, Ours)>,
+    without: Option<(Text, Ours)>,
     /// Whether the comparison is fair, and the reason for the deviation.
-    fair: &'static str,
+    fair: Text,
 }
 
 /// A figure that depends on the tooth compliance.
-const fn figure(
-    name: &'static str,
-    unit: &'static str,
-    published: f64,
-    ours: fn(&Inputs) -> Option<f64>,
-    fair: &'static str,
-) -> Figure {
+const fn figure(name: Text, unit: Text, published: f64, ours: Ours, fair: Text) -> Figure {
     Figure { name, unit, published, ours, by_model: true, without: None, fair }
 }
 
@@ -74,7 +70,7 @@ impl Figure {
         Figure { by_model: false, ..self }
     }
 
-    const fn without(self, name: &'static str, ours: fn(&Inputs) -> Option<f64>) -> Figure {
+    const fn without(self, name: Text, ours: Ours) -> Figure {
         Figure { without: Some((name, ours)), ..self }
     }
 }

@@ -104,10 +104,8 @@ pub(super) fn section() -> String {
             let difference: Vec<f64> =
                 ours.iter().zip(&source).map(|(one, other)| one - other).collect();
             let square = difference.iter().map(|one| one * one).sum::<f64>() / f64::from(PLACES);
-            let number = (0..PLACES).max_by(|a, b| {
-                difference[*a as usize].abs().total_cmp(&difference[*b as usize].abs())
-            });
-            let number = number.unwrap();
+            let size = |number: &u32| difference[*number as usize].abs();
+            let number = (0..PLACES).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap();
             writeln!(
                 text,
                 "| {head} | {name} | {:.3} | {:.3} | {:.3} | {:+.3} | {:.2} |",

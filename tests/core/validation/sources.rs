@@ -9,7 +9,7 @@ use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Method, ToothComp
 use tipstrike::model::position::tip_at;
 use tipstrike::model::static_load::{StaticLoad, static_load};
 use tipstrike::model::stations::Spacing;
-use tipstrike::model::{Inputs, Solution, Stages, Station, solve};
+use tipstrike::model::{Inputs, Solution, Stage, Stages, Station, solve};
 
 use super::{Source, figure};
 use crate::stiffness::{ISO_PAIRS, at_pitch, iso_single_stiffness, pairs, stiffness, theoretical};
@@ -18,9 +18,7 @@ use crate::support::value;
 const PER_MICROMETRE: f64 = 1e-6;
 
 fn solved(inputs: &Inputs, method: Method) -> Option<Solution> {
-    let inputs = Inputs { method, ..inputs.clone() };
-    let wanted = Stages::EVERY.without(tipstrike::model::Stage::Clearing);
-    solve(&inputs, wanted).ok()
+    solve(&Inputs { method, ..inputs.clone() }, Stages::EVERY.without(Stage::Clearing)).ok()
 }
 
 fn by(inputs: &Inputs, method: Method, key: &str) -> Option<f64> {
@@ -79,10 +77,10 @@ fn stiffness_at(inputs: &Inputs, way: f64) -> Option<f64> {
     Some(best.1)
 }
 
-fn greatest_stiffness(inputs: &Inputs) -> Option<f64> {
-    let curve = mesh_stiffness(inputs)?;
-    let within = curve.iter().filter(|(way, _)| (0.0..=1.0).contains(way));
-    within.map(|&(_, stiffness)| stiffness).max_by(f64::total_cmp)
+/// Mesh stiffness over a base pitch, in N/um.
+fn stiffness_of_pitch(inputs: &Inputs) -> Option<impl Iterator<Item = f64>> {
+    let curve = mesh_stiffness(inputs)?.into_iter();
+    Some(curve.filter(|(way, _)| (0.0..=1.0).contains(way)).map(|(_, stiffness)| stiffness))
 }
 
 /// The least stiffness of a pair on the path, in N/um.
@@ -101,12 +99,7 @@ fn least_pair_stiffness(inputs: &Inputs) -> Option<f64> {
 /// The same pair whose driver is a sun with a number of planets, which share its mass.
 fn sharing(inputs: &Inputs, planets: f64) -> Inputs {
     let inertia = exact(inputs, "inertia_driver").map(|inertia| inertia / planets);
-    Inputs { driver: Gear { inertia, ..inputs.driver.clone() }, ..inputs.clone() }
-}
-
-/// Speed of the main resonance, in rpm.
-fn resonance_speed(inputs: &Inputs) -> Option<f64> {
-    Some(by(inputs, Method::Static, "resonance_speed")? * 30.0 / PI)
+    Inputs { driver: Gear { inertia, ..inputs.driver }, ..inputs.clone() }
 }
 
 /// The dynamic factor of ISO 6336-1 with a base pitch deviation of each gear, in um.
@@ -122,11 +115,6 @@ fn single_stiffness(inputs: &Inputs) -> Option<f64> {
     let geometry = geometry::<f64>(&inputs.shape()).ok()?;
     let way = geometry.approach_length / geometry.base_pitch;
     Some(stiffness_at(inputs, way)? / (1e3 * inputs.common_width()))
-}
-
-/// The same without friction, which vanishes at the pitch point.
-fn single_stiffness_without_friction(inputs: &Inputs) -> Option<f64> {
-    single_stiffness(&Inputs { friction_coefficient: None, ..inputs.clone() })
 }
 
 /// Compliance of both teeth without contact at a place, with the twist of both bodies, in um mm/N.
@@ -296,15 +284,11 @@ const LIGHT: &str = "partly. The pair, its damping and the load are the same. Th
     stiffness, inertia and load share with its own models, and without contact outside the line of \
     action. Near a resonance a small difference in stiffness changes the factor strongly.";
 
+#[rustfmt::skip]
 macro_rules! light {
     ($speed:literal, $published:literal, $fair:expr) => {
-        figure(
-            concat!("dynamic factor of one tooth at ", $speed, " rpm"),
-            "",
-            $published,
-            |inputs| light_factor(inputs, f64::from($speed)),
-            $fair,
-        )
+        figure(concat!("dynamic factor of one tooth at ", $speed, " rpm"), "", $published,
+            |inputs| light_factor(inputs, f64::from($speed)), $fair)
     };
 }
 
@@ -324,7 +308,8 @@ macro_rules! nrel {
                 |inputs| per_um(inputs, Method::Static, "mesh_stiffness_per_width"), MODEL),
             figure("reduced mass per width", "kg/mm", $mass, |inputs| mass_per_width(&sharing(inputs, $planets)), RINGS).by_no_model(),
             figure("resonance ratio N", "", $ratio, |inputs| by(&sharing(inputs, $planets), Method::Static, "resonance_ratio"), SPEED),
-            figure("resonance speed n_E1", "rpm", $speed, |inputs| resonance_speed(&sharing(inputs, $planets)), SPEED),
+            figure("resonance speed n_E1", "rpm", $speed,
+                |inputs| Some(by(&sharing(inputs, $planets), Method::Static, "resonance_speed")? * 30.0 / PI), SPEED),
             figure(concat!("dynamic factor K_V, with its base pitch deviations of ", $driver, " and ", $driven, " um"), "", $factor,
                 |inputs| iso_dynamic_factor(&sharing(inputs, $planets), $driver, $driven), FACTOR).by_no_model(),
         ] }
@@ -333,101 +318,73 @@ macro_rules! nrel {
 
 #[rustfmt::skip]
 pub(super) const SOURCES: &[Source] = &[
-    Source {
-        title: "ROSS",
-        from: "petrobras/ross, its gear tests, the same in version 2.3.0; potential energy, constant contact",
-        case: "ross-62-62",
-        figures: &[
-            figure("contact ratio", "", 1.789_779_866_8, |inputs| exact(inputs, "contact_ratio"), GEOMETRY).by_no_model(),
-            figure("mesh stiffness at the start of double contact", "N/um", 396.62, |inputs| stiffness_at(inputs, 0.0),
-                SUM_OF_ENERGY),
-            figure("greatest mesh stiffness", "N/um", 419.57, greatest_stiffness, SUM_OF_ENERGY),
-            figure("mean of its curve over a base pitch, 2.3.0", "N/um", 373.51, mean_stiffness, "partly, for the same reasons."),
-            figure("its one value of the mesh stiffness, 2.3.0", "N/um", 409.66, mean_stiffness,
-                "no. Version 2.3.0 computes it as ε_α b E_1 E_2/(9 (E_1 + E_2)), without the shape of the teeth; until \
-                then it was the greatest of the curve. It is 9.7 % above the mean of its own curve."),
-            figure("polar inertia of a gear", "kg m2", 0.003_602_5, |inputs| exact(inputs, "inertia_driver"),
-                "partly. The source takes a disc to the reference circle; tipstrike integrates the outline.").by_no_model(),
-        ],
-    },
-    Source {
-        title: "Dias et al. 2024",
-        from: "code TPM-Vibration, figures of its port",
-        case: "dias-27-35",
-        figures: &[
-            figure("mean mesh stiffness", "N/um", 353.2, mean_stiffness,
-                "partly. The source uses the potential-energy method."),
-            figure("equivalent mass", "kg", 0.3493, |inputs| exact(inputs, "reduced_mass"),
-                "partly. The source has a ring to the root circle, and the mass of each tooth at its centre of \
-                gravity; tipstrike integrates the outline.").by_no_model(),
-            figure("relief of least dynamic load, on both gears", "um", 43.58, required_relief,
-                "no, because the teeth of the source are softer by the potential-energy method on base-circle \
-                cantilevers. With that stiffness model the formula of tipstrike gives 43.23 um (-0.8 %). The \
-                source minimizes the dynamic load; tipstrike's figure is the relief of the driven tip without \
-                contact before E."),
-            light!(500, 1.327, LIGHT),
-            light!(1000, 1.322, ""),
-            light!(2000, 1.263, ""),
-            light!(3000, 1.368, ""),
-            light!(4000, 1.202, ""),
-            light!(5000, 1.519, ""),
-            light!(7000, 1.078, ""),
-        ],
-    },
-    Source {
-        title: "Chen & Shao 2011",
-        from: "Chen & Shao 2011, potential energy, as quoted by later papers",
-        case: "chen-shao-30-25",
-        figures: &[figure("least stiffness of a pair", "N/um", 152.0, least_pair_stiffness,
+    Source { title: "ROSS", case: "ross-62-62",
+        from: "petrobras/ross, its gear tests, the same in version 2.3.0; potential energy, constant contact", figures: &[
+        figure("contact ratio", "", 1.789_779_866_8, |inputs| exact(inputs, "contact_ratio"), GEOMETRY).by_no_model(),
+        figure("mesh stiffness at the start of double contact", "N/um", 396.62, |inputs| stiffness_at(inputs, 0.0), SUM_OF_ENERGY),
+        figure("greatest mesh stiffness", "N/um", 419.57, |inputs| stiffness_of_pitch(inputs)?.reduce(f64::max), SUM_OF_ENERGY),
+        figure("mean of its curve over a base pitch, 2.3.0", "N/um", 373.51, mean_stiffness, "partly, for the same reasons."),
+        figure("its one value of the mesh stiffness, 2.3.0", "N/um", 409.66, mean_stiffness,
+            "no. Version 2.3.0 computes it as ε_α b E_1 E_2/(9 (E_1 + E_2)), without the shape of the teeth; until \
+            then it was the greatest of the curve. It is 9.7 % above the mean of its own curve."),
+        figure("polar inertia of a gear", "kg m2", 0.003_602_5, |inputs| exact(inputs, "inertia_driver"),
+            "partly. The source takes a disc to the reference circle; tipstrike integrates the outline.").by_no_model(),
+    ] },
+    Source { title: "Dias et al. 2024", case: "dias-27-35",
+        from: "code TPM-Vibration, figures of its port", figures: &[
+        figure("mean mesh stiffness", "N/um", 353.2, mean_stiffness, "partly. The source uses the potential-energy method."),
+        figure("equivalent mass", "kg", 0.3493, |inputs| exact(inputs, "reduced_mass"),
+            "partly. The source has a ring to the root circle, and the mass of each tooth at its centre of \
+            gravity; tipstrike integrates the outline.").by_no_model(),
+        figure("relief of least dynamic load, on both gears", "um", 43.58, required_relief,
+            "no, because the teeth of the source are softer by the potential-energy method on base-circle \
+            cantilevers. With that stiffness model the formula of tipstrike gives 43.23 um (-0.8 %). The \
+            source minimizes the dynamic load; tipstrike's figure is the relief of the driven tip without \
+            contact before E."),
+        light!(500, 1.327, LIGHT), light!(1000, 1.322, ""), light!(2000, 1.263, ""), light!(3000, 1.368, ""),
+        light!(4000, 1.202, ""), light!(5000, 1.519, ""), light!(7000, 1.078, ""),
+    ] },
+    Source { title: "Chen & Shao 2011", case: "chen-shao-30-25",
+        from: "Chen & Shao 2011, potential energy, as quoted by later papers", figures: &[
+        figure("least stiffness of a pair", "N/um", 152.0, least_pair_stiffness,
             "partly. The figure is second-hand, and bores and fillets of the source are not known to us. The source \
-            uses the potential-energy method.")],
-    },
-    Source {
-        title: "GEARpie, FZG C14",
-        from: "GEARpie's report on FZG C14; DIN 3990",
-        case: "fzg-c14",
-        figures: &[
-            figure("contact ratio", "", 1.46, |inputs| exact(inputs, "contact_ratio"), GEOMETRY).by_no_model(),
-            figure("path of contact", "mm", 19.43, path_length, GEOMETRY).by_no_model(),
-            figure("force along the line of action", "N", 5912.1, |inputs| exact(inputs, "mesh_force"), "yes. It is torque over base radius.").by_no_model(),
-            figure("reduced mass per width", "kg/mm", 0.012_86, mass_per_width,
-                "partly. DIN 3990 takes a disc to the mean diameter; tipstrike integrates the outline. The bores \
-                are assumed.").by_no_model(),
-            figure("dynamic factor K_V at 1500 rpm", "", 1.02, dynamic_factor,
-                "no. K_V applies to the whole mesh, follows an empirical rule and includes pitch deviations. The \
-                factor of tipstrike is the peak force of one tooth in motion divided by its peak force at rest, \
-                without deviations."),
-            figure("dynamic factor K_V in resonance", "", 2.01, resonant_factor, "no, for the same reason."),
-        ],
-    },
-    Source {
-        title: "ISO/TR 6336-30, example 1",
-        from: "ISO/TR 6336-30, example 1, taken as a spur pair",
-        case: "iso-6336-30-1",
-        figures: &[figure("c'/cos β", "N/(um mm)", 12.86, single_stiffness,
-                "partly. The example is helical, and c' is a fit to measured stiffness without the twist of the \
-                body. `beam` and `finite-element` also exclude the twist.")],
-    },
-    Source {
-        title: "ISO/TR 6336-30, example 1, as a helical pair",
-        from: "ISO/TR 6336-30, example 1",
-        case: "iso-6336-30-1-helical",
-        figures: &[
-            figure("virtual teeth of the driver", "", 18.905, |inputs| exact(inputs, "virtual_teeth_driver"), GEOMETRY).by_no_model(),
-            figure("virtual teeth of the driven gear", "", 114.543, |inputs| exact(inputs, "virtual_teeth_driven"), "").by_no_model(),
-            figure("tangential force", "N", 127_352.0, |inputs| exact(inputs, "tangential_force"), FORCE).by_no_model(),
-            figure("c'_th", "N/(um mm)", 17.855_84, |inputs| Some(theoretical(inputs)), FORMULAS).by_no_model(),
-            figure("c'", "N/(um mm)", 12.370_47, |inputs| per_um(inputs, Method::Exact, "iso_single_stiffness"), FORMULAS).by_no_model(),
-            figure("c_gamma_alpha", "N/(um mm)", 17.464_85, |inputs| per_um(inputs, Method::Exact, "iso_mesh_stiffness"), FORMULAS).by_no_model(),
-            figure("c_gamma_alpha, by the models", "N/(um mm)", 17.464_85,
-                |inputs| per_um(inputs, Method::Static, "mesh_stiffness_per_width"),
-                "partly. c_gamma contains the factor 0.8 between theory and measurement; the models do not."),
-            figure("face load factor K_Hβ, with a misalignment of 27.5 um", "", 1.16,
-                |inputs| by(&Inputs { misalignment: 27.5e-6, ..inputs.clone() }, Method::Static, "face_load_factor"),
-                "partly. The misalignment of the example is not known to us; 27.5 um gives 1.16 by method C with its \
-                c_γβ of 14.845 N/(um mm), a constant stiffness. The models have slices."),
-        ],
-    },
+            uses the potential-energy method."),
+    ] },
+    Source { title: "GEARpie, FZG C14", case: "fzg-c14",
+        from: "GEARpie's report on FZG C14; DIN 3990", figures: &[
+        figure("contact ratio", "", 1.46, |inputs| exact(inputs, "contact_ratio"), GEOMETRY).by_no_model(),
+        figure("path of contact", "mm", 19.43, path_length, GEOMETRY).by_no_model(),
+        figure("force along the line of action", "N", 5912.1, |inputs| exact(inputs, "mesh_force"), "yes. It is torque over base radius.").by_no_model(),
+        figure("reduced mass per width", "kg/mm", 0.012_86, mass_per_width,
+            "partly. DIN 3990 takes a disc to the mean diameter; tipstrike integrates the outline. The bores are assumed.").by_no_model(),
+        figure("dynamic factor K_V at 1500 rpm", "", 1.02, dynamic_factor,
+            "no. K_V applies to the whole mesh, follows an empirical rule and includes pitch deviations. The \
+            factor of tipstrike is the peak force of one tooth in motion divided by its peak force at rest, \
+            without deviations."),
+        figure("dynamic factor K_V in resonance", "", 2.01, resonant_factor, "no, for the same reason."),
+    ] },
+    Source { title: "ISO/TR 6336-30, example 1", case: "iso-6336-30-1",
+        from: "ISO/TR 6336-30, example 1, taken as a spur pair", figures: &[
+        figure("c'/cos β", "N/(um mm)", 12.86, single_stiffness,
+            "partly. The example is helical, and c' is a fit to measured stiffness without the twist of the \
+            body. `beam` and `finite-element` also exclude the twist."),
+    ] },
+    Source { title: "ISO/TR 6336-30, example 1, as a helical pair", case: "iso-6336-30-1-helical",
+        from: "ISO/TR 6336-30, example 1", figures: &[
+        figure("virtual teeth of the driver", "", 18.905, |inputs| exact(inputs, "virtual_teeth_driver"), GEOMETRY).by_no_model(),
+        figure("virtual teeth of the driven gear", "", 114.543, |inputs| exact(inputs, "virtual_teeth_driven"), "").by_no_model(),
+        figure("tangential force", "N", 127_352.0, |inputs| exact(inputs, "tangential_force"), FORCE).by_no_model(),
+        figure("c'_th", "N/(um mm)", 17.855_84, |inputs| Some(theoretical(inputs)), FORMULAS).by_no_model(),
+        figure("c'", "N/(um mm)", 12.370_47, |inputs| per_um(inputs, Method::Exact, "iso_single_stiffness"), FORMULAS).by_no_model(),
+        figure("c_gamma_alpha", "N/(um mm)", 17.464_85, |inputs| per_um(inputs, Method::Exact, "iso_mesh_stiffness"), FORMULAS).by_no_model(),
+        figure("c_gamma_alpha, by the models", "N/(um mm)", 17.464_85,
+            |inputs| per_um(inputs, Method::Static, "mesh_stiffness_per_width"),
+            "partly. c_gamma contains the factor 0.8 between theory and measurement; the models do not."),
+        figure("face load factor K_Hβ, with a misalignment of 27.5 um", "", 1.16,
+            |inputs| by(&Inputs { misalignment: 27.5e-6, ..inputs.clone() }, Method::Static, "face_load_factor"),
+            "partly. The misalignment of the example is not known to us; 27.5 um gives 1.16 by method C with its \
+            c_γβ of 14.845 N/(um mm), a constant stiffness. The models have slices."),
+    ] },
     nrel!("stage 1", "report of KISSsoft 03/2017A in gfsReboucas/Drivetrain, sun and planet", "kisssoft-nrel-1", 3.0,
         [figure("contact ratio", "", 1.115, |inputs| exact(inputs, "contact_ratio"), GEOMETRY).by_no_model()],
         [1587.48, 12.362, 13.426, 0.6606, 0.016, 2266.0], 1.01 with 31.0 and 31.0),
@@ -442,85 +399,69 @@ pub(super) const SOURCES: &[Source] = &[
             "no. C_eff is 1.25 w/c_gamma, the mean deflection of the mesh. tipstrike's figure is the relief of the \
             driven tip without contact before E.")],
         [666.85, 13.832, 18.632, 0.365_03, 0.410, 2843.0], 1.092 with 13.1 and 15.9),
-    Source {
-        title: "GEARpie, gear H501",
-        from: "GEARpie, helical gear H501",
-        case: "gearpie-h501",
-        figures: &[
-            figure("transverse contact ratio", "", 1.46, |inputs| exact(inputs, "contact_ratio"), GEOMETRY).by_no_model(),
-            figure("overlap ratio", "", 0.54, |inputs| exact(inputs, "overlap_ratio"), GEOMETRY).by_no_model(),
-            figure("transverse base pitch", "mm", 10.652, |inputs| Some(1e3 * exact(inputs, "base_pitch")?), GEOMETRY).by_no_model(),
-            figure("path of contact", "mm", 15.55, path_length, GEOMETRY).by_no_model(),
-            figure("force along the line of action", "N", 2949.2, |inputs| exact(inputs, "mesh_force"), FORCE).by_no_model(),
-            figure("axial force", "N", 739.5, |inputs| exact(inputs, "axial_force"), FORCE).by_no_model(),
-        ],
-    },
-    Source {
-        title: "Helical contact outside the path of contact",
-        from: "git-akai/gearcalc, record `phase/h20` of its field oracle",
-        case: "gearcalc-17-43-helical",
-        figures: &[
-            figure("mean number of pairs in contact", "", 2.587_17, pairs_over_face,
-                "partly. The pair, the load, the friction and the rounded tips are the same. The source has \
-                independent slices whose tooth is computed by its potential energy.")
-                .without("independent slices", |inputs| pairs_over_face(&of_slices(inputs))),
-            figure("mean length of the contact lines", "mm", 15.4507, contact_length,
-                "partly, for the same reasons. Here the slices that touch are counted.")
-                .without("independent slices", |inputs| contact_length(&of_slices(inputs))),
-            figure("part of the force on tip edges", "%", 1.787, force_on_tips,
-                "partly, for the same reasons, and because the part beyond the ends of the path differs with the \
-                stiffness of the pair.")
-                .without("independent slices", |inputs| force_on_tips(&of_slices(inputs))),
-        ],
-    },
-    Source {
-        title: "Plane-strain finite elements",
-        from: "git-akai/gearcalc, notes",
-        case: "gearcalc-17-43",
-        figures: &[
-            figure("both teeth without contact at the pitch point, with the twist of the bodies", "um mm/N", 0.043_11,
-                |inputs| teeth_alone(inputs, |geometry| geometry.start + geometry.approach_length),
-                "yes. The same pair, bores and elasticity, by finite elements in plane strain. The source includes \
-                the twist of the bodies, which the models here exclude; the table adds it by its closed form."),
-            figure("both teeth without contact at the wheel's tip, with the twist of the bodies", "um mm/N", 0.070_37,
-                |inputs| teeth_alone(inputs, |geometry| geometry.start),
-                "partly, with the same remark. The place of the load patch at the tip corner is not known to us."),
-            figure("c' at the pitch point", "N/(um mm)", 17.06, single_stiffness,
-                "partly. The load of the source is not known to us, and the contact depends on it."),
-        ],
-    },
-    Source {
-        title: "Contact outside the line of action",
-        from: "git-akai/gearcalc, two-dimensional contact model: the spur pair of its \
-                    field oracle, records `phase/s0` and `state/s0/0.75`",
-        case: "gearcalc-17-43-rounded",
-        figures: &[
-            figure("pair stiffness at the pitch point", "N/(um mm)", 15.821, single_stiffness_without_friction,
-                "partly. The pair and the load of 250.4 N/mm are the same. The source computes the tooth by its \
-                potential energy with the foundation of a half-plane, not by finite elements."),
-            figure("first contact before the path begins, pinion", "deg", 2.155, |inputs| first_contact(inputs, true),
-                "partly. The pair, the load, the friction and the rounded tips are the same, but in the source no \
-                tooth displaces its neighbours. The row with independent teeth shows how much of the deviation of \
-                `finite-element` this explains. The rest agrees in sign with the softer pair of the source; \
-                whether it has other reasons is not known. `beam` has independent teeth and nearly the pair \
-                stiffness of the source. `kuang-yang` is softer, so its contact begins too early.")
-                .without("independent teeth", |inputs| first_contact(inputs, false)),
-            figure("last contact after the path ends, pinion", "deg", 3.229, |inputs| last_contact(inputs, true),
-                "partly, for the same reasons.").without("independent teeth", |inputs| last_contact(inputs, false)),
-            figure("mean number of loaded pairs", "", 1.8032, |inputs| loaded_pairs(inputs, true),
-                "partly, for the same reasons.").without("independent teeth", |inputs| loaded_pairs(inputs, false)),
-            figure("force of the entering pair where the wheel's tip touches the pinion radius 8.0282 mm", "N/mm", 91.46,
-                |inputs| force_before_path(inputs, 8.0282e-3, true),
-                "partly, for the same reasons. The source gives the force in the middle of the face, tipstrike the \
-                mean over the face width. The contact is on the rounded tip before the path begins.")
-                .without("independent teeth", |inputs| force_before_path(inputs, 8.0282e-3, false)),
-        ],
-    },
+    Source { title: "GEARpie, gear H501", case: "gearpie-h501",
+        from: "GEARpie, helical gear H501", figures: &[
+        figure("transverse contact ratio", "", 1.46, |inputs| exact(inputs, "contact_ratio"), GEOMETRY).by_no_model(),
+        figure("overlap ratio", "", 0.54, |inputs| exact(inputs, "overlap_ratio"), GEOMETRY).by_no_model(),
+        figure("transverse base pitch", "mm", 10.652, |inputs| Some(1e3 * exact(inputs, "base_pitch")?), GEOMETRY).by_no_model(),
+        figure("path of contact", "mm", 15.55, path_length, GEOMETRY).by_no_model(),
+        figure("force along the line of action", "N", 2949.2, |inputs| exact(inputs, "mesh_force"), FORCE).by_no_model(),
+        figure("axial force", "N", 739.5, |inputs| exact(inputs, "axial_force"), FORCE).by_no_model(),
+    ] },
+    Source { title: "Helical contact outside the path of contact", case: "gearcalc-17-43-helical",
+        from: "git-akai/gearcalc, record `phase/h20` of its field oracle", figures: &[
+        figure("mean number of pairs in contact", "", 2.587_17, pairs_over_face,
+            "partly. The pair, the load, the friction and the rounded tips are the same. The source has \
+            independent slices whose tooth is computed by its potential energy.")
+            .without("independent slices", |inputs| pairs_over_face(&of_slices(inputs))),
+        figure("mean length of the contact lines", "mm", 15.4507, contact_length,
+            "partly, for the same reasons. Here the slices that touch are counted.")
+            .without("independent slices", |inputs| contact_length(&of_slices(inputs))),
+        figure("part of the force on tip edges", "%", 1.787, force_on_tips,
+            "partly, for the same reasons, and because the part beyond the ends of the path differs with the \
+            stiffness of the pair.")
+            .without("independent slices", |inputs| force_on_tips(&of_slices(inputs))),
+    ] },
+    Source { title: "Plane-strain finite elements", case: "gearcalc-17-43",
+        from: "git-akai/gearcalc, notes", figures: &[
+        figure("both teeth without contact at the pitch point, with the twist of the bodies", "um mm/N", 0.043_11,
+            |inputs| teeth_alone(inputs, |geometry| geometry.start + geometry.approach_length),
+            "yes. The same pair, bores and elasticity, by finite elements in plane strain. The source includes \
+            the twist of the bodies, which the models here exclude; the table adds it by its closed form."),
+        figure("both teeth without contact at the wheel's tip, with the twist of the bodies", "um mm/N", 0.070_37,
+            |inputs| teeth_alone(inputs, |geometry| geometry.start),
+            "partly, with the same remark. The place of the load patch at the tip corner is not known to us."),
+        figure("c' at the pitch point", "N/(um mm)", 17.06, single_stiffness,
+            "partly. The load of the source is not known to us, and the contact depends on it."),
+    ] },
+    Source { title: "Contact outside the line of action", case: "gearcalc-17-43-rounded",
+        from: "git-akai/gearcalc, two-dimensional contact model: the spur pair of its field oracle, records `phase/s0` and `state/s0/0.75`", figures: &[
+        figure("pair stiffness at the pitch point", "N/(um mm)", 15.821,
+            |inputs| single_stiffness(&Inputs { friction_coefficient: None, ..inputs.clone() }),
+            "partly. The pair and the load of 250.4 N/mm are the same. The source computes the tooth by its \
+            potential energy with the foundation of a half-plane, not by finite elements."),
+        figure("first contact before the path begins, pinion", "deg", 2.155, |inputs| first_contact(inputs, true),
+            "partly. The pair, the load, the friction and the rounded tips are the same, but in the source no \
+            tooth displaces its neighbours. The row with independent teeth shows how much of the deviation of \
+            `finite-element` this explains. The rest agrees in sign with the softer pair of the source; \
+            whether it has other reasons is not known. `beam` has independent teeth and nearly the pair \
+            stiffness of the source. `kuang-yang` is softer, so its contact begins too early.")
+            .without("independent teeth", |inputs| first_contact(inputs, false)),
+        figure("last contact after the path ends, pinion", "deg", 3.229, |inputs| last_contact(inputs, true),
+            "partly, for the same reasons.").without("independent teeth", |inputs| last_contact(inputs, false)),
+        figure("mean number of loaded pairs", "", 1.8032, |inputs| loaded_pairs(inputs, true),
+            "partly, for the same reasons.").without("independent teeth", |inputs| loaded_pairs(inputs, false)),
+        figure("force of the entering pair where the wheel's tip touches the pinion radius 8.0282 mm", "N/mm", 91.46,
+            |inputs| force_before_path(inputs, 8.0282e-3, true),
+            "partly, for the same reasons. The source gives the force in the middle of the face, tipstrike the \
+            mean over the face width. The contact is on the rounded tip before the path begins.")
+            .without("independent teeth", |inputs| force_before_path(inputs, 8.0282e-3, false)),
+    ] },
 ];
 
 /// The stiffness of pairs compared with ISO 6336-1.
 pub(super) fn iso_table() -> String {
-    let names: Vec<&str> = ToothCompliance::ALL.map(ToothCompliance::name).into();
+    let names = ToothCompliance::ALL.map(ToothCompliance::name);
     let mut text = format!(
         "\n## ISO 6336-1, method B\n\nSource: ISO 6336-1, c' at 300 N/mm, in N/(um mm). Inputs: the case \
          files of the table, in `tests/validation/`. Each gear is bored to a third of its root radius; the \
