@@ -330,6 +330,14 @@ pub(super) const SOURCES: &[Source] = &[
         figure("polar inertia of a gear", "kg m2", 0.003_602_5, |inputs| exact(inputs, "inertia_driver"),
             "partly. The source takes a disc to the reference circle; tipstrike integrates the outline.").by_no_model(),
     ] },
+    Source { title: "ROSS, pair with backlash", case: "ross-20-20",
+        from: "petrobras/ross at 631a249a, its test of a mesh with backlash, means over a motion", figures: &[
+        figure("contact ratio", "", 1.552_51, |inputs| exact(inputs, "contact_ratio"), GEOMETRY).by_no_model(),
+        figure("mesh force", "N", 3191.996, |inputs| exact(inputs, "mesh_force"), FORCE).by_no_model(),
+        figure("mesh stiffness", "N/um", 517.925, mean_stiffness,
+            "no. It is a square wave about ε_α b E_1 E_2/(9 (E_1 + E_2)), without the shape of the teeth. The mean transmission \
+            error of 71.53 um is not compared: it contains 64.98 um of backlash with a chosen error."),
+    ] },
     Source { title: "Dias et al. 2024", case: "dias-27-35",
         from: "code TPM-Vibration, figures of its port", figures: &[
         figure("mean mesh stiffness", "N/um", 353.2, mean_stiffness, "partly. The source uses the potential-energy method."),
