@@ -23,12 +23,13 @@ Nothing on this page is a measurement, and nothing in tipstrike is compared with
 no published measurement with all its inputs. The tooth forces of NASA's gear noise rig and the
 dynamic transmission errors of Kubur and Kahraman are candidates for a later comparison.
 
-This page compares tipstrike with figures of other programs and of standards. These
-figures are model results too, so agreement only shows that two models agree. The page also lists
-disagreements. RIKOR's standard test 001 is not compared: we know its forces, mesh stiffness and
-face load factor, but not its gear pair and its shafts. The cases are in `tests/validation/`.
-`TIPSTRIKE_REGENERATE=1 cargo test --test core validation::` writes the page again, and the same
-test without the variable checks it.
+This page compares tipstrike with figures of other programs and of standards. These figures are model
+results too, so agreement only shows that two models agree. The page also lists disagreements.
+RIKOR's standard test 001 is not compared: we know its forces, mesh stiffness and face load factor, but
+not its gear pair and its shafts. KISSsoft's planets with their rings are not compared because tipstrike
+has no internal gears, and its line load w_Bt because tipstrike has no application factor. The cases are
+in `tests/validation/`. `TIPSTRIKE_REGENERATE=1 cargo test --test core validation::` writes the page
+again, and the same test without the variable checks it.
 ";
 
 type Text = &'static str;

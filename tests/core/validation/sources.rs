@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::fmt::Write as _;
 
 use tipstrike::model::compliance::{ContactPlace, Teeth};
+use tipstrike::model::figures::Hertz;
 use tipstrike::model::geometry::{Circles, Geometry, geometry};
 use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Method, ToothCompliance};
 use tipstrike::model::position::tip_at;
@@ -251,6 +252,26 @@ fn over_passage(inputs: &Inputs, of: fn(f64, f64, &Geometry) -> f64) -> Option<f
     Some(all.windows(2).map(between).sum::<f64>() / geometry.base_pitch)
 }
 
+/// Greatest Hertz pressure of both flanks over the face at rest, in MPa.
+fn flank_pressure(inputs: &Inputs) -> Option<f64> {
+    let solution = solved(&dense(inputs), Method::Static)?;
+    let stations = &solution.static_load.as_ref()?.stations;
+    Some(
+        PER_MICROMETRE
+            * stations.iter().filter_map(|one| solution.pressure(one)).reduce(f64::max)?,
+    )
+}
+
+/// Hertz pressure of the greatest line load before E between the rounded driven tip and the driver's
+/// flank, in MPa.
+fn edge_pressure(inputs: &Inputs) -> Option<f64> {
+    let solution = solved(inputs, Method::Static)?;
+    let flank = solution.geometry.start * inputs.face()?.oblique;
+    let edge = inputs.driven.tip_radius?;
+    let force = value(&solution, "static_entry_line_load")? * inputs.common_width();
+    Some(PER_MICROMETRE * Hertz::of(inputs).pressure(force, flank * edge / (flank + edge)))
+}
+
 /// The same pair with independent slices.
 pub(super) fn of_slices(inputs: &Inputs) -> Inputs {
     Inputs { slice_coupling: false, ..inputs.clone() }
@@ -456,6 +477,20 @@ pub(super) const SOURCES: &[Source] = &[
             "partly, for the same reasons, and because the part beyond the ends of the path differs with the \
             stiffness of the pair.")
             .without("independent slices", |inputs| force_on_tips(&of_slices(inputs))),
+        figure("total contact ratio with sharp tips", "", 2.580_562, |inputs| {
+            let mut sharp = inputs.clone();
+            (sharp.driver.tip_radius, sharp.driven.tip_radius) = (None, None);
+            exact(&sharp, "total_contact_ratio")
+        }, GEOMETRY).by_no_model(),
+        figure("greatest pressure, at the wheel's tip edge", "MPa", 1992.94, edge_pressure,
+            "partly. Pair, load and edge radius are the same. The contact line ends at this edge, and in coupled slices the \
+            unloaded tooth beyond takes part: the line load is 2.6 times that of independent slices. The source has the \
+            contact of flank and edge together; here the greatest line load before E is on the edge alone.")
+            .without("independent slices", |inputs| edge_pressure(&of_slices(inputs))),
+        figure("greatest pressure of the flanks", "MPa", 1606.50, flank_pressure,
+            "no. On the flank alone this pressure needs 65 N/mm at E, so in the source a part of this contact is on the edge. \
+            tipstrike has Hertz's pressure of two flanks.")
+            .without("independent slices", |inputs| flank_pressure(&of_slices(inputs))),
     ] },
     Source { title: "Plane-strain finite elements", case: "gearcalc-17-43",
         from: "git-akai/gearcalc, notes", figures: &[
