@@ -327,8 +327,19 @@ impl Face {
         ahead: i32,
         path: f64,
     ) -> Option<(f64, f64, f64)> {
-        let pair = loads.index(ahead)?;
         let z = (path - loads.s - f64::from(ahead) * self.mesh.base_pitch) / self.inputs.lead;
+        let (lead, compliance) = self.lead_at(loads, ahead, (z, path))?;
+        Some((lead, compliance, z))
+    }
+
+    /// The lead of a pair at any z, where it is at `path`, in m, with the compliance there.
+    pub(super) fn lead_at(
+        &self,
+        loads: &Loads,
+        ahead: i32,
+        (z, path): (f64, f64),
+    ) -> Option<(f64, f64)> {
+        let pair = loads.index(ahead)?;
         let after = self.slices.partition_point(|slice| slice.z < z);
         // An end of the face counts as on it, whatever the rounding; without a lead z is no number.
         let (from, to) = self.mesh.ends();
@@ -349,7 +360,7 @@ impl Face {
         let teeth = cubic(rest, one) + cubic(part, other);
         let (local, root) = self.compliances(z, path);
         let lead = ahead_of - self.sections.one(0, path) - self.inputs.gap(z) - root * teeth;
-        Some((lead, local + self.own(root), z))
+        Some((lead, local + self.own(root)))
     }
 
     /// q_c and √(1 + ε) √q_t at a place of the face and of the path.

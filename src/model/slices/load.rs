@@ -183,6 +183,18 @@ impl Face {
         if bend > 0.0 { (z - 0.5 * slope / bend).clamp(before.0, after.0) } else { z }
     }
 
+    /// The greatest lead of the incoming tooth over the face, in m, and its place, which can be between
+    /// slices.
+    fn touch(&self, loads: &Loads) -> (f64, FacePlace) {
+        let path = |z: f64| loads.s + z * self.inputs.lead;
+        let (_, at) = loads.lead(0);
+        let near = at.saturating_sub(1)..(at + 2).min(self.slices.len());
+        let known = near.map(|near| (self.slices[near].z, loads.lead_at(0, near)));
+        let lead = |z| self.lead_at(loads, 0, (z, path(z))).map_or(f64::NEG_INFINITY, |it| it.0);
+        let (z, lead) = greatest_within(&known.collect::<Vec<_>>(), PRECISION, lead);
+        (lead, FacePlace { z, path: path(z) })
+    }
+
     /// How far before E the incoming tooth touches, or after B, in the plane where this is farthest, in
     /// m.
     fn deepest(&self, loads: &Loads, part: Part) -> f64 {
@@ -616,7 +628,7 @@ impl<'a> Passage<'a> {
         let (face, length) = (self.face, self.face.mesh.length);
         let (from, to) = face.mesh.ends();
         let looks = self.places(from - face.reach, to + face.reach, LOOKS);
-        let carries = |s: &f64| self.loads(*s).is_ok_and(|loads| loads.lead(0).0 > 0.0);
+        let carries = |s: &f64| self.loads(*s).is_ok_and(|loads| face.touch(&loads).0 > 0.0);
         let Some(first) = looks.iter().position(carries) else {
             return Ok(None);
         };
@@ -629,7 +641,7 @@ impl<'a> Passage<'a> {
         // A lead among the errors of the balance counts as none.
         let lead = |s: f64| {
             self.loads(s).map_or(f64::NAN, |loads| {
-                let lead = loads.lead(0).0.clamp(-length, length);
+                let lead = face.touch(&loads).0.clamp(-length, length);
                 if lead.abs() > PRECISE * loads.displacement { lead } else { 0.0 }
             })
         };
@@ -648,11 +660,8 @@ impl<'a> Passage<'a> {
         };
         let places = self.places(first, last, 1);
         let samples = self.samples(&places)?;
-        let place = |loads: &Loads| {
-            let Slice { z, ahead, .. } = face.slices[loads.lead(0).1];
-            FacePlace { z, path: loads.s + ahead }
-        };
-        let [first_place, last_place] = [0, samples.len() - 1].map(|end| place(&samples[end]));
+        let [first_place, last_place] =
+            [0, samples.len() - 1].map(|end| face.touch(&samples[end]).1);
         let extreme = |of: &dyn Fn(&Loads) -> f64| self.greatest(&samples, of).1;
         let line_peak = |part: Part| {
             let best = Cell::new(None);
