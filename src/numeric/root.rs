@@ -140,7 +140,7 @@ impl Bracket {
             let rise = top.map_or(f64::INFINITY, |(_, rise)| SAFETY * rise);
             // The parabola may hide a bend: the next one must be as flat.
             let is_flat = rise < flat * self.best.1.abs();
-            if self.best.1 + rise < least_value || is_flat && was_flat {
+            if self.best.1 + self.most_rise() < least_value || is_flat && was_flat {
                 break;
             }
             was_flat = is_flat;
@@ -181,14 +181,29 @@ impl Bracket {
         true
     }
 
-    /// Step from the best sample to the top of the parabola through the three samples, and the rise
-    /// to it. `None` if the top is outside of the range.
-    fn top(&self) -> Option<(f64, f64)> {
+    /// Slope and bend at the best sample, of the parabola through the three samples.
+    fn parabola(&self) -> [f64; 2] {
         let [one, other] = [self.second, self.third]
             .map(|sample| (sample.0 - self.best.0, sample.1 - self.best.1));
         let slopes = [one.1 / one.0, other.1 / other.0];
         let bend = (slopes[0] - slopes[1]) / (one.0 - other.0);
-        let slope = slopes[0] - bend * one.0;
+        [slopes[0] - bend * one.0, bend]
+    }
+
+    /// Rise above the best sample of two lines that meet in the range, at the most: the second difference
+    /// of even samples.
+    fn most_rise(&self) -> f64 {
+        let way = (self.best.0 - self.from).max(self.to - self.best.0);
+        let [_, bend] = self.parabola();
+        // Equal samples have no parabola.
+        let rise = 2.0 * bend.abs() * way * way;
+        if rise.is_finite() { rise } else { f64::INFINITY }
+    }
+
+    /// Step from the best sample to the top of the parabola through the three samples, and the rise
+    /// to it. `None` if the top is outside of the range.
+    fn top(&self) -> Option<(f64, f64)> {
+        let [slope, bend] = self.parabola();
         let step = -0.5 * slope / bend;
         let place = self.best.0 + step;
         (place > self.from && place < self.to).then_some((step, 0.5 * slope * step))
