@@ -161,11 +161,12 @@ impl Bracket {
     /// Whether the best sample is the peak itself: an end of the range, or a bend. Narrows the
     /// range. Values that differ by less than a tenth of their tolerance do not decide.
     fn is_at_best(&mut self, flat: f64, at: &impl Fn(f64) -> f64) -> bool {
-        const NEAR: f64 = 1e-5;
+        /// Of the way to the ends of the range. Farther away first, where errors of values count less.
+        const NEAR: [f64; 3] = [1e-2, 1e-5, 1e-5];
         let (peak, noise) = (self.best.0, 0.1 * flat * self.best.1.abs());
-        for _ in 0..2 {
+        for near in &NEAR[if flat > 0.0 { 0 } else { 1 }..] {
             for end in [self.from, self.to] {
-                let place = peak + NEAR * (end - peak);
+                let place = peak + near * (end - peak);
                 if place.to_bits() != peak.to_bits() {
                     let value = at(place);
                     if (value - self.best.1).abs() < noise {

@@ -188,9 +188,9 @@ impl Face {
     fn touch(&self, loads: &Loads) -> (f64, FacePlace) {
         let path = |z: f64| loads.s + z * self.inputs.lead;
         let (_, at) = loads.lead(0);
-        let near = at.saturating_sub(1)..(at + 2).min(self.slices.len());
-        let known = near.map(|near| (self.slices[near].z, loads.lead_at(0, near)));
         let lead = |z| self.lead_at(loads, 0, (z, path(z))).map_or(f64::NEG_INFINITY, |it| it.0);
+        let near = self.slices[at.saturating_sub(1)..].iter().take(if at == 0 { 2 } else { 3 });
+        let known = near.map(|slice| (slice.z, lead(slice.z)));
         let (z, lead) = greatest_within(&known.collect::<Vec<_>>(), PRECISION, lead);
         (lead, FacePlace { z, path: path(z) })
     }
