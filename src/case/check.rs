@@ -6,7 +6,7 @@ use crate::case::fields::{
 };
 use crate::case::sanitize::{cut, nearest, quoted, sanitize, spelled, suggestion};
 use crate::case::units::{self, Dimension};
-use crate::model::inputs::{Gear, Method, ToothCompliance};
+use crate::model::inputs::{Gear, GearSide, Method, ToothCompliance};
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
 use crate::numeric::decimal::{shortest, significant};
 use serde::{Deserialize, Serialize};
@@ -346,10 +346,10 @@ fn is_read(rule: &str, field: &str) -> bool {
     }
 }
 
-/// Faces without common width, and a misalignment beyond the first order.
+/// Faces without common width, and flank lines beyond the first order.
 fn face_rules(inputs: &Inputs) -> impl Iterator<Item = Problem> {
-    /// Greatest angle of a misalignment, in rad.
-    const MOST: f64 = 0.01;
+    /// Greatest angle of axes and helices, and of modifications of a flank line, in rad.
+    const MOST: [f64; 2] = [0.01, 0.1];
     let (width, widths) =
         (inputs.common_width(), [inputs.driver.face_width, inputs.driven.face_width]);
     let are_apart = widths.iter().all(|&width| width > 0.0) && width <= 0.0;
@@ -364,10 +364,23 @@ fn face_rules(inputs: &Inputs) -> impl Iterator<Item = Problem> {
         ("driver.helix_slope", inputs.driver.helix_slope, widths[0]),
         ("driven.helix_slope", inputs.driven.helix_slope, widths[1]),
     ];
-    let steep =
-        slopes.into_iter().filter(|(_, value, width)| *width > 0.0 && value.abs() > MOST * width);
-    let steep = steep.map(|(key, value, width)| {
-        let (value, most) = (in_mm(value), in_mm(MOST * width));
+    let gears = [(GearSide::Driver, &inputs.driver), (GearSide::Driven, &inputs.driven)];
+    let modified = gears.into_iter().flat_map(|(side, gear)| {
+        let Gear { end_reliefs: [minus, plus], face_width, .. } = *gear;
+        let length = gear.length_of_end_relief();
+        // The slope of a crowning is greatest at the ends of the face.
+        [
+            ("crowning", gear.crowning, 0.25 * face_width),
+            ("end_relief_minus", minus, length),
+            ("end_relief_plus", plus, length),
+        ]
+        .map(|(name, value, width)| (key_of((Some(side), name)), value, width, MOST[1]))
+    });
+    let slopes = slopes.map(|(key, value, width)| (key, value, width, MOST[0]));
+    let steep = slopes.into_iter().chain(modified);
+    let steep = steep.filter(|(_, value, width, most)| *width > 0.0 && value.abs() > most * width);
+    let steep = steep.map(|(key, value, width, most)| {
+        let (value, most) = (in_mm(value), in_mm(most * width));
         let cause =
             format!("{value} mm over {} mm of the face is more than a small angle", in_mm(width));
         let fix = format!("write a value within {most} mm");

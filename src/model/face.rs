@@ -76,8 +76,6 @@ impl Inputs {
     pub fn face(&self) -> Option<FaceInputs> {
         /// Coupling length over the whole depth of a tooth.
         const OF_DEPTH: f64 = 0.58;
-        /// Of the face width.
-        const RELIEF_LENGTH: f64 = 0.1;
         let is_even =
             |gear: &Gear| gear.helix_slope == 0.0 && gear.crowning == 0.0 && !gear.has_end_relief();
         let is_plain = self.helix_angle == 0.0 && self.misalignment == 0.0;
@@ -92,7 +90,7 @@ impl Inputs {
             slope: sign * hand * gear.helix_slope,
             crowning: gear.crowning,
             end_reliefs: gear.end_reliefs,
-            end_relief_length: gear.end_relief_length.unwrap_or(RELIEF_LENGTH * gear.face_width),
+            end_relief_length: gear.length_of_end_relief(),
         };
         let depth = |gear: &Gear| self.module * (self.addendum_of(gear) + self.dedendum_of(gear));
         let length = OF_DEPTH * 0.5 * (depth(&self.driver) + depth(&self.driven));

@@ -98,6 +98,11 @@ pub struct Gear {
 }
 
 impl Gear {
+    /// Length of the end reliefs, in m: a tenth of the face width unless given.
+    pub fn length_of_end_relief(&self) -> f64 {
+        self.end_relief_length.unwrap_or(0.1 * self.face_width)
+    }
+
     /// Whether an end of the face has a relief.
     pub fn has_end_relief(&self) -> bool {
         self.end_reliefs.iter().any(|relief| *relief > 0.0)

@@ -277,7 +277,8 @@ const ROWS: &[fn(&Context) -> Option<Note>] = &[
         let [first, ..] = preferences(k.inputs);
         let message =
             format!("the tooth compliance is `{}`: {}", used.name, (first.why_outside)(k.inputs));
-        let is_second_choice = k.inputs.tooth_compliance.is_none() && used.name != first.name;
+        let is_chosen = k.inputs.tooth_compliance.is_some() || k.inputs.given_compliance.is_some();
+        let is_second_choice = !is_chosen && used.name != first.name;
         is_second_choice.then_some(Note::case(used.chosen, message))
     },
     // The model is used outside its range.

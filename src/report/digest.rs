@@ -7,6 +7,7 @@ use crate::case::Case;
 use crate::case::fields::index_of;
 use crate::case::sanitize::sanitize;
 use crate::case::units::{self, System};
+use crate::model::contact_state::first_contact_of_driver;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
 use crate::numeric::decimal::significant;
@@ -110,8 +111,8 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
             None => format!("No corner contact: {none}"),
         };
     }
-    let angle = own("approach_angle_driver", solution);
-    let angle = angle.and_then(|own| printed(own.key, solution, system));
+    let angle = own("approach_angle_driver", solution).zip(first_contact_of_driver(solution));
+    let angle = angle.map(|(own, angle)| shown_in(own, angle, system));
     let angle = angle.map(|angle| format!(" {angle} before E")).unwrap_or_default();
     let tip = own("impact_force", solution).and_then(|force| {
         let ratio = value(own("dynamic_factor", solution)?, solution)?;

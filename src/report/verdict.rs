@@ -330,6 +330,9 @@ impl Absence {
                     "the tip is sharp, and no pressure at an edge is finite; give driven.tip_radius",
                 )
             }
+            (_, Need::Backlash, ..) if has_motion && solution.is_over_face => {
+                Absence::Because("back flanks have no model over the face width")
+            }
             (_, Need::Backlash, ..) if has_motion => Absence::Because(
                 "the case has no deviations.backlash; without it the back flanks are far away",
             ),

@@ -39,6 +39,24 @@ const AT_REST: Quantity = Quantity {
     ..PLAIN
 };
 
+/// The first contact of a pair whose load varies over the face width.
+pub(super) const FIRST_OF_SLICES: Variant = Variant::meaning(
+    in_slices,
+    " Over the face width it is the angle in the plane across the axis in which it touches first; below 0 \
+        this is after E, and the tip can still strike in another plane.",
+);
+
+/// The driven gear's angle before E at the first contact, at rest or in motion.
+pub(super) fn first_contact_of<const MOVES: bool>(solution: &Solution) -> Option<f64> {
+    let (face, angle) = if MOVES {
+        (&solution.face_motion, solution.dynamic.as_ref()?.first_contact_angle)
+    } else {
+        (&solution.face_load, solution.static_load.as_ref()?.first_contact_angle)
+    };
+    let of_face = face.as_ref().map(|face| -face.first.path / solution.geometry.driven.base);
+    of_face.or(angle)
+}
+
 pub(super) const TABLE: &[Quantity] = &[
     PLAIN
         .row(
@@ -96,25 +114,29 @@ pub(super) const TABLE: &[Quantity] = &[
         .row(
             ["static_first_contact_angle_driver", "θ_st", "static: driver angle before E"],
             ("rad", "deg", 4),
-            |s| Some(of_driver(s, s.static_load.as_ref()?.first_contact_angle?)),
+            |s| Some(of_driver(s, first_contact_of::<false>(s)?)),
             "The angle of the driver before E at which the incoming tooth begins to \
                 carry load at rest.",
             Text("i u_st"),
         )
+        .signed()
+        .variants(&[FIRST_OF_SLICES])
         .corrections(&["Eqs. 7-20"]),
     AT_REST
         .row(
             ["static_first_contact_angle", "u_st", "static: driven angle before E"],
             ("rad", "deg", 4),
-            |s| s.static_load.as_ref()?.first_contact_angle,
+            first_contact_of::<false>,
             "The angle of the driven gear before E at which the incoming tooth begins \
             to carry load at rest: its gap there equals the displacement by the other \
             pairs.",
             Cases(&[
-                (in_slices, Found("the largest angle at which a slice carries load", SHARED)),
+                (in_slices, Found("-s_st/r_b2 where a slice first carries load", SHARED)),
                 (always, Solved(&FIRST_CONTACT)),
             ]),
         )
+        .signed()
+        .variants(&[FIRST_OF_SLICES])
         .corrections(&["Eqs. 7-20"]),
     AT_REST
         .row(

@@ -1,5 +1,6 @@
 //! Rows of the motion: load sharing with inertia, mesh frequency and natural frequency.
 
+use super::at_rest::{FIRST_OF_SLICES, first_contact_of};
 use super::{Need, PLAIN, Quantity, Variant, checks, conditions, of_driver};
 use crate::model::Solution;
 use crate::model::Stage::{Dynamic, Resonance, SpeedRun, Static};
@@ -67,21 +68,25 @@ pub(super) const TABLE: &[Quantity] = &[
         .row(
             ["dynamic_first_contact_angle_driver", "θ_d", "dynamic: driver angle before E"],
             ("rad", "deg", 4),
-            |s| Some(of_driver(s, s.dynamic.as_ref()?.first_contact_angle?)),
+            |s| Some(of_driver(s, first_contact_of::<true>(s)?)),
             "The angle of the driver before E at which the incoming tooth first touches \
                 in motion.",
             Text("i u_d"),
         )
+        .signed()
+        .variants(&[FIRST_OF_SLICES])
         .corrections(&["Eqs. 7-20"]),
     IN_MOTION
         .row(
             ["dynamic_first_contact_angle", "u_d", "dynamic: driven angle before E"],
             ("rad", "deg", 4),
-            |s| s.dynamic.as_ref()?.first_contact_angle,
+            first_contact_of::<true>,
             "The angle of the driven gear before E at which the incoming tooth first \
             touches in motion.",
             BY_MOTION,
         )
+        .signed()
+        .variants(&[FIRST_OF_SLICES])
         .corrections(&["Eqs. 7-20"]),
     IN_MOTION
         .row(
