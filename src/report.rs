@@ -77,11 +77,15 @@ impl Selection {
         self.only.iter().copied().chain(table)
     }
 
+    /// The value of a quantity that is requested, or in the list of every quantity of a solution.
+    fn value(&self, quantity: &Quantity, solution: &Solution) -> Option<f64> {
+        let is_listed = !self.is_whole() || quantity.is_listed(solution);
+        value(quantity, solution).filter(|_| is_listed)
+    }
+
     /// The requested quantities that have a value, in SI: finite, and zero without a sign.
     pub fn values(&self, solution: &Solution) -> impl Iterator<Item = (&'static Quantity, f64)> {
-        let is_listed = |quantity: &&Quantity| !self.is_whole() || quantity.is_listed(solution);
-        let listed = self.quantities().filter(is_listed);
-        listed.filter_map(|quantity| Some((quantity, value(quantity, solution)?)))
+        self.quantities().filter_map(|quantity| Some((quantity, self.value(quantity, solution)?)))
     }
 
     /// The stages that the requested quantities need.

@@ -52,7 +52,8 @@ impl Inputs {
             virtual_teeth: [self.virtual_teeth(&self.driver), self.virtual_teeth(&self.driven)],
             axial_pitch,
             overlap_ratio: self.common_width() * base_helix_angle.tan() / geometry.base_pitch,
-            axial_force: self.driver_hand.sign() * mesh_force * base_helix_angle.tan(),
+            // Zero has no sign.
+            axial_force: self.driver_hand.sign() * mesh_force * base_helix_angle.tan() + 0.0,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A solve as a page of text, as a JSON object on one line, and as rows of CSV.
 
-use super::{Report, case_notes, grouped, is_default, shown, value};
+use super::{Report, case_notes, grouped, is_default, shown};
 use crate::case::file::FORMAT;
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
@@ -109,10 +109,7 @@ fn quantity_lines(report: &Report) -> Vec<String> {
         Column::text("equation", "").wide(2, 0),
     ];
     let row = |quantity: &'static Quantity| {
-        if is_whole && !quantity.is_listed(solution) {
-            return None;
-        }
-        let shown = shown(quantity, value(quantity, solution)?);
+        let shown = shown(quantity, report.selection.value(quantity, solution)?);
         // With every quantity the headings of the groups say this.
         let beside = match subject(quantity, method) {
             Some("free-impact") if !is_whole => ", free impact",
@@ -250,7 +247,8 @@ fn quantities(report: &Report) -> Table {
     let computed = known.map(|quantity| Column::si(quantity.key, quantity.unit));
     let names = [solution.method.name(), solution.outcome.name()].map(Cell::from);
     let values = report.selection.quantities();
-    let values = values.map(|quantity| Cell::number(value(quantity, solution), ""));
+    let values =
+        values.map(|quantity| Cell::number(report.selection.value(quantity, solution), ""));
     Table::new("", words.into_iter().chain(computed).collect())
         .with([names.into_iter().chain(values).collect()])
 }

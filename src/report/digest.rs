@@ -150,7 +150,7 @@ fn at_exit(solution: &Solution, system: System) -> Option<String> {
     let required = |on| relief.map(|(given, more)| required(more, given, on, system));
     if solution.outcome == Outcome::CornerContact {
         let is_larger = most > LARGER * of("static_force_at_start", solution).unwrap_or(0.0);
-        let required = required("relief on the driver").filter(|_| is_larger);
+        let required = required("on the driver").filter(|_| is_larger);
         let required = required.map(|required| format!(", {required}"));
         return Some(format!("; at the exit {force}{}", required.unwrap_or_default()));
     }

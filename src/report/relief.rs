@@ -231,7 +231,7 @@ impl Specification {
                 ));
             }
         }
-        let ratio = own.reliefs.unloaded_contact_ratio(&self.geometry) + self.helix.overlap_ratio;
+        let ratio = own.unloaded_contact_ratio + self.helix.overlap_ratio;
         if ratio < 1.0 {
             lines.push(format!(
                 "The unrelieved flanks alone have a contact ratio of {ratio:.3}, below 1: under \
@@ -531,7 +531,7 @@ impl Results for Specification {
             "relief": self.relief(&chosen.reliefs),
             "margin": chosen.worst.gap,
             "greatest_load": chosen.greatest_load,
-            "unloaded_contact_ratio": chosen.reliefs.unloaded_contact_ratio(&self.geometry),
+            "unloaded_contact_ratio": chosen.unloaded_contact_ratio,
             "best": chosen.name,
             "choices": self.choices.iter().zip(results).map(choice).collect::<Json>(),
             "map": self.map.iter().flatten().map(point).collect::<Json>(),
@@ -593,9 +593,7 @@ const NUMBERS: [Numbers; 24] = [
     ("least_load_change", "change", "1", ("%", 2), |all, of| {
         Some(of.errors.first()? / all.choices[0].errors.first()? - 1.0)
     }),
-    ("unloaded_contact_ratio", "ratio", "1", ("1", 3), |all, of| {
-        Some(of.reliefs.unloaded_contact_ratio(&all.geometry))
-    }),
+    ("unloaded_contact_ratio", "ratio", "1", ("1", 3), |_, of| Some(of.unloaded_contact_ratio)),
     ("worst_entry_force", "entry", "N", ("N", 3), |_, of| Some(of.worst.entry)),
     ("worst_peak_force", "peak", "N", ("N", 4), |_, of| Some(of.worst.peak)),
     ("dynamic_factor", "K", "1", ("1", 3), |_, of| of.nominal.factor),

@@ -14,6 +14,7 @@ use crate::model::geometry::Geometry;
 use crate::model::helix::Helix;
 use crate::model::inputs::{Drive, Gear, Method, ReliefShape};
 use crate::model::profile::{Profile, Rack};
+use crate::model::relief::Relief;
 use crate::model::slices::Face;
 use crate::model::static_load::lead_at_rest;
 use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve, solve_while};
@@ -100,6 +101,8 @@ pub struct Choice {
     /// if [`MOST_LOAD`] times the greatest load of the demand has no corner contact. The motion is
     /// checked only at the greatest load of the demand.
     pub greatest_load: Option<f64>,
+    /// Path of contact on unrelieved flanks over the base pitch: the contact ratio without load.
+    pub unloaded_contact_ratio: f64,
 }
 
 /// A point of the map over amount and length.
@@ -208,12 +211,6 @@ impl TipReliefs {
     /// Both amounts together, in m.
     pub fn removed(&self) -> f64 {
         self.amounts[0] + self.amounts[1]
-    }
-
-    /// Path of contact on unrelieved flanks over the base pitch: the contact ratio without load.
-    pub fn unloaded_contact_ratio(&self, geometry: &Geometry) -> f64 {
-        let relieved = (0..2).filter(|&at| self.amounts[at] > 0.0).map(|at| self.lengths[at]);
-        geometry.contact_ratio - relieved.sum::<f64>() / geometry.base_pitch
     }
 }
 
@@ -566,7 +563,10 @@ impl WholeSolves<'_> {
             None
         };
         let stages = Stages::of(Stage::Static).and(Stages::of(Stage::StaticSpectrum));
-        let solution = self.solve_all(&reliefs.of(self.inputs), stages)?;
+        let inputs = reliefs.of(self.inputs);
+        let solution = self.solve_all(&inputs, stages)?;
+        let relief = Relief::of(&inputs.reliefs(), &solution.geometry);
+        let unloaded_contact_ratio = relief.unrelieved_contact_ratio(&solution.geometry);
         let ideal = solution.static_spectrum.transpose()?;
         let own_errors = ideal
             .zip(solution.static_load)
@@ -580,7 +580,7 @@ impl WholeSolves<'_> {
             worst.error = worst.error.max(demand.figure(errors.into_iter()));
         }
         let greatest_load = self.greatest_load(&reliefs)?;
-        Ok(Choice { name, reliefs, errors, nominal, worst, greatest_load })
+        Ok(Choice { name, reliefs, errors, nominal, worst, greatest_load, unloaded_contact_ratio })
     }
 
     /// The least favourable figures at the limits of the tolerances, without the errors. The motion

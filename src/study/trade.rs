@@ -615,7 +615,10 @@ impl Answer {
         let Solution { method, outcome, .. } = *solution;
         let value = |subject: Subject| match subject {
             Subject::TransmissionError if solution.face_load.is_none() => None,
-            _ => subject.quantity(method).and_then(|known| (known.value)(solution)),
+            _ => {
+                let known = subject.quantity(method).filter(|known| known.is_listed(solution));
+                known.and_then(|known| (known.value)(solution))
+            }
         };
         let stations = solution.own_stations().iter();
         let before_end = stations.filter(|station| station.roll_angle_driver >= 0.0);

@@ -109,7 +109,7 @@ fn a_limit_that_is_not_met_is_in_the_verdict_and_every_limit_is_on_the_page() {
     let free = include_str!("../../cases/hydro-speed-up.toml");
     let dynamic = free.replace("method = \"exact\"", "method = \"dynamic\"");
     let mut desk = Desk::on(SMALL, "case.toml", &dynamic);
-    desk.assert_shows("! Limit ok: impact force");
+    desk.assert_shows("! Limit EXCEEDED: F_d,DE.");
     let of_velocity = "Limit ok: approach velocity at D";
     desk.keys(&["Esc", "n"]).has(&["! Limit ok: impact force F_S", of_velocity]);
 }

@@ -272,7 +272,7 @@ fn variants_are_shown_beside_the_case_with_their_differences() {
 fn a_result_that_the_pair_cannot_have_is_no_missing_contact() {
     let mut desk = study(SMALL, "driven.tip_relief");
     desk.run("method static");
-    desk.keys(&["o", "face_load_factor", "Enter"]).has(&["_ no value", "only a helical"]);
+    desk.keys(&["o", "load_swing", "Enter"]).has(&["_ no value", "only a helical"]);
     desk.lacks(&["no contact"]);
 }
 

@@ -1,12 +1,15 @@
 //! Rows of the face width: helical geometry, and the line load of a pair in slices.
 
 use super::at_rest::ENTRY_RATIO;
+use super::conditions::{always, in_slices};
 use super::motion::PEAK_RATIO;
 use super::{Formula, Need, PLAIN, Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{Dynamic, Geometry, Load, Static, StaticSpectrum};
-use crate::model::explanation::Formula::{Found, Made, Text, Words};
+use crate::model::explanation::Formula::{Cases, Found, Made, Text, Words};
 use crate::model::explanation::{Check, Context, Step, step};
+use crate::model::helix::Helix;
+use crate::model::inputs::Method;
 use crate::model::slices::load::{FaceCycle, FaceLoad};
 
 const HELICAL: &str = "External helical gears on parallel, rigid shafts, with involute flanks \
@@ -52,6 +55,11 @@ const MOVING: Quantity = Quantity {
     ..AT_REST
 };
 
+/// The helical geometry; not by the method of the paper, which has spur pairs alone.
+fn helix(solution: &Solution) -> Option<&Helix> {
+    (solution.method != Method::Paper).then_some(&solution.helix)
+}
+
 /// The load over the face width at rest or in motion.
 fn load<const MOVES: bool>(solution: &Solution) -> Option<&FaceLoad> {
     if MOVES { solution.face_motion.as_deref() } else { solution.face_load.as_deref() }
@@ -85,6 +93,8 @@ const fn of_load<const MOVES: bool>(names: &[[&'static str; 3]; 6]) -> [Quantity
     const IN_MOTION: Formula =
         Found("line load in motion, x - gap = displacement in slices", &["F_0", "f_n"]);
     let [first, most, place, before, after, last] = *names;
+    const PEAK: Formula = Cases(&[(in_slices, LOAD), (always, Text("F_st,max/b"))]);
+    const IN_MOTION_PEAK: Formula = Cases(&[(in_slices, IN_MOTION), (always, Text("F_d,max/b"))]);
     let (base, formula) = if MOVES { (MOVING, IN_MOTION) } else { (AT_REST, LOAD) };
     [
         base.row(
@@ -102,7 +112,7 @@ const fn of_load<const MOVES: bool>(names: &[[&'static str; 3]; 6]) -> [Quantity
             ("N/m", "N/mm", 5),
             |s| peak_line_load::<MOVES>(s),
             "The greatest force per width of the incoming tooth.",
-            formula,
+            if MOVES { IN_MOTION_PEAK } else { PEAK },
         ),
         base.row(
             place,
@@ -190,7 +200,7 @@ pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["transverse_module", "m_t", "transverse module"],
         ("m", "mm", 5),
-        |s| Some(s.helix.transverse_module),
+        |s| Some(helix(s)?.transverse_module),
         "The module in the plane across the axis; the case gives that of the normal \
             section.",
         Text("m/cos β"),
@@ -198,7 +208,7 @@ pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["transverse_pressure_angle", "α_t", "transverse pressure angle"],
         ("rad", "deg", 5),
-        |s| Some(s.helix.transverse_pressure_angle),
+        |s| Some(helix(s)?.transverse_pressure_angle),
         "The pressure angle in the plane across the axis; the case gives that of \
             the normal section.",
         Text("atan(tan α/cos β)"),
@@ -206,7 +216,7 @@ pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["base_helix_angle", "β_b", "base helix angle"],
         ("rad", "deg", 5),
-        |s| Some(s.helix.base_helix_angle),
+        |s| Some(helix(s)?.base_helix_angle),
         "The helix angle at the base cylinder: the angle of the contact lines on \
             the plane of action.",
         Text("asin(sin β cos α)"),
@@ -214,7 +224,7 @@ pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["virtual_teeth_driver", "z_n1", "virtual teeth of the driver"],
         ("1", "1", 5),
-        |s| Some(s.helix.virtual_teeth[0]),
+        |s| Some(helix(s)?.virtual_teeth[0]),
         "The number of teeth of the spur gear with the curvature of the normal \
             section; rounded, the gear whose compliance the driver has.",
         Text("z1/((cos β_b)² cos β)"),
@@ -222,7 +232,7 @@ pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["virtual_teeth_driven", "z_n2", "virtual teeth of the driven gear"],
         ("1", "1", 5),
-        |s| Some(s.helix.virtual_teeth[1]),
+        |s| Some(helix(s)?.virtual_teeth[1]),
         "The number of teeth of the spur gear with the curvature of the normal \
             section; rounded, the gear whose compliance the driven gear has.",
         Text("z2/((cos β_b)² cos β)"),
@@ -230,21 +240,21 @@ pub(super) const TABLE: &[Quantity] = &[
     HELIX.row(
         ["axial_pitch", "p_x", "axial pitch"],
         ("m", "mm", 5),
-        |s| Some(s.helix.axial_pitch).filter(|pitch| pitch.is_finite()),
+        |s| Some(helix(s)?.axial_pitch).filter(|pitch| pitch.is_finite()),
         "The distance of neighbouring flanks along the axis.",
         Text("π m/sin β"),
     ),
     HELIX.row(
         ["overlap_ratio", "ε_β", "overlap ratio"],
         ("1", "1", 5),
-        |s| Some(s.helix.overlap_ratio),
+        |s| Some(helix(s)?.overlap_ratio),
         "The base pitches by which one end of the face is ahead of the other.",
         Text("b tan β_b/p_b"),
     ),
     HELIX.row(
         ["total_contact_ratio", "ε_γ", "total contact ratio"],
         ("1", "1", 5),
-        |s| Some(s.geometry.contact_ratio + s.helix.overlap_ratio),
+        |s| Some(s.geometry.contact_ratio + helix(s)?.overlap_ratio),
         "The mean number of tooth pairs with a contact line on the face.",
         Text("ε + ε_β"),
     ),
@@ -252,7 +262,7 @@ pub(super) const TABLE: &[Quantity] = &[
         .row(
             ["axial_force", "F_ax", "axial force on the driver"],
             ("N", "N", 5),
-            |s| Some(s.helix.axial_force),
+            |s| Some(helix(s)?.axial_force),
             "The force along the axis on the driver, towards +z above 0; the driver \
             turns positively about +z. The driven gear has the opposite force.",
             Made(axial_force),
@@ -289,7 +299,7 @@ pub(super) const TABLE: &[Quantity] = &[
             "The greatest line load of all pairs, averaged over a base pitch without base pitch \
             deviations, over its mean over the face. Misalignment, helix slopes and \
             modifications of the flank lines count.",
-            Text("w_max/w_m"),
+            Cases(&[(in_slices, Text("w_max/w_m")), (always, Text("1"))]),
         )
         .equation("ISO 6336-1")
         .stage(StaticSpectrum)

@@ -288,7 +288,7 @@ macro_rules! peak {
         [
             PEAK.row(
                 [$speed, $speed_symbol, concat!("peak speed, ", $way)],
-                ("rad/s", "rpm", 3),
+                ("rad/s", "rpm", 4),
                 |s| Some(over_speed(s)?.$point()?.speed),
                 concat!(
                     "The speed of the driver with the greatest dynamic factor of a tooth, with ",
@@ -300,7 +300,7 @@ macro_rules! peak {
             ),
             PEAK.row(
                 [$factor, $factor_symbol, concat!("peak factor, ", $way)],
-                ("1", "1", 3),
+                ("1", "1", 4),
                 |s| Some(over_speed(s)?.$point()?.tooth_factor),
                 concat!(
                     "The greatest dynamic factor of a tooth over the speed, with ",
@@ -341,7 +341,7 @@ macro_rules! peak_near {
     ($key:literal, $symbol:literal, $ratio:literal, $of:expr, $harmonic:literal) => {
         PEAK.row(
             [$key, $symbol, concat!("peak factor near N = ", $ratio)],
-            ("1", "1", 3),
+            ("1", "1", 4),
             |s| Some(over_speed(s)?.peak_near($of)?.tooth_factor),
             concat!(
                 "The peak of the dynamic factor of a tooth near N = ",

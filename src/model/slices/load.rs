@@ -464,15 +464,21 @@ impl Face {
     /// The greatest line load of the incoming tooth over the reduced radius of curvature of its flanks,
     /// from E to B, in N/m². `None` without load there.
     fn load_over_curvature(&self, loads: &Loads) -> Option<f64> {
-        let (start, tangent_length) = self.line;
-        let at_slices = (0..self.slices.len()).filter_map(|number| {
-            let path = self.path(loads, 0, number);
+        let ((start, tangent_length), length) = (self.line, self.mesh.length);
+        let on_flanks = |path: &f64| (0.0..=length).contains(path);
+        let over_curvature = |path: f64, load: f64| {
             let along = start + path;
-            let curvature = along * (tangent_length - along) / tangent_length;
-            let is_on_flanks = (0.0..=self.mesh.length).contains(&path) && curvature > 0.0;
-            is_on_flanks.then(|| loads.at(0, number) / curvature)
+            load * tangent_length / (along * (tangent_length - along))
+        };
+        let at_slices = (0..self.slices.len()).filter_map(|number| {
+            let path = Some(self.path(loads, 0, number)).filter(on_flanks)?;
+            Some(over_curvature(path, self.top(loads, 0, number)))
         });
-        at_slices.filter(|found| *found > 0.0).reduce(f64::max)
+        let ends = [0.0, length].into_iter();
+        let at_ends =
+            ends.filter_map(|path| Some(over_curvature(path, self.load_at(loads, 0, path)?.0)));
+        let found = at_slices.chain(at_ends);
+        found.filter(|found| *found > 0.0 && found.is_finite()).reduce(f64::max)
     }
 
     /// Power of friction on the incoming tooth, in W.

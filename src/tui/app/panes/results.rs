@@ -19,7 +19,7 @@ use crate::model::quantities::Need;
 use crate::model::{QUANTITIES, Quantity, Solution, Stage, Stages};
 use crate::report::compare::difference;
 use crate::report::trade::duration;
-use crate::report::verdict::{Standing, Verdict, verdict, verdicts};
+use crate::report::verdict::{Beside, Standing, Verdict, verdict, verdicts};
 use crate::report::{self, digest, value_as_in};
 use crate::tui::app::App;
 use crate::tui::layout::{NEXT_FAULT, Pane};
@@ -303,7 +303,12 @@ fn sentences(app: &App, is_short: bool) -> Vec<Sentence> {
             add(format!("! {}", limit(verdict)), theme.problem, Place::Pane);
         }
         let symbols = |(standing, of): (Standing, &Vec<&Verdict<'_>>)| {
-            let symbols: Vec<_> = of.iter().map(|of| of.limit.quantity.symbol).collect();
+            // A limit of the free impact can be exceeded by the method's own quantity.
+            let exceeding = |of: &&Verdict<'_>| match (of.standing, of.beside) {
+                (Standing::Within, Some(Beside { own: Some((own, _)), .. })) => own.symbol,
+                _ => of.limit.quantity.symbol,
+            };
+            let symbols: Vec<_> = of.iter().map(exceeding).collect();
             (!of.is_empty()).then(|| format!("{}: {}", standing.word(), symbols.join(", ")))
         };
         let named = [(Standing::Exceeded, &later), (Standing::Unknown, &unknown)];
