@@ -11,9 +11,11 @@ use crate::case::changes::{between, label, text_of};
 use crate::case::fields::index_of;
 use crate::case::file::FORMAT;
 use crate::case::sanitize::sanitize;
-use crate::case::units::System;
-use crate::case::units::{Dimension, counted, named, symbol as symbol_of, written_unit};
+use crate::case::units::{
+    Dimension, System, counted, named, per, symbol as symbol_of, written_unit,
+};
 use crate::case::{Case, FIELDS, Problem};
+use crate::model::explanation::tidy;
 use crate::model::inputs::Method;
 use crate::model::{Quantity, Solution};
 use crate::report::data::subject;
@@ -203,7 +205,12 @@ impl Comparison {
         let unit = unit.unwrap_or(usual);
         let names = [key, dimension.map_or("", Dimension::si_unit), &symbol(key), &label(key), ""];
         let difference = |&now: &Option<f64>| match known[0].zip(now) {
-            Some((base, now)) => Cell::Shown(now - base, signed(now, base, unit)),
+            Some((base, now)) if !is_unchanged(now, base) => {
+                let number = tidy(per(now - base, unit), 4);
+                let sign = if now > base { "+" } else { "" };
+                Cell::Shown(now - base, format!("{sign}{number} {}", named(unit)).trim_end().into())
+            }
+            Some(_) => Cell::Shown(0.0, String::new()),
             None => Cell::Text(String::new()),
         };
         let differences = known[1..].iter().map(difference);
@@ -461,14 +468,6 @@ pub fn difference(quantity: &Quantity, now: f64, base: f64, unit: &'static str) 
     }
     if let Some(percent) = percent(quantity, now, base) {
         return in_percent(percent);
-    }
-    signed(now, base, unit)
-}
-
-/// A difference in a unit, with its sign.
-fn signed(now: f64, base: f64, unit: &'static str) -> String {
-    if is_unchanged(now, base) {
-        return UNCHANGED.to_owned();
     }
     let number = counted((now - base).abs(), unit, 3);
     let sign = if now < base { '-' } else { '+' };

@@ -314,8 +314,9 @@ impl Specification {
         let [amounts, lengths] = KEYS;
         let reliefs = [amounts[0], lengths[0], amounts[1], lengths[1]].into_iter();
         let crowning = self.is_over_face.then_some(CROWNING);
-        // A line has room for the change or for the crowning.
-        let change = (!self.is_over_face).then_some("change");
+        // A line has room for the change unless the crowning or wider numbers need it.
+        let has_room = !self.is_over_face && units == System::Metric;
+        let change = has_room.then_some("change");
         let errors = ["transmission_error"].into_iter().chain(change);
         let results = ["worst_transmission_error", "worst_entry_force", "worst_peak_force"];
         let results = results.into_iter().chain(self.is_moving().then_some("dynamic_factor"));

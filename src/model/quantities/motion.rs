@@ -288,7 +288,7 @@ macro_rules! peak {
         [
             PEAK.row(
                 [$speed, $speed_symbol, concat!("peak speed, ", $way)],
-                ("rad/s", "rpm", 4),
+                ("rad/s", "rpm", 5),
                 |s| Some(over_speed(s)?.$point()?.speed),
                 concat!(
                     "The speed of the driver with the greatest dynamic factor of a tooth, with ",

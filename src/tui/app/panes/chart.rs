@@ -353,9 +353,12 @@ impl<'a> Charts<'a> {
         let values: Vec<String> = values.collect();
         let mark = chart.marks.iter().find(|mark| mark.0.total_cmp(&place).is_eq());
         let mark = mark.map_or_else(String::new, |(_, name)| format!(" ({name})"));
+        let mut points = chart.series.iter().flat_map(|series| series.pieces.iter().flatten());
+        let is_point = values.is_empty() || points.any(|point| point.0.total_cmp(&place).is_eq());
+        let between = if is_point { "" } else { ", between computed points" };
         let values = if values.is_empty() { vec![self.beside_curves(&chart)] } else { values };
         let across = value(place, &chart.across.unit);
-        format!("{} {across}{mark}: {}.", chart.across.name, values.join(", "))
+        format!("{} {across}{mark}{between}: {}.", chart.across.name, values.join(", "))
     }
 
     /// The values at a place without a curve: at the present speed, the dynamic factor of the results.
