@@ -55,6 +55,8 @@ pub struct SpeedCurve {
     pub up: Vec<Option<AtSpeed>>,
     /// The run-down, in the same order.
     pub down: Vec<Option<AtSpeed>>,
+    /// The greatest peaks of run-up and run-down, between two speeds; `None` until both are complete.
+    pub peaks: [Option<AtSpeed>; 2],
     /// The speed of the case, in rad/s.
     pub present: f64,
     /// The speed at which N = 1, in rad/s.
@@ -76,12 +78,12 @@ impl SpeedCurve {
 
     /// The point of the run-up with the greatest dynamic factor of a tooth.
     pub fn peak_rising(&self) -> Option<&AtSpeed> {
-        greatest(&self.up)
+        self.peaks[0].as_ref().or_else(|| greatest(&self.up))
     }
 
     /// The point of the run-down with the greatest dynamic factor of a tooth.
     pub fn peak_falling(&self) -> Option<&AtSpeed> {
-        greatest(&self.down)
+        self.peaks[1].as_ref().or_else(|| greatest(&self.down))
     }
 
     /// The greatest peak of the run-up whose N differs from `ratio` by less than a quarter.
@@ -139,6 +141,7 @@ pub(crate) fn over_speed(
         speeds: speeds.collect(),
         up: vec![None; SPEEDS],
         down: vec![None; SPEEDS],
+        peaks: [None; 2],
         present: inputs.speed,
         resonance: at_resonance,
         is_cut: false,
@@ -160,15 +163,24 @@ pub(crate) fn over_speed(
         resonance: at_resonance,
         work: Meter::new(WORK),
     };
-    let mut last = None;
+    let (mut last, mut highest) = (None, [const { None }; 2]);
     let rising = (0..SPEEDS).map(|at| (at, true));
     for (at, rises) in rising.clone().chain(rising.rev().map(|(at, _)| (at, false))) {
         let found = runs.at(curve.speeds[at], &mut last)?;
         let run = if rises { &mut curve.up } else { &mut curve.down };
         run[at] = found;
+        let highest: &mut Option<(AtSpeed, Start)> = &mut highest[usize::from(!rises)];
+        if let Some((found, start)) = found.zip(last.as_ref())
+            && highest.as_ref().is_none_or(|(best, _)| found.tooth_factor > best.tooth_factor)
+        {
+            *highest = Some((found, start.clone()));
+        }
         if !show(&curve) {
             return Err(Refusal::Stopped);
         }
+    }
+    for (peak, highest) in curve.peaks.iter_mut().zip(highest) {
+        *peak = highest.map(|highest| runs.summit(highest, step * at_resonance)).transpose()?;
     }
     curve.is_cut = !runs.work.spend(0);
     Ok(curve)
@@ -194,6 +206,25 @@ struct Runs<'a> {
 }
 
 impl Runs<'_> {
+    /// The greatest motion on the branch of a motion, by small steps of the speed to both sides, up to
+    /// `step` away.
+    fn summit(&self, (from, start): (AtSpeed, Start), step: f64) -> Result<AtSpeed, Refusal> {
+        /// Parts of the step.
+        const PARTS: u32 = 8;
+        let mut best = from;
+        for side in [1.0, -1.0] {
+            let mut last = Some(start.clone());
+            for part in 1..=PARTS {
+                let speed = from.speed + side * step * f64::from(part) / f64::from(PARTS);
+                match self.at(speed, &mut last)? {
+                    Some(next) if next.tooth_factor > best.tooth_factor => best = next,
+                    _ => break,
+                }
+            }
+        }
+        Ok(best)
+    }
+
     /// The steady motion at a speed, starting from the motion at the previous speed.
     fn at(&self, speed: f64, last: &mut Option<Start>) -> Result<Option<AtSpeed>, Refusal> {
         let meter = Meter::new(WORK_OF_SPEED.min(self.work.limit() - self.work.spent().min(WORK)));
@@ -241,6 +272,7 @@ mod tests {
             speeds: (0..up.len()).map(|speed| speed as f64).collect(),
             up: run(up),
             down: run(down),
+            peaks: [None; 2],
             present: 1.0,
             resonance: 1.0,
             is_cut: false,

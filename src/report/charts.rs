@@ -437,7 +437,11 @@ fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
     };
     let [rising, falling] = [curve.peak_rising(), curve.peak_falling()].map(peak);
     let falling = falling.filter(|falling| rising.as_ref() != Some(falling));
-    let near = curve.peak_near(1.0).filter(|near| curve.peak_rising() != Some(*near));
+    let step = curve.speeds[1] - curve.speeds[0];
+    let is_other = |near: &AtSpeed| {
+        curve.peak_rising().is_none_or(|peak| (near.speed - peak.speed).abs() > step)
+    };
+    let near = curve.peak_near(1.0).filter(|near| is_other(near));
     let called =
         |run: &str, peak: Option<String>| of(name, &(run.to_owned() + &peak.unwrap_or_default()));
     let jumps: Vec<AtSpeed> = curve.jumps().copied().collect();

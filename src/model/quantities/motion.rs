@@ -276,7 +276,7 @@ const RIGID: &str = "One mass m_red on the mean stiffness of the mesh; shafts, b
 const OVER_SPEED: &str = "Steady motion at each of 121 speeds from N = 0.1 to 1.6 or more, as in \
             tooth_force_factor, at the torque of the case; each motion starts from \
             that at the speed before. Speed and factor are those of the computed speed \
-            with the greatest factor.";
+            with the greatest factor, which is sought in eighths of the steps.";
 
 /// The rows of the greatest peak over the speed: key, symbol and label of its speed and of its factor,
 /// the direction in words, and the point of the curve.
