@@ -88,8 +88,8 @@ pub enum Command {
     /// difference is in the unit of the quantity, or in percent if the quantity cannot be negative
     /// and its value is at most ten times the reference. If auto chose several methods, its cases
     /// are solved by the most detailed one. A refused case or variant keeps its column, with the
-    /// reason. CSV has one row per differing input and per quantity, in SI units. JSON is one object in SI units, without
-    /// missing values.
+    /// reason. CSV has one row per differing input and per quantity, in SI units. JSON is one object
+    /// in SI units, without missing values.
     Compare(results::Compare),
     /// Find the values of a field at which a condition on the results changes
     ///
