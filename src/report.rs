@@ -272,10 +272,13 @@ static GROUPS: [Group; 17] = [
     Group { title: "Load sharing", stages: &[Stage::Static] },
     Group { title: "Load sharing with inertia", stages: &[Stage::Dynamic] },
     Group { title: "Resonance", stages: &[Stage::Resonance] },
-    Group { title: "Transmission error without deviations", stages: &[Stage::StaticSpectrum] },
-    Group { title: "Steady motion without deviations", stages: &[Stage::SteadyMotion] },
     Group {
-        title: "Greatest dynamic factor over the speed, without deviations",
+        title: "Transmission error without base pitch deviations",
+        stages: &[Stage::StaticSpectrum],
+    },
+    Group { title: "Steady motion without base pitch deviations", stages: &[Stage::SteadyMotion] },
+    Group {
+        title: "Greatest dynamic factor over the speed, without base pitch deviations",
         stages: &[Stage::SpeedRun],
     },
 ];

@@ -164,7 +164,7 @@ impl Bracket {
         /// Of the way to the ends of the range. Farther away first, where errors of values count less.
         const NEAR: [f64; 3] = [1e-2, 1e-5, 1e-5];
         let (peak, noise) = (self.best.0, 0.1 * flat * self.best.1.abs());
-        for near in &NEAR[if flat > 0.0 { 0 } else { 1 }..] {
+        for near in &NEAR[usize::from(flat <= 0.0)..] {
             for end in [self.from, self.to] {
                 let place = peak + near * (end - peak);
                 if place.to_bits() != peak.to_bits() {

@@ -148,16 +148,16 @@ fn at_exit(solution: &Solution, system: System) -> Option<String> {
     let (angle, force) = shown("static_last_contact_angle").zip(shown("static_force_at_end"))?;
     let relief = solution.clearing.and_then(|clearing| clearing.at_exit);
     let required = |on| relief.map(|(given, more)| required(more, given, on, system));
+    let at_rest = if solution.method == Method::Dynamic { " at rest" } else { "" };
     if solution.outcome == Outcome::CornerContact {
         let is_larger = most > LARGER * of("static_force_at_start", solution).unwrap_or(0.0);
         let required = required("on the driver").filter(|_| is_larger);
         let required = required.map(|required| format!(", {required}"));
-        return Some(format!("; at the exit {force}{}", required.unwrap_or_default()));
+        return Some(format!("; at the exit {force}{at_rest}{}", required.unwrap_or_default()));
     }
     let required =
         required("tip relief on the driver").map(|required| format!("at least {required}"));
     let required = required.unwrap_or("a larger tip relief of the driver".to_owned());
-    let at_rest = if solution.method == Method::Dynamic { " at rest" } else { "" };
     Some(format!(
         "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's tip; \
             {required} prevents it"

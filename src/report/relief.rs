@@ -222,6 +222,10 @@ impl Specification {
                  {over_loads}{at_first}.",
                 self.figure(),
             ));
+            let [from, to] = [case, own].map(|choice| choice.worst.error);
+            if to > 1.02 * from {
+                lines.push(format!("Within the tolerances it rises {}.", changed(from, to)));
+            }
             let [from, to] = [case, own].map(|choice| choice.nominal.peak);
             if (to / from - 1.0).abs() > 0.02 {
                 let (shown, other) = (units.number(from, "N", 4), units.text(to, "N", 4));

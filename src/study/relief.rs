@@ -384,10 +384,14 @@ fn best(choices: &[Choice], criterion: Criterion) -> usize {
 fn governing(inputs: &Inputs, go_on: &dyn Fn(f64) -> bool) -> Result<Method, NoRelief> {
     Ok(match inputs.method {
         Method::Auto => {
-            match solve_while(inputs, Stages::of(Stage::Dynamic), &|_| go_on(0.0))?.method {
-                Method::Dynamic => Method::Dynamic,
-                _ => Method::Static,
-            }
+            let moves = |inputs: &Inputs| {
+                let found = solve_while(inputs, Stages::of(Stage::Dynamic), &|_| go_on(0.0));
+                found.map(|found| found.method == Method::Dynamic)
+            };
+            // The reliefs of the case must not decide the method for the others.
+            let mut plain = inputs.clone();
+            (plain.driver.tip_relief, plain.driven.tip_relief) = (0.0, 0.0);
+            if moves(inputs)? || moves(&plain)? { Method::Dynamic } else { Method::Static }
         }
         Method::Dynamic => Method::Dynamic,
         Method::Paper | Method::Exact | Method::Static => Method::Static,

@@ -68,9 +68,10 @@ fn load<const MOVES: bool>(solution: &Solution) -> Option<&FaceLoad> {
 /// The peak line load; without slices that of an even load.
 fn peak_line_load<const MOVES: bool>(solution: &Solution) -> Option<f64> {
     let even = || {
-        let force = match MOVES {
-            true => solution.dynamic.as_ref()?.peak_force,
-            false => solution.static_load.as_ref()?.peak_force,
+        let force = if MOVES {
+            solution.dynamic.as_ref()?.peak_force
+        } else {
+            solution.static_load.as_ref()?.peak_force
         };
         Some(force / solution.mesh.as_ref()?.width)
     };
@@ -92,9 +93,9 @@ const LOAD: Formula =
 const fn of_load<const MOVES: bool>(names: &[[&'static str; 3]; 6]) -> [Quantity; 6] {
     const IN_MOTION: Formula =
         Found("line load in motion, x - gap = displacement in slices", &["F_0", "f_n"]);
-    let [first, most, place, before, after, last] = *names;
     const PEAK: Formula = Cases(&[(in_slices, LOAD), (always, Text("F_st,max/b"))]);
     const IN_MOTION_PEAK: Formula = Cases(&[(in_slices, IN_MOTION), (always, Text("F_d,max/b"))]);
+    let [first, most, place, before, after, last] = *names;
     let (base, formula) = if MOVES { (MOVING, IN_MOTION) } else { (AT_REST, LOAD) };
     [
         base.row(
@@ -110,7 +111,7 @@ const fn of_load<const MOVES: bool>(names: &[[&'static str; 3]; 6]) -> [Quantity
         base.row(
             most,
             ("N/m", "N/mm", 5),
-            |s| peak_line_load::<MOVES>(s),
+            peak_line_load::<MOVES>,
             "The greatest force per width of the incoming tooth.",
             if MOVES { IN_MOTION_PEAK } else { PEAK },
         ),

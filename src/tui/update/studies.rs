@@ -110,6 +110,8 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
     if app.tab.study.state.is_tolerance {
         let (mut case, inputs) = (tab.case.clone(), inputs.clone());
         case.drop_empty(None);
+        // The samples read neither.
+        (case.about, case.variants) = (Vec::new(), Vec::new());
         if case.spread.is_empty() {
             return Err("The case has no [spread]: Alt-D gives a field a distribution. \
                 d in this pane shows the field over its range."
@@ -270,7 +272,9 @@ fn range_of(app: &App) -> RangeOf<'_> {
 
 /// Studies the typed ranges.
 pub(super) fn set_range(app: &mut App, text: &str) {
-    let fields = [field(app), app.tab.study.state.second];
+    // From the form the range is that of the focused field.
+    let in_form = focused(app).filter(|_| app.layout.focus == Pane::Form);
+    let fields = [in_form.or(field(app)), app.tab.study.state.second];
     match range::typed_axes(range_of(app), fields, text) {
         Ok(axes) => {
             app.close_titled(RANGE);

@@ -528,11 +528,13 @@ pub(crate) fn order(answer: &Answer, is_all: bool) -> Vec<&'static Quantity> {
         };
         is_open && !FIRST.contains(&quantity.key)
     });
-    let listed = first.chain(rest).filter(|quantity| {
-        stages.has(quantity.stage) && !(is_folded && quantity.is_of_free_impact())
-    });
     let has_value =
         |quantity: &&Quantity| methods().any(|method| value(answer, method, quantity).is_some());
+    // A limited result can come from a slower method than the choice of `auto`.
+    let listed = first.chain(rest).filter(|quantity| {
+        (stages.has(quantity.stage) || has_value(quantity))
+            && !(is_folded && quantity.is_of_free_impact())
+    });
     let (mut known, unknown): (Vec<_>, Vec<_>) = listed.partition(has_value);
     known.extend(unknown);
     known
