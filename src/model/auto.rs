@@ -214,7 +214,7 @@ fn difference(mesh: &Mesh, still: &StaticLoad, moved: &Dynamic) -> f64 {
     };
     let peaks = over(still.peak_force - moved.peak_force, moved.peak_force);
     let approach = first_moved.map_or(0.0, |_| {
-        over(still.force_at_start - moved.peak_approach_force, moved.peak_approach_force)
+        over(still.approach_force - moved.peak_approach_force, moved.peak_approach_force)
     });
     let off = |&(place, force): &(f64, f64)| {
         over(force - balance(mesh, place, place).force, moved.peak_force)

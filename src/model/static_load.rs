@@ -29,6 +29,11 @@ pub struct StaticLoad {
     pub force_at_start: f64,
     /// Force of the incoming tooth at B, in N.
     pub force_at_end: f64,
+    /// Greatest force of the incoming tooth from its first contact to E, in N. With a root relief it can
+    /// be far before E.
+    pub approach_force: f64,
+    /// Greatest force of the incoming tooth from B to its last contact, in N.
+    pub recess_force: f64,
     /// Greatest force of the incoming tooth, in N.
     pub peak_force: f64,
     /// Difference of the greatest and the least displacement of the driver ahead while the incoming
@@ -129,11 +134,23 @@ fn load_within(
     let balances = with_bends(mesh, &balances);
     let peak_force = peak(mesh, &balances, |balance| balance.force);
     let (stations, rough) = stations(mesh, contact, peak_force, spacing);
+    let force_at_start = balance(mesh, 0.0, 0.0).force;
+    // On the side of the flank: the tip of a rounded driver has another compliance.
+    let aside = 1e-9 * mesh.base_pitch;
+    let force_at_end = balance(mesh, mesh.length, mesh.length - aside).force;
+    let peak_between = |from: Place, to: Place| {
+        let inner = balances.iter().filter(|((s, _), _)| from.0 < *s && *s < to.0).copied();
+        let part: Vec<_> = [at(from)].into_iter().chain(inner).chain([at(to)]).collect();
+        if from.0 < to.0 { peak(mesh, &part, |balance| balance.force) } else { 0.0 }
+    };
     Ok(StaticLoad {
         first_contact_angle: (first < 0.0).then(|| -first / mesh.base_radii.1),
         last_contact_angle: (last > mesh.length).then(|| (last - mesh.length) / mesh.base_radii.0),
-        force_at_start: balance(mesh, 0.0, 0.0).force,
-        force_at_end: balance(mesh, mesh.length, mesh.length).force,
+        force_at_start,
+        force_at_end,
+        approach_force: peak_between(contact.first, (0.0, -aside)).max(force_at_start),
+        recess_force: peak_between((mesh.length, mesh.length + aside), contact.last)
+            .max(force_at_end),
         peak_force,
         transmission_error: peak(mesh, &balances, |balance| balance.displacement)
             + peak(mesh, &balances, |balance| -balance.displacement),

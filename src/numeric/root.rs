@@ -191,13 +191,13 @@ impl Bracket {
         [slopes[0] - bend * one.0, bend]
     }
 
-    /// Rise above the best sample of two lines that meet in the range, at the most: the second difference
-    /// of even samples.
+    /// Rise above the best sample at the most: along the slope, and that of two lines that meet in the
+    /// range, by the second difference.
     fn most_rise(&self) -> f64 {
         let way = (self.best.0 - self.from).max(self.to - self.best.0);
-        let [_, bend] = self.parabola();
+        let [slope, bend] = self.parabola();
         // Equal samples have no parabola.
-        let rise = 2.0 * bend.abs() * way * way;
+        let rise = (slope.abs() + 2.0 * bend.abs() * way) * way;
         if rise.is_finite() { rise } else { f64::INFINITY }
     }
 
@@ -324,6 +324,13 @@ mod tests {
     fn a_root_at_an_end_is_found() {
         assert!(between(0.0, 1.0, |x| x).abs() < f64::EPSILON);
         assert!((between(0.0, 1.0, |x| x - 1.0) - 1.0).abs() < f64::EPSILON);
+    }
+
+    #[test]
+    fn a_peak_between_two_lines_is_found_beside_a_higher_sample() {
+        let f = |x: f64| (1.0 - 8.0 * (x - 0.34).abs()).max(0.95 - 4.0 * (x - 0.7).powi(2));
+        let ((place, value), _) = peak_of(10, f);
+        assert!((place - 0.34).abs() < 1e-9 && value > 1.0 - 1e-8, "{value} at {place}");
     }
 
     /// The greatest value of `f` from 0 to 1 and the number of calls, from a few samples.

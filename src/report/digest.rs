@@ -98,7 +98,7 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
         Method::Paper | Method::Exact | Method::Auto => None,
     };
     let ratio = of("peak_force_ratio", solution).filter(|_| solution.method == Method::Dynamic);
-    let ratio = ratio.map(|ratio| format!(" ({ratio:.2} times the force at rest)"));
+    let ratio = ratio.map(|ratio| format!(" ({ratio:.2} times that at rest)"));
     let ratio = ratio.unwrap_or_default();
     let at_rest = if solution.method == Method::Static { " at rest" } else { "" };
     let most = most.map(|most| format!("{most} on a tooth{at_rest}{ratio}"));
@@ -115,9 +115,12 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
     let angle = angle.map(|(own, angle)| shown_in(own, angle, system));
     let angle = angle.map(|angle| format!(" {angle} before E")).unwrap_or_default();
     let tip = own("impact_force", solution).and_then(|force| {
+        let at_rest = solution.static_load.as_ref().filter(|_| solution.method == Method::Static);
+        let greatest =
+            at_rest.map_or_else(|| value(force, solution), |load| Some(load.approach_force));
         let ratio = value(own("dynamic_factor", solution)?, solution)?;
         let ratio = format!(" ({ratio:.2} times the mesh force)");
-        Some((printed(force.key, solution, system)?, ratio))
+        Some((shown_in(force, greatest?, system).to_string(), ratio))
     });
     let forces = match (tip, most) {
         (Some((tip, ratio)), Some(most)) => {
@@ -144,13 +147,15 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
 fn at_exit(solution: &Solution, system: System) -> Option<String> {
     const LARGER: f64 = 1.05;
     let shown = |key| printed(key, solution, system);
-    let most = of("static_force_at_end", solution).filter(|most| *most > 0.0)?;
-    let (angle, force) = shown("static_last_contact_angle").zip(shown("static_force_at_end"))?;
+    let load = solution.having(Stage::Static).static_load.as_ref()?;
+    let most = Some(load.recess_force).filter(|most| *most > 0.0)?;
+    let force = shown_in(Quantity::find("static_force_at_end")?, most, system);
+    let angle = shown("static_last_contact_angle")?;
     let relief = solution.clearing.and_then(|clearing| clearing.at_exit);
     let required = |on| relief.map(|(given, more)| required(more, given, on, system));
     let at_rest = if solution.method == Method::Dynamic { " at rest" } else { "" };
     if solution.outcome == Outcome::CornerContact {
-        let is_larger = most > LARGER * of("static_force_at_start", solution).unwrap_or(0.0);
+        let is_larger = most > LARGER * load.approach_force;
         let required = required("on the driver").filter(|_| is_larger);
         let required = required.map(|required| format!(", {required}"));
         return Some(format!("; at the exit {force}{at_rest}{}", required.unwrap_or_default()));

@@ -634,7 +634,7 @@ impl WholeSolves<'_> {
             error: 0.0,
             gap,
             strikes: gap < 0.0 || strikes_after,
-            entry: if leads[0] > 0.0 { found.force_at_start } else { 0.0 },
+            entry: if leads[0] > 0.0 { found.approach_force } else { 0.0 },
             peak: found.peak_force,
             line_load,
             ..Figures::default()

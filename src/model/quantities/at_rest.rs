@@ -143,8 +143,9 @@ pub(super) const TABLE: &[Quantity] = &[
             ["static_force_at_start", "F_st,E", "static: force before E"],
             ("N", "N", 5),
             |s| Some(s.static_load.as_ref()?.force_at_start),
-            "The greatest force at rest that the incoming tooth carries before the entry E, on its tip \
-            edge; of a spur pair the force at E. A sufficient tip relief reduces this force to 0.",
+            "The force at rest of the incoming tooth at the entry E, on its tip edge. A sufficient tip \
+            relief reduces this force to 0. With a root relief of the driver the force can be greater \
+            before E: entry_force_ratio and the verdict have the greatest one.",
             Cases(&[
                 (in_slices, Found("the largest Σ w_k F_k of the slices before their E", SHARED)),
                 (always, Difference("max(k_E (x_E + Δf_0 - C_E), 0)")),
@@ -152,7 +153,7 @@ pub(super) const TABLE: &[Quantity] = &[
         )
         .variants(&[Variant::meaning(
             in_slices,
-            " Each slice of the face reaches its E at another time: this is the part of the force \
+            " Each slice of the face reaches its E at another time: here this is the part of the force \
                 on the tooth in slices before their E, at its largest. The chart of the force \
                 shows the whole force on the tooth.",
         )])
@@ -162,9 +163,9 @@ pub(super) const TABLE: &[Quantity] = &[
             ["static_force_at_end", "F_st,B", "static: force after B"],
             ("N", "N", 5),
             |s| Some(s.static_load.as_ref()?.force_at_end),
-            "The greatest force at rest that the incoming tooth carries after the exit B, on the \
-            driver's tip edge; of a spur pair the force at B. A sufficient tip relief of the driver \
-            reduces this force to 0.",
+            "The force at rest of the incoming tooth at the exit B, on the driver's tip edge; over the \
+            face width the greatest force in slices after their B. A sufficient tip relief of the \
+            driver reduces this force to 0.",
             Found("F_k of the tooth at B, with Σ w_k F_k = F_0", SHARED),
         )
         .corrections(&["Eq. 53", "Eq. 54"]),
@@ -246,13 +247,13 @@ pub(super) const ENTRY_RATIO: Quantity = PLAIN
         ("1", "1", 4),
         |s| {
             Some(
-                governing(s, |load| load.force_at_start, |motion| motion.peak_approach_force)?
+                governing(s, |load| load.approach_force, |motion| motion.peak_approach_force)?
                     / s.mesh_force,
             )
         },
         "The greatest force before E, in the corner contact, over the mesh force. Method dynamic \
             uses the force in motion, method static that at rest.",
-        Made(|k| by_method(k, ["F_st,E/F_0", "F_d,DE/F_0"])),
+        Made(|k| by_method(k, ["F_st,DE/F_0", "F_d,DE/F_0"])),
     )
     .equation("by the method")
     .stage(Static)
@@ -391,6 +392,13 @@ pub(super) const STEPS: &[Step] = &[
         "um mm/N",
         Words("the tip on the flank, Eqs. 54-56"),
         compliance_at_start,
+    ),
+    step(
+        "F_st,DE",
+        "greatest force of the incoming tooth at rest from its first contact to E",
+        "N",
+        Words("as F_st,max, up to E"),
+        |k| Some(k.solution.static_load.as_ref()?.approach_force),
     ),
     step(
         "x_E",

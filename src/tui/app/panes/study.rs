@@ -462,7 +462,15 @@ fn draw_page(app: &App, shown: &StudyResults, inner: Rect, buffer: &mut Buffer) 
     }
     let top = top(app, shown);
     let page = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
-    let lines = shown.page[top..].iter().map(String::as_str);
+    // A narrow pane has the values without the blanks before them.
+    let width = usize::from(page.width);
+    let lines = shown.page[top..].iter().map(|line| match text::width(line) {
+        wide if wide > width => {
+            let words = line.split_whitespace().collect::<Vec<_>>().join(" ");
+            text::cut(&words, width)
+        }
+        _ => line.clone(),
+    });
     text::draw_lines(lines, page, buffer);
     text::scroll_bar_beside(top, shown.page.len(), page, buffer);
 }
