@@ -200,6 +200,8 @@ struct Sentence {
 enum Place {
     /// Always.
     Pane,
+    /// Always, in one line.
+    Line,
     /// If there is room.
     Room,
     /// Nowhere else.
@@ -215,8 +217,11 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
     let kept = |rows: usize| height.saturating_sub(rows);
     let most = if app.tab.answer.is_some() { kept(LEAST_ROWS + 1) } else { height };
     let lines = |sentence: &Sentence| {
-        let lines = text::wrap(&sentence.text, width).into_iter();
-        lines.map(|line| Line::styled(line, sentence.style)).collect::<Vec<_>>()
+        let lines = match sentence.place {
+            Place::Line => vec![text::cut(&sentence.text, width)],
+            _ => text::wrap(&sentence.text, width),
+        };
+        lines.into_iter().map(|line| Line::styled(line, sentence.style)).collect::<Vec<_>>()
     };
     let mut shown = sentences(app, false);
     let always = shown.iter().filter(|sentence| sentence.place == Place::Pane);
@@ -228,7 +233,7 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
         // The last line names the page of the hidden sentences.
         let room = kept(USUAL_ROWS).saturating_sub(head.len() + 1);
         match place {
-            Place::Pane => head.extend(lines),
+            Place::Pane | Place::Line => head.extend(lines),
             Place::Room if !has_more && lines.len() <= room => head.extend(lines),
             Place::Room | Place::Page => has_more = true,
         }
@@ -314,7 +319,7 @@ fn sentences(app: &App, is_short: bool) -> Vec<Sentence> {
         let named = [(Standing::Exceeded, &later), (Standing::Unknown, &unknown)];
         let named: Vec<String> = named.into_iter().filter_map(symbols).collect();
         if !named.is_empty() {
-            add(format!("! Limit {}.", named.join("; ")), theme.problem, Place::Pane);
+            add(format!("! Limit {}.", named.join("; ")), theme.problem, Place::Line);
         }
         let place = if has_fault { Place::Room } else { Place::Pane };
         let age = age(app, answer);
