@@ -360,9 +360,9 @@ fn face_rules(inputs: &Inputs) -> impl Iterator<Item = Problem> {
         Problem::new("pair.face_offset", cause, fix).coded("no-common-width")
     });
     let slopes = [
-        ("deviations.misalignment", inputs.misalignment, width),
-        ("driver.helix_slope", inputs.driver.helix_slope, widths[0]),
-        ("driven.helix_slope", inputs.driven.helix_slope, widths[1]),
+        ((None, "misalignment"), inputs.misalignment, width),
+        ((Some(GearSide::Driver), "helix_slope"), inputs.driver.helix_slope, widths[0]),
+        ((Some(GearSide::Driven), "helix_slope"), inputs.driven.helix_slope, widths[1]),
     ];
     let gears = [(GearSide::Driver, &inputs.driver), (GearSide::Driven, &inputs.driven)];
     let modified = gears.into_iter().flat_map(|(side, gear)| {
@@ -374,17 +374,17 @@ fn face_rules(inputs: &Inputs) -> impl Iterator<Item = Problem> {
             ("end_relief_minus", minus, length),
             ("end_relief_plus", plus, length),
         ]
-        .map(|(name, value, width)| (key_of((Some(side), name)), value, width, MOST[1]))
+        .map(|(name, value, width)| ((Some(side), name), value, width, MOST[1]))
     });
-    let slopes = slopes.map(|(key, value, width)| (key, value, width, MOST[0]));
+    let slopes = slopes.map(|(member, value, width)| (member, value, width, MOST[0]));
     let steep = slopes.into_iter().chain(modified);
     let steep = steep.filter(|(_, value, width, most)| *width > 0.0 && value.abs() > most * width);
-    let steep = steep.map(|(key, value, width, most)| {
+    let steep = steep.map(|(member, value, width, most)| {
         let (value, most) = (in_mm(value), in_mm(most * width));
         let cause =
             format!("{value} mm over {} mm of the face is more than a small angle", in_mm(width));
         let fix = format!("write a value within {most} mm");
-        Problem::new(key, cause, fix).coded("misalignment-too-large")
+        Problem::new(key_of(member), cause, fix).coded("misalignment-too-large")
     });
     apart.into_iter().chain(steep)
 }

@@ -391,7 +391,9 @@ fn governing(inputs: &Inputs, go_on: &dyn Fn(f64) -> bool) -> Result<Method, NoR
             // The reliefs of the case must not decide the method for the others.
             let mut plain = inputs.clone();
             (plain.driver.tip_relief, plain.driven.tip_relief) = (0.0, 0.0);
-            if moves(inputs)? || moves(&plain)? { Method::Dynamic } else { Method::Static }
+            let is_relieved = plain != *inputs;
+            let is_in_motion = moves(inputs)? || is_relieved && moves(&plain)?;
+            if is_in_motion { Method::Dynamic } else { Method::Static }
         }
         Method::Dynamic => Method::Dynamic,
         Method::Paper | Method::Exact | Method::Static => Method::Static,

@@ -225,7 +225,8 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
     };
     let mut shown = sentences(app, false);
     let always = shown.iter().filter(|sentence| sentence.place == Place::Pane);
-    if always.flat_map(lines).count() > kept(USUAL_ROWS) {
+    let has_limits = !app.tab.case.limits.is_empty();
+    if has_limits && always.flat_map(lines).count() > kept(USUAL_ROWS) {
         shown = sentences(app, true);
     }
     for sentence in shown {
@@ -772,10 +773,9 @@ fn mark(app: &App, answer: &Answer, quantity: &Quantity, unit: &'static str) -> 
     let Some(solution) = answer.of(answer.active).filter(|_| !app.tab.is_stale()) else {
         return "";
     };
-    let limit =
-        app.tab.case.limits.iter().find(|limit| limit.quantity.row_in(answer.active) == quantity);
-    let verdict = limit.map(|limit| verdict(limit, solution));
-    if verdict.is_some_and(|verdict| verdict.standing == Standing::Exceeded) {
+    let limits = app.tab.case.limits.iter();
+    let mut limits = limits.filter(|limit| limit.quantity.row_in(answer.active) == quantity);
+    if limits.any(|limit| verdict(limit, solution).standing == Standing::Exceeded) {
         return EXCEEDED;
     }
     // Whether the present visit of a field changed the printed value of the quantity.
