@@ -30,9 +30,11 @@ struct Slice {
     tail: [f64; 2],
     /// Mean of a function over the slice less its value in the middle, over its change of slope, in m².
     spread: f64,
-    /// Path ahead of the middle of the face, and at both borders to the next slices, in m.
-    ahead: f64,
+    /// z of both borders to the next slices, and the part of the slice before an end relief begins in it.
     borders: [f64; 2],
+    bend: Option<f64>,
+    /// Path ahead of the middle of the face, in m.
+    ahead: f64,
     /// Gap by misalignment and flank lines, its mean over the slice, and at both borders, in m.
     gap: f64,
     mean_gap: f64,
@@ -48,7 +50,7 @@ impl Slice {
         let ends = [0, 1].map(|gear| inputs.end_factor(gear, z));
         let none = [0.0; 2];
         let (ahead, gap) = (inputs.lead * z, inputs.gap(z));
-        let (borders, mean_gap, border_gaps) = ([ahead; 2], gap, [gap; 2]);
+        let (borders, bend, mean_gap, border_gaps) = ([z; 2], None, gap, [gap; 2]);
         let (width, step, exchange, tail, spread) = (0.0, 0.0, none, none, 0.0);
         Slice {
             z,
@@ -57,8 +59,9 @@ impl Slice {
             exchange,
             tail,
             spread,
-            ahead,
             borders,
+            bend,
+            ahead,
             gap,
             mean_gap,
             border_gaps,
@@ -69,11 +72,17 @@ impl Slice {
 
     /// The slice from one place to another.
     fn between(inputs: &FaceInputs, z: f64, [from, to]: [f64; 2]) -> Slice {
+        /// Of the width: the place is in the middle.
+        const SAME: f64 = 1e-6;
         let (slice, width) = (Slice::at(inputs, z), to - from);
         Slice {
             width,
             spread: ((to - z).powi(3) - (from - z).powi(3)) / (6.0 * width),
-            borders: [from, to].map(|end| inputs.lead * end),
+            borders: [from, to],
+            bend: inputs
+                .bends()
+                .find(|bend| (bend - z).abs() < SAME * width)
+                .map(|_| (z - from) / width),
             mean_gap: mean(z, [from, to], |z| inputs.gap(z)),
             border_gaps: [from, to].map(|end| inputs.gap(end)),
             ends: [0, 1].map(|gear| mean(z, [from, to], |z| inputs.end_factor(gear, z))),

@@ -67,7 +67,7 @@ impl Incoming {
     }
 }
 
-/// A part of a slice between edges of the section.
+/// A part of a slice between edges of the section and the place where an end relief begins.
 #[derive(Debug, Clone, Copy)]
 struct Side {
     /// Its part of the slice, and its middle, from −1 to 1 along the slice.
@@ -104,7 +104,7 @@ struct Contact {
     mean: f64,
     rise: f64,
     bend: f64,
-    /// The number of its sides, if it has an edge.
+    /// The number of its sides, if it has more than one.
     sides: Option<usize>,
     /// Whether the pair can carry here.
     can_carry: bool,
@@ -165,7 +165,7 @@ pub(super) struct Position<'a> {
     error: f64,
     /// The pairs slice by slice.
     contacts: Vec<Contact>,
-    /// The sides of the slices with an edge.
+    /// The sides of the slices with more than one.
     sides: Vec<Sides>,
     /// κ, row by row.
     kappa: Vec<f64>,
@@ -223,15 +223,16 @@ impl Face {
         if place < from || place > to {
             return (Contact::NONE, None);
         }
-        let borders = slice.borders.map(|border| (path + border).clamp(from, to));
+        let borders = slice.borders.map(|z| (path + z * self.inputs.lead).clamp(from, to));
         let one: [f64; 6] = before.unwrap_or_else(|| self.sections.at(borders[0]));
         let other: [f64; 6] = self.sections.at(borders[1]);
         let way = borders[1] - borders[0];
         let is_narrow = way.abs() < NARROW * mesh.base_pitch;
-        let means = if is_narrow { self.section(place) } else { means(&one, &other, way) };
+        let here = is_narrow.then(|| self.section(place));
+        let means = here.unwrap_or_else(|| means(&one, &other, way));
         let (mean, local) = (means[0], means[1]);
         let (ends, gaps) = ([one, other], slice.border_gaps);
-        let found = if is_narrow { None } else { self.sides(slice, borders, ends, (mean, local)) };
+        let found = self.sides(slice, borders, ends, (here, means));
         let contact = Contact {
             width: slice.width,
             gap: self.sections.one(0, place) + slice.gap,
@@ -272,45 +273,48 @@ impl Face {
         }
     }
 
-    /// The parts of a slice between two borders with their sections and the edges between them. `None`
-    /// without an edge.
+    /// The parts of a slice between two borders with their sections, the edges between them, and the
+    /// place where an end relief begins. `None` without any; `here` is the section if it is the same in
+    /// the whole slice.
     fn sides(
         &self,
         slice: &Slice,
         [from, to]: [f64; 2],
         [one, other]: [[f64; 6]; 2],
-        (mean, local): (f64, f64),
+        (here, [mean, local, ..]): (Option<[f64; 5]>, [f64; 5]),
     ) -> Option<Sides> {
         /// Of a base pitch: a narrower side has too few digits.
         const NARROWEST: f64 = 1e-9;
-        let (way, least) = (to - from, NARROWEST * self.mesh.base_pitch);
-        let (low, high) = (from.min(to) + least, from.max(to) - least);
-        let inside = self.edges.iter().copied().filter(|edge| low < *edge && *edge < high);
-        let mut cuts: SmallVec<[(f64, [f64; 6]); 4]> = SmallVec::new();
-        cuts.push((from, one));
-        cuts.extend(inside.map(|edge| (edge, self.sections.at(edge))));
-        if way < 0.0 {
-            cuts[1..].reverse();
+        let way = to - from;
+        let least = NARROWEST * self.mesh.base_pitch / way.abs();
+        let edges = self.edges.iter().map(|edge| (edge - from) / way);
+        let edges = edges.filter(|part| here.is_none() && least < *part && *part < 1.0 - least);
+        let bend = slice.bend.filter(|bend| edges.clone().all(|edge| (edge - bend).abs() > least));
+        let mut inside: SmallVec<[f64; 4]> = edges.chain(bend).collect();
+        if inside.is_empty() {
+            return None;
         }
-        cuts.push((to, other));
-        let [first, last] = slice.borders.map(|border| border / self.inputs.lead);
-        let gap = |z: f64| self.inputs.gap(z);
+        inside.sort_by(f64::total_cmp);
+        let mut cuts: SmallVec<[(f64, [f64; 6]); 4]> = SmallVec::new();
+        cuts.push((0.0, one));
+        cuts.extend(inside.into_iter().map(|part| (part, self.sections.at(from + part * way))));
+        cuts.push((1.0, other));
+        let ([first, last], gap) = (slice.borders, |z: f64| self.inputs.gap(z));
         let side = |ends: &[(f64, [f64; 6])]| {
             let ((start, one), (end, other)) = (ends[0], ends[1]);
-            let of_side = means(&one, &other, end - start);
-            let parts = [start, end].map(|place| (place - from) / way);
-            let ends = parts.map(|part| first + part * (last - first));
+            let of_side = here.unwrap_or_else(|| means(&one, &other, (end - start) * way));
+            let ends = [start, end].map(|part| first + part * (last - first));
             let (gaps, mean_gap) = (ends.map(gap), super::mean(slice.z, ends, gap));
             Side {
-                part: parts[1] - parts[0],
-                middle: parts[0] + parts[1] - 1.0,
+                part: end - start,
+                middle: start + end - 1.0,
                 mean: of_side[0] - mean + mean_gap - slice.mean_gap,
                 rise: other[0] - one[0] + gaps[1] - gaps[0],
-                bend: bend([one[0] + gaps[0], other[0] + gaps[1]], of_side[0] + mean_gap),
+                bend: self::bend([one[0] + gaps[0], other[0] + gaps[1]], of_side[0] + mean_gap),
                 ratio: local / of_side[1],
             }
         };
-        (cuts.len() > 2).then(|| cuts.windows(2).map(side).collect())
+        Some(cuts.windows(2).map(side).collect())
     }
 
     /// Gap, compliances of contact, driver and driven gear, and arm of the friction at a place of the path.

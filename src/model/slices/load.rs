@@ -130,10 +130,10 @@ impl Face {
             if !is_here(path) {
                 continue;
             }
-            let [one, other] = slice.borders.map(|border| path - slice.ahead + border);
+            let [one, other] = slice.borders.map(|z| path + (z - slice.z) * self.inputs.lead);
             let has_edge = edges.clone().any(|edge| (edge - one) * (edge - other) < 0.0);
             let load = if !has_edge {
-                Some(self.top(loads, 0, number))
+                Some(self.top_of_incoming(loads, number))
             } else if part == Part::All {
                 self.load_at(loads, 0, path).map(|(load, _)| load)
             } else {
@@ -157,16 +157,25 @@ impl Face {
     }
 
     /// The line load at a slice, and above two smaller neighbours that of the parabola through them: the
-    /// greatest one between two slices.
-    fn top(&self, loads: &Loads, ahead: i32, slice: usize) -> f64 {
-        let here = loads.at(ahead, slice);
-        if slice == 0 || slice + 1 == self.slices.len() {
+    /// greatest one between two slices, except where an end relief begins and the load has a bend.
+    fn top(&self, slice: usize, load: impl Fn(usize) -> f64) -> f64 {
+        let here = load(slice);
+        let is_end = slice == 0 || slice + 1 == self.slices.len();
+        if is_end || self.slices[slice].bend.is_some() {
             return here;
         }
-        let [before, after] = [slice - 1, slice + 1].map(|beside| loads.at(ahead, beside));
+        let [before, after] = [slice - 1, slice + 1].map(load);
         let bend = before - 2.0 * here + after;
         let is_top = before.min(after) > 0.0 && before.max(after) <= here && bend < 0.0;
         if is_top { here - (after - before).powi(2) / (8.0 * bend) } else { here }
+    }
+
+    /// The same of the incoming pair. Its load has a bend or a jump at an edge of the section, too.
+    fn top_of_incoming(&self, loads: &Loads, slice: usize) -> f64 {
+        let near = [slice.saturating_sub(1), (slice + 1).min(self.slices.len() - 1)];
+        let [one, other] = near.map(|at| self.path(loads, 0, at));
+        let has_edge = self.edges.iter().any(|edge| (edge - one) * (edge - other) < 0.0);
+        if has_edge { loads.at(0, slice) } else { self.top(slice, |at| loads.at(0, at)) }
     }
 
     /// z of the bottom of the parabola through the least of some values and its neighbours.
@@ -219,54 +228,49 @@ impl Face {
         beyond(end.unwrap_or(path(at))).max(0.0)
     }
 
-    /// The force of a pair in a part of the path, in N: all of it as in the balance, a part of it up to its
-    /// border and to the end of the contact, which are between two slices.
+    /// The force of a pair in a part of the path, in N. Of the slice with the border of the part, the
+    /// share of its load there counts.
     fn force(&self, loads: &Loads, ahead: i32, part: Part) -> f64 {
-        /// Parts of the step between two slices.
-        const PARTS: usize = 8;
-        /// ∫ of the load between two places with z, lead and load; the lead is linear where the contact ends.
-        fn between((from, lead, load): Sample, (to, other, last): Sample) -> f64 {
-            let part = match (lead > 0.0, other > 0.0) {
-                (true, true) => 1.0,
-                (false, false) => 0.0,
-                (true, false) => lead / (lead - other),
-                (false, true) => other / (other - lead),
-            };
-            0.5 * (load + last) * part * (to - from)
-        }
-        type Sample = (f64, f64, f64);
         let Some(border) = part.border(self.mesh.length) else {
             return self.pair_force(loads, ahead);
         };
-        let is_here = |number: &usize| part.has(self.path(loads, ahead, *number), self.mesh.length);
-        let at_slices = (0..self.slices.len()).filter(is_here).map(|number| {
-            let lead = loads.lead_at(ahead, number);
-            (self.slices[number].z, lead, loads.at(ahead, number))
-        });
-        let at = |path: f64| {
-            let (lead, compliance, z) = self.lead_between(loads, ahead, path)?;
-            Some((z, lead, lead.max(0.0) / compliance))
-        };
-        let mut places: Vec<Sample> = at_slices.chain(at(border)).collect();
-        places.sort_by(|one, other| one.0.total_cmp(&other.0));
         let middle = loads.s + f64::from(ahead) * self.mesh.base_pitch;
-        let mut sum = 0.0;
-        for ends in places.windows(2).filter(|ends| ends[0].1.max(ends[1].1) > 0.0) {
-            let inside = numeric::steps(ends[0].0, ends[1].0, PARTS).skip(1).take(PARTS - 1);
-            let inside = inside.filter_map(|z| at(middle + z * self.inputs.lead));
-            let all: SmallVec<[Sample; PARTS + 1]> =
-                [ends[0]].into_iter().chain(inside).chain([ends[1]]).collect();
-            let is_smooth = all.len() == PARTS + 1 && all.iter().all(|sample| sample.1 > 0.0);
-            sum += if is_smooth {
-                // Simpson's rule.
-                let weights = [1.0, 4.0, 2.0, 4.0, 2.0, 4.0, 2.0, 4.0, 1.0];
-                let loads = weights.iter().zip(&all).map(|(weight, sample)| weight * sample.2);
-                loads.sum::<f64>() * (ends[1].0 - ends[0].0) / (3 * PARTS) as f64
-            } else {
-                all.windows(2).map(|ends| between(ends[0], ends[1])).sum()
+        let is_here = |z: &f64| part.has(middle + z * self.inputs.lead, self.mesh.length);
+        let share = |[one, other]: [f64; 2]| {
+            let (inside, outside) = match [one, other].each_ref().map(is_here) {
+                [true, false] => (one, other),
+                [false, true] => (other, one),
+                [is_all, _] => return f64::from(u8::from(is_all)),
             };
-        }
-        sum
+            let z = (border - middle) / self.inputs.lead;
+            let [load, rest] =
+                [inside, outside].map(|end| self.load_between(loads, ahead, [z, end]));
+            if load > 0.0 { load / (load + rest) } else { 0.0 }
+        };
+        let force = |(number, slice): (usize, &Slice)| match loads.mean_at(ahead, number) {
+            load if load > 0.0 => load * slice.width * share(slice.borders),
+            _ => 0.0,
+        };
+        self.slices.iter().enumerate().map(force).sum()
+    }
+
+    /// ∫ of the line load of a pair between two places on the face, in N.
+    fn load_between(&self, loads: &Loads, ahead: i32, [from, to]: [f64; 2]) -> f64 {
+        const PARTS: usize = 8;
+        let middle = loads.s + f64::from(ahead) * self.mesh.base_pitch;
+        let at = |z: f64| {
+            let found = self.lead_at(loads, ahead, (z, middle + z * self.inputs.lead));
+            found.map_or((0.0, 0.0), |(lead, compliance)| (lead, lead.max(0.0) / compliance))
+        };
+        let samples: SmallVec<[_; PARTS + 1]> = numeric::steps(from, to, PARTS).map(at).collect();
+        let between = |ends: &[(f64, f64)]| {
+            let ((lead, load), (other, last)) = (ends[0], ends[1]);
+            // The lead is linear where the contact ends.
+            let (low, high) = (lead.min(other), lead.max(other));
+            let part = if low >= 0.0 { 1.0 } else { high.max(0.0) / (high - low) };
+            0.5 * (load + last) * part
+        };
+        samples.windows(2).map(between).sum::<f64>() * (to - from).abs() / PARTS as f64
     }
 
     /// ∫ of a value over the face.
@@ -299,22 +303,24 @@ impl Face {
         let places: Vec<f64> = numeric::steps(0.0, pitch, steps).collect();
         let period = passage.samples(&places)?;
         let all = &period[..steps];
-        let mut line_loads = vec![0.0; self.slices.len()];
-        for loads in all {
-            for (sum, line_load) in line_loads.iter_mut().zip(loads.of_all()) {
-                *sum += line_load / steps as f64;
-            }
-        }
+        let mean = |of: &dyn Fn(&Loads) -> f64| {
+            all.iter().map(|loads| of(loads)).sum::<f64>() / steps as f64
+        };
+        let slices = 0..self.slices.len();
+        let line_loads: Vec<f64> =
+            slices.clone().map(|slice| mean(&|loads| loads.of_all_at(slice))).collect();
         let extreme = |of: &dyn Fn(&Loads) -> f64| passage.greatest(&period, of).1;
         let middle = |loads: &Loads| {
             let line_loads = loads.of_all();
             self.over_face(&line_loads, |z| z) / self.over_face(&line_loads, |_| 1.0)
         };
         let cycle = FaceCycle {
-            mean_displacement: all.iter().map(|loads| loads.displacement).sum::<f64>()
-                / steps as f64,
-            peak_line_load: self.greatest(&line_loads),
-            mean_line_load: self.over_face(&line_loads, |_| 1.0) / self.inputs.width,
+            mean_displacement: mean(&|loads| loads.displacement),
+            peak_line_load: slices
+                .map(|slice| self.top(slice, |at| line_loads[at]))
+                .fold(0.0, f64::max),
+            mean_line_load: mean(&|loads| self.over_face(&loads.of_all(), |_| 1.0))
+                / self.inputs.width,
             swing: extreme(&middle) + extreme(&|loads| -middle(loads)),
         };
         let spectrum = Spectrum {
@@ -324,46 +330,6 @@ impl Face {
         };
         let tooth_force = extreme(&|loads| self.tooth_force(loads));
         Ok((cycle, StaticSpectrum { spectrum, tooth_force }))
-    }
-
-    /// The greatest of line loads whose means over the slices are known; at an end of the face and where an
-    /// end relief begins, those of the parabolas with the means of three slices on a side.
-    fn greatest(&self, means: &[f64]) -> f64 {
-        /// Of the width: a slice is at the place.
-        const SAME: f64 = 1e-6;
-        /// The line load at a way before the first of three slices with widths and means.
-        fn beside(way: f64, slices: [(f64, f64); 3]) -> f64 {
-            let [mut from, mut force] = [0.0; 2];
-            let [one, two, three] = slices.map(|(width, mean)| {
-                from += width;
-                force += width * mean;
-                (from, force)
-            });
-            let part = |(own, force): (f64, f64), (one, _): (f64, f64), (other, _): (f64, f64)| {
-                let slope = (way + one) * (way + other) + way * (2.0 * way + one + other);
-                force * slope / (own * (one - own) * (other - own))
-            };
-            part(one, two, three) + part(two, one, three) + part(three, one, two)
-        }
-        let slices: Vec<(f64, f64)> =
-            self.slices.iter().map(|slice| slice.width).zip(means.iter().copied()).collect();
-        let count = slices.len();
-        let at_bend = |bend: f64| {
-            let is_there = |slice: &Slice| (slice.z - bend).abs() < SAME * self.inputs.width;
-            let own = self.slices.iter().position(is_there)?;
-            let after = (own + 3 < count).then(|| {
-                beside(0.5 * self.slices[own].step, [1, 2, 3].map(|next| slices[own + next]))
-            });
-            let before = (own >= 3).then(|| {
-                beside(0.5 * self.slices[own - 1].step, [1, 2, 3].map(|next| slices[own - next]))
-            });
-            // The load is continuous, and on the side of the relief a contact may end nearby.
-            if bend > 0.0 { before.or(after) } else { after.or(before) }
-        };
-        let at_bends = self.inputs.bends().filter_map(at_bend);
-        let ends = [[0, 1, 2], [1, 2, 3].map(|back| count - back)];
-        let ends = ends.map(|three| beside(0.0, three.map(|at| slices[at])));
-        means.iter().copied().chain(ends).chain(at_bends).fold(0.0, f64::max)
     }
 
     /// The greatest lead of the incoming tooth in a part of the path over the face, in m; infinitely
@@ -473,7 +439,7 @@ impl Face {
         };
         let at_slices = (0..self.slices.len()).filter_map(|number| {
             let path = Some(self.path(loads, 0, number)).filter(on_flanks)?;
-            Some(over_curvature(path, self.top(loads, 0, number)))
+            Some(over_curvature(path, self.top_of_incoming(loads, number)))
         });
         let ends = [0.0, length].into_iter();
         let at_ends =
@@ -665,7 +631,11 @@ impl<'a> Passage<'a> {
         let Some((first, last)) = self.ends()? else {
             return Ok(None);
         };
-        let places = self.places(first, last, 1);
+        let mut places = self.places(first, last, 1);
+        if last > mesh.length {
+            let middle = f64::midpoint(mesh.length, last);
+            places.insert(places.partition_point(|place| *place < middle), middle);
+        }
         let samples = self.samples(&places)?;
         let [first_place, last_place] =
             [0, samples.len() - 1].map(|end| face.touch(&samples[end]).1);

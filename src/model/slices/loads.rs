@@ -43,6 +43,11 @@ impl Loads {
         self.index(ahead).map_or(0.0, |pair| self.mean_loads[slice * self.pairs + pair])
     }
 
+    /// The line load of all pairs at a slice, in N/m.
+    pub fn of_all_at(&self, slice: usize) -> f64 {
+        self.line_loads[slice * self.pairs..][..self.pairs].iter().sum()
+    }
+
     /// Mean line load of all pairs over each slice, in N/m.
     pub fn of_all(&self) -> Vec<f64> {
         self.mean_loads.chunks(self.pairs.max(1)).map(|of_slice| of_slice.iter().sum()).collect()
