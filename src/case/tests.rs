@@ -129,6 +129,17 @@ fn set_accepts_the_keys_of_the_command_line() {
 }
 
 #[test]
+fn a_value_replaces_the_empty_alternative_of_a_new_file() {
+    let new = Document::new(Case::empty()).render();
+    let mut document = Document::parse_draft("new.toml", &new).unwrap();
+    document.case.set("operation.torque", "100 N m").unwrap();
+    document.case.set("pair.diametral_pitch", "5 1/in").unwrap();
+    let text = document.render();
+    assert!(text.contains("torque = \"100 N m\"") && text.contains("speed = \"\""), "{text}");
+    assert!(!text.contains("power = \"\"") && !text.contains("module = \"\""), "{text}");
+}
+
+#[test]
 fn a_relative_limit_is_saved_and_read_again() {
     let mut case = Case::table_1();
     for (quantity, text) in

@@ -246,6 +246,11 @@ pub(super) fn render(text: &str, before: &Case, after: &Case) -> String {
     }
     for new in after.iter().filter(|new| !before.contains(new)) {
         put(&mut text, new);
+        // A new file has an empty value for a required field; its alternative replaces it.
+        if let Some(other) = index_of(&new.key()).and_then(|field| FIELDS[field].partner()) {
+            let is_empty = |entry: &Entry| entry.value == Value::String(String::new());
+            remove(&mut text, |entry| entry.key() == FIELDS[other].key && is_empty(entry));
+        }
     }
     text
 }
