@@ -662,10 +662,10 @@ fn report(
     for case in cases {
         let (source, file) = (case.unsolved()?, case.text());
         let call = progress.as_ref().map(|call| call.clone_ref(py));
-        let subject = run(py, call, |go_on| source.subject(file, format, go_on))?;
+        let subject = run(py, call, |go_on| source.subject(file, format, None, go_on))?;
         subjects.push(subject.map_err(|refusal| case.refused(&refusal))?);
     }
-    Ok(render(format, &subjects, &page::Settings { title, no_appendix, units: System::Metric })?)
+    Ok(render(format, &subjects, &page::Settings { title, no_appendix, ..page::Settings::default() })?)
 }
 
 /// The SI unit of each field; empty for bare numbers.

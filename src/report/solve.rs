@@ -16,7 +16,7 @@ use crate::study::shard::Format;
 use crate::study::stiffness::{
     FLANK_POINTS, Flanks, PATH_POINTS, PathComparison, compare_flanks, compare_path,
 };
-use crate::study::tolerance::{Samples, Size, Tolerance};
+use crate::study::tolerance::{Samples, Size, Tolerance, USUAL_SAMPLES};
 
 impl Selection {
     /// Solves a case as far as the selection and the outcome of the method need it. Returns the inputs
@@ -112,11 +112,10 @@ pub fn digest(
     Some(Digest::of(case, inputs, found.as_ref(), system))
 }
 
-/// Samples of a closed form, as in the command `tolerance`.
-const SAMPLES: usize = 10_000;
-/// Samples of a method that shares the load: a solve takes a hundred times as long.
+/// Default samples of a page if a method shares the load: a solve takes a hundred times as long as
+/// that of a closed form.
 const FEW_SAMPLES: usize = 1000;
-/// Samples of a load over the face width: a solve can take a second.
+/// Default samples of a page with a load over the face width: a solve can take a second.
 const FEWEST_SAMPLES: usize = 100;
 /// Seed of the command `tolerance`.
 const SEED: u64 = 1;
@@ -263,12 +262,18 @@ impl Unsolved<'_> {
         Ok(Subject { path, flanks, ..stations })
     }
 
-    /// Computes the results that a format shows. A page includes the studies of the case and other
-    /// methods; HTML also includes what its charts show.
+    /// Computes the results that a format shows. A page includes the studies of the case, with a
+    /// number of tolerance samples, and other methods; HTML also includes what its charts show.
     ///
     /// # Errors
     /// The refusal of the model; [`Refusal::Stopped`] if `go_on` returns false.
-    pub fn subject(&self, file: String, format: Format, go_on: GoOn) -> Result<Subject, Refusal> {
+    pub fn subject(
+        &self,
+        file: String,
+        format: Format,
+        samples: Option<usize>,
+        go_on: GoOn,
+    ) -> Result<Subject, Refusal> {
         let report = match format {
             Format::Html => self.solve_for_picture()?,
             _ => self.solve(format != Format::Csv)?,
@@ -278,7 +283,7 @@ impl Unsolved<'_> {
         }
         let page = Subject {
             variants: self.variants(go_on)?,
-            tolerance: self.tolerance(go_on)?,
+            tolerance: self.tolerance(samples, go_on)?,
             ..Subject::of(report.with_others(), file)
         };
         if format == Format::Md {
@@ -320,13 +325,17 @@ impl Unsolved<'_> {
         Ok(Some(comparison(solved.collect::<Result<_, _>>()?, selection.clone())))
     }
 
-    fn tolerance(&self, go_on: GoOn) -> Result<Option<(Tolerance, Samples)>, Refusal> {
+    fn tolerance(
+        &self,
+        samples: Option<usize>,
+        go_on: GoOn,
+    ) -> Result<Option<(Tolerance, Samples)>, Refusal> {
         let is_slow = self.inputs.method.shares_load() || self.inputs.method == Method::Auto;
-        let samples = match self.inputs.face() {
+        let samples = samples.unwrap_or(match self.inputs.face() {
             Some(_) if is_slow => FEWEST_SAMPLES,
             _ if is_slow => FEW_SAMPLES,
-            _ => SAMPLES,
-        };
+            _ => USUAL_SAMPLES,
+        });
         let size = Size { samples, seed: SEED, ranked: Some(0) };
         let Ok(study) = Tolerance::of(self.case, self.inputs, &[], size) else { return Ok(None) };
         let samples = study.run(self.inputs, &Control { jobs: None, go_on })?;

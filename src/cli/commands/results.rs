@@ -15,6 +15,7 @@ use crate::cli::options::{
 use crate::cli::{
     self, Arguments, Done, Exit, Failure, Opened, Streams, check_out, follow, write_text,
 };
+use crate::cli::questions::count_within;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stage, Stages};
 use crate::report::charts::{Picture, find, pictures};
@@ -27,6 +28,7 @@ use crate::report::table::{Named, item};
 use crate::report::verdict::{self, Standing, refused, stages, verdicts};
 use crate::report::{self, Selection, data, fields, page, studies, svg};
 use crate::study::shard::Format;
+use crate::study::tolerance::MOST_SAMPLES;
 use clap::builder::{PossibleValuesParser, Resettable, TypedValueParser};
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
@@ -354,6 +356,10 @@ pub struct Report {
     /// What the page shows
     #[command(flatten)]
     settings: page::Settings,
+    /// Number of tolerance samples of a case with [spread] (default: 10000; 1000 by a method that
+    /// shares the load, 100 over the face width)
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count_within::<2, MOST_SAMPLES>)]
+    samples: Option<usize>,
     /// File to write, or - for standard output; replaces an existing file
     #[arg(long, required = true, value_name = "FILE")]
     out: PathBuf,
@@ -367,14 +373,14 @@ const PAGES: &[Format] = &[Format::Html, Format::Md, Format::Csv, Format::Json];
 
 impl Report {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
-        let Report { input, settings, out, format } = self;
+        let Report { input, settings, samples, out, format } = self;
         let destination = Destination { out: Some(out.clone()) };
         let format = destination.format(*format, PAGES, false)?.unwrap_or(Format::Html);
         check_out(Some(out), &input.cases.iter().map(AsRef::as_ref).collect::<Vec<_>>())?;
         let mut subjects = Vec::new();
         let worst = input.each(None, streams, |opened, _| {
             let (source, file) = (opened.unsolved(), opened.document.render());
-            let subject = follow("parts", |go_on| source.subject(file, format, go_on))?;
+            let subject = follow("parts", |go_on| source.subject(file, format, *samples, go_on))?;
             subjects.push(subject.map_err(|refusal| opened.refused(&refusal))?);
             Ok(Exit::Done)
         })?;

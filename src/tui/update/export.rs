@@ -110,6 +110,7 @@ fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
     let inputs = app.tab.inputs().cloned().ok_or("a field has an error")?;
     let (name, document, units) = (app.tab.name(), app.tab.as_edited(), app.settings.units);
     let subject = picture.map_or_else(String::new, |picture| format!(": {picture}"));
+    let samples = app.tab.study.state.shown_samples();
     let content = move |running: &Running<'_>| {
         let source = Unsolved { name: &name, case: &document.case, inputs: &inputs };
         let go_on = |_, _| running.is_wanted();
@@ -118,7 +119,7 @@ fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
                 .of_case(source, units, &go_on)
                 .map_err(|refusal| refused(&refusal))
                 .flatten(),
-            None => report_text(source, &document, running.path, units, &go_on),
+            None => report_text(source, &document, running.path, (units, samples), &go_on),
         }
     };
     Ok((subject, Box::new(content)))
@@ -132,14 +133,14 @@ fn report_text(
     source: Unsolved<'_>,
     document: &Document,
     path: &Path,
-    units: System,
+    (units, samples): (System, Option<usize>),
     go_on: &dyn Fn(usize, usize) -> bool,
 ) -> Result<String, String> {
     let format = exports::format_of(path).ok_or_else(|| {
         let endings = exports::ENDINGS;
         format!("unknown file extension: use {endings} for the report, or .svg for the picture")
     })?;
-    let subject = source.subject(document.render(), format, go_on);
+    let subject = source.subject(document.render(), format, samples, go_on);
     let subject = subject.map_err(|refusal| refused(&refusal))?;
     let settings = Settings { units, ..Settings::default() };
     exports::render(format, &[subject], &settings).map_err(|error| error.to_string())

@@ -69,6 +69,12 @@ impl StudyState {
     pub(crate) fn samples(&self) -> usize {
         self.samples.unwrap_or(USUAL_SAMPLES)
     }
+
+    /// The number of samples of a report: that of the pane if it shows the tolerance or if the
+    /// number was typed.
+    pub(crate) fn shown_samples(&self) -> Option<usize> {
+        self.samples.or(self.is_tolerance.then_some(USUAL_SAMPLES))
+    }
 }
 
 /// A requested study.
