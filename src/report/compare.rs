@@ -60,7 +60,7 @@ impl ComparedCase {
         Some(self.solution()?.method.name())
     }
 
-    fn outcome(&self) -> &'static str {
+    pub(super) fn outcome(&self) -> &'static str {
         self.solution().map_or(REFUSED, |solution| solution.outcome.name())
     }
 
@@ -81,10 +81,10 @@ impl ComparedCase {
         sanitize(&(self.name.clone() + &method.unwrap_or_default()))
     }
 
-    /// The outcome, or the reason for its absence.
-    fn described(&self) -> String {
+    /// The verdict, or the reason for its absence.
+    pub(super) fn described(&self, units: System) -> String {
         sanitize(&match &self.found {
-            Ok(report) => digest::sentence(&report.solution, System::Metric, false),
+            Ok(report) => digest::sentence(&report.solution, units, false),
             Err(problems) => {
                 let problems: Vec<String> = problems.iter().map(ToString::to_string).collect();
                 format!("Refused: {}.", problems.join("; "))
@@ -124,7 +124,7 @@ impl Comparison {
     pub(super) fn tables(&self, units: System) -> Vec<Table> {
         let columns = self.columns();
         let table = |title: &str| Table::new(title, columns.clone());
-        let mut found = vec![table("Inputs that differ").with(self.inputs())];
+        let mut found = vec![table("Inputs that differ").with(self.inputs(units))];
         if let Some(method) = self.cases.iter().find_map(|case| Some(case.solution()?.method)) {
             let row = |quantity| self.row(quantity, method, units);
             if self.selection.is_whole() {
@@ -171,7 +171,7 @@ impl Comparison {
     }
 
     /// The inputs that differ between the cases, including limits and distributions.
-    fn inputs(&self) -> Vec<Vec<Cell>> {
+    fn inputs(&self, units: System) -> Vec<Vec<Cell>> {
         let Some(first) = self.cases.first() else { return Vec::new() };
         let mut keys: Vec<String> = FIELDS.iter().map(|field| field.key.to_owned()).collect();
         for change in self.cases.iter().flat_map(|other| between(&first.case, &other.case)) {
@@ -181,14 +181,19 @@ impl Comparison {
             }
         }
         keys.retain(|key| !["title", "notes"].contains(&key.as_str()));
-        keys.iter().filter_map(|key| self.input(key)).collect()
+        keys.iter().filter_map(|key| self.input(key, units)).collect()
     }
 
-    fn input(&self, key: &str) -> Option<Vec<Cell>> {
-        let text = |case: &ComparedCase| {
+    /// A given value keeps its unit.
+    fn input(&self, key: &str, units: System) -> Option<Vec<Cell>> {
+        let default = |field: usize, case: &Case| {
+            let of = &FIELDS[field];
+            Some(of.text_in(case.effective(field)?, units.unit(of.usual_unit())))
+        };
+        let text = |ComparedCase { case, .. }: &ComparedCase| {
             let text = match index_of(key) {
-                Some(field) => case.case.effective(field).map(str::to_owned),
-                None => text_of(&case.case, key),
+                Some(field) => case.text(field).map(str::to_owned).or(default(field, case)),
+                None => text_of(case, key),
             };
             text.map_or_else(|| NONE.to_owned(), |text| sanitize(&text))
         };
@@ -242,7 +247,7 @@ impl Comparison {
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         for (at, case) in self.cases.iter().enumerate() {
             let name = item(&format!("{}  ", letter(at)), &case.named());
-            for line in name.into_iter().chain(item("   ", &case.described())) {
+            for line in name.into_iter().chain(item("   ", &case.described(System::Metric))) {
                 writeln!(out, "{line}")?;
             }
         }
@@ -280,7 +285,7 @@ impl Comparison {
     pub fn write_markdown(&self, out: &mut dyn Write) -> io::Result<()> {
         for (at, case) in self.cases.iter().enumerate() {
             let [name, sentence] =
-                [case.named(), case.described()].map(|text| plain_markdown(&text));
+                [case.named(), case.described(System::Metric)].map(|text| plain_markdown(&text));
             writeln!(out, "- **{}** {name} {sentence}", letter(at))?;
         }
         let others = (1..self.cases.len()).flat_map(|at| self.pair(at));
@@ -308,7 +313,7 @@ impl Comparison {
             words("method", |case| case.method().unwrap_or_default()),
             words("outcome", ComparedCase::outcome),
         ];
-        rows.extend(self.inputs());
+        rows.extend(self.inputs(System::Metric));
         let tables = self.tables(System::Metric);
         let results = tables.iter().flat_map(|table| &table.rows);
         rows.extend(self.quantities().filter_map(|quantity| {

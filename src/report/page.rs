@@ -12,7 +12,7 @@ use crate::model::quantities::conditions::helical;
 use crate::model::{Inputs, Quantity};
 use crate::report::charts::NamedCase;
 use crate::report::charts::{PATTERN, Picture, find, pictures};
-use crate::report::compare::{ComparedCase, Comparison};
+use crate::report::compare::Comparison;
 use crate::report::relief::{BEGINS, RELIEF, begins, drawn, tolerance, tolerances};
 use crate::report::solve::Subject;
 use crate::report::table::{Cell, Column, Table};
@@ -483,13 +483,13 @@ fn of_variants(comparison: &Comparison, units: System) -> Table {
         let values = (0..comparison.cases.len()).map(|at| comparison.value(row, at).into());
         [label, symbol].into_iter().chain(values).chain([unit]).collect()
     });
-    let notes = comparison.cases.iter().flat_map(|ComparedCase { name, found, .. }| {
-        let problems = found.as_ref().err().into_iter().flatten();
-        problems.map(move |problem| sanitize(&format!("{name}: {}", problem.cause)))
-    });
+    // The verdict of the case is on the first sheet.
+    let notes = comparison.cases.iter().skip(1);
+    let notes = notes.map(|case| format!("{}: {}", sanitize(&case.name), case.described(units)));
     Table {
         notes: notes.collect(),
-        ..Table::new("Variants, with the differences from the case", columns).with(rows)
+        ..Table::new("Variants, with the differences from the case", columns)
+            .with(std::iter::once(verdict).chain(rows))
     }
 }
 
@@ -519,6 +519,10 @@ fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples, units: System
     let chances = probabilities(&summary).into_iter();
     let chances =
         chances.map(|(name, text)| format!("Probability of {name} (95 % interval): {text}."));
+    let outcomes = comparison.cases.iter().map(|case| case.outcome().replace('-', " ").into());
+    let blank = || std::iter::once(Cell::from(""));
+    let verdict = std::iter::once("at the entry".into()).chain(blank()).chain(outcomes);
+    let verdict = verdict.chain(blank()).collect();
     let title = format!("Tolerance, {}", samples_of(study, &summary));
     Table {
         notes: [spread].into_iter().chain(chances).collect(),
