@@ -215,8 +215,10 @@ fn stations_chart<'a>(graph: &Graph, cases: &[NamedCase<'a>]) -> Result<Chart, S
     if series.len() == 1 {
         series.extend(line(first, Kind::Bound).map(|(_, bound)| bound));
     }
-    let up = axis_of(graph, column);
-    Ok(Chart { up, series, marks: marks(first), ..Chart::default() })
+    let (up, mut marks) = (axis_of(graph, column), marks(first));
+    // Each of several cases has its own D.
+    marks.retain(|(_, name)| cases.len() == 1 || *name == "E");
+    Ok(Chart { up, series, marks, ..Chart::default() })
 }
 
 fn axis_of(graph: &Graph, column: &Column) -> Axis {
@@ -442,8 +444,9 @@ fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
         curve.peak_rising().is_none_or(|peak| (near.speed - peak.speed).abs() > step)
     };
     let near = curve.peak_near(1.0).filter(|near| is_other(near));
-    let called =
-        |run: &str, peak: Option<String>| of(name, &(run.to_owned() + &peak.unwrap_or_default()));
+    // The names of several cases leave no room for the peak.
+    let peak_of = |peak: Option<String>| peak.filter(|_| name.is_empty()).unwrap_or_default();
+    let called = |run: &str, peak: Option<String>| of(name, &(run.to_owned() + &peak_of(peak)));
     let jumps: Vec<AtSpeed> = curve.jumps().copied().collect();
     let is_jump = |point: &AtSpeed| jumps.iter().any(|jump| jump == point);
     let way = if jumps.is_empty() { "rising/falling" } else { "speed rising" };
@@ -460,7 +463,7 @@ fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
             kind: Kind::Curve,
         },
         Series {
-            name: "contact lost".to_owned(),
+            name: of(name, "contact lost"),
             pieces: lost(curve, &jumps),
             kind: Kind::Marks(None),
         },

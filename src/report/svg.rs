@@ -23,8 +23,12 @@ const LINE: f64 = 21.0;
 const LETTER: f64 = 9.4;
 /// Width of a symbol of the legend with its gaps.
 const SYMBOL: f64 = 52.0;
+/// Greatest number of letters of a name in a legend below the field; a legend with a longer name
+/// begins at the left edge, with smaller letters.
+const SHORT_NAME: usize = 43;
+const LEFT_EDGE: f64 = 18.0;
 /// Greatest number of letters of a name in the legend.
-const MOST_LETTERS: usize = 43;
+const MOST_LETTERS: usize = 64;
 
 /// Draws the chart. The caption names the pair; it is empty where the page names it.
 pub fn draw(chart: &Chart, caption: &str) -> String {
@@ -47,10 +51,14 @@ pub fn draw(chart: &Chart, caption: &str) -> String {
         draw_series(&mut text, series, (at, chart.series.len()), place);
     }
     for ((symbol, name), (x, y)) in legend.into_iter().zip(places) {
-        let (beside, name) = (x + 38.0, typeset(&name));
+        let beside = x + 38.0;
+        let size = fitted(&name, 15.0, WIDTH - beside);
+        let size = if size < 15.0 { format!(" style=\"font-size:{size:.1}px\"") } else { String::new() };
+        let name = typeset(&name);
         let _ = writeln!(
             text,
-            "<g transform=\"translate({x} {y})\">{symbol}</g><text x=\"{beside}\" y=\"{y}\">{name}</text>"
+            "<g transform=\"translate({x} {y})\">{symbol}</g>\
+             <text x=\"{beside}\" y=\"{y}\"{size}>{name}</text>"
         );
     }
     text + "</svg>\n"
@@ -318,13 +326,15 @@ fn draw_series(
 }
 
 /// The positions of the names in the legend, in rows.
-fn places<'a>(names: impl Iterator<Item = &'a str>) -> Vec<Point> {
-    let (mut x, mut y) = (FIELD.0, LEGEND);
+fn places<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<Point> {
+    let has_long = names.clone().any(|name| name.chars().count() > SHORT_NAME);
+    let left = if has_long { LEFT_EDGE } else { FIELD.0 };
+    let (mut x, mut y) = (left, LEGEND);
     let mut places = Vec::new();
     for name in names {
         let width = SYMBOL + LETTER * name.chars().count() as f64;
-        if x > FIELD.0 && x + width > FIELD.2 {
-            (x, y) = (FIELD.0, y + LINE);
+        if x > left && x + width > FIELD.2 {
+            (x, y) = (left, y + LINE);
         }
         places.push((x, y));
         x += width;
