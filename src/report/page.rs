@@ -125,8 +125,21 @@ pub struct Page<'a> {
     date: String,
     cases: Vec<PageCase<'a>>,
     inputs: Table,
+    /// The meanings of the marks in `charts`.
+    marks: String,
     main: Vec<Table>,
     results: Vec<Table>,
+/// Marks of pictures with their meanings; the axes name E.
+const MARKS: [(&str, &str); 7] = [
+    ("D", "D is the first contact of the driven tip."),
+    ("D'", "D' is the driven tip at the end of the impact."),
+    ("", "The path of contact begins at E, A in ISO 21771."),
+    ("E z+", "E z+ and E z- are E at the ends of the face, at positive and negative z."),
+    ("B", "B is its end, E in ISO 21771."),
+    ("P", "P is the pitch point."),
+    ("N1", "The line of action touches the base circles at N1 and N2."),
+];
+
     units: System,
 }
 
@@ -206,7 +219,13 @@ impl<'a> Page<'a> {
             let place = if is_first { &mut charts } else { &mut further };
             place.extend(drawn(picture));
         }
-        Html { page: self, charts, further }.render()
+        let is_marked = |mark: &str| {
+            let text = format!(">{mark}</text>");
+            mark.is_empty() || charts.iter().any(|chart| chart.contains(&text))
+        };
+        let marks = MARKS.iter().filter(|(mark, _)| is_marked(mark)).map(|(_, meaning)| *meaning);
+        let marks = marks.collect::<Vec<_>>().join(" ");
+        Html { page: self, charts, further, marks }.render()
     }
 
     /// Renders Markdown, without charts.

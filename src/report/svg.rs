@@ -445,7 +445,7 @@ pub fn teeth(inputs: &Inputs, solution: &Solution, pair: &str, units: System) ->
     let caption = caption_line(pair, left, HEIGHT + 6.0);
     text + &format!(
         "</svg>\n<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" class=\"axis\"/>\n\
-         <text x=\"{left}\" y=\"{first}\">Driver left, driven gear right; E to B: path of contact.</text>\n\
+         <text x=\"{left}\" y=\"{first}\">Driver left, driven gear right; thick line: path of contact.</text>\n\
          <text x=\"{left}\" y=\"{base}\">Reliefs are not drawn.</text>\n\
          <path d=\"M{bar:.1} {base}v-5v5h{dots:.1}v-5\" class=\"axis\"/>\
          <text x=\"{middle:.1}\" y=\"{above}\" text-anchor=\"middle\">{name}</text>\n{caption}</svg>\n"
