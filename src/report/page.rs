@@ -42,6 +42,19 @@ pub struct Settings {
     /// Units of the page; .csv and .json are in SI
     #[cfg_attr(feature = "cli", arg(long, value_name = "SYSTEM", default_value = "metric"))]
     pub units: System,
+    /// Size of the printed sheets (default: that of the printer)
+    #[cfg_attr(feature = "cli", arg(long, value_name = "SIZE"))]
+    pub paper: Option<Paper>,
+}
+
+/// Sizes of printed sheets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum Paper {
+    /// 210 mm x 297 mm
+    A4,
+    /// 8.5 in x 11 in
+    Letter,
 }
 
 /// Fields that the page shows even with their defaults, because they define the pair.
@@ -133,6 +146,7 @@ pub struct Page<'a> {
 const MARKS: [(&str, &str); 7] = [
     ("D", "D is the first contact of the driven tip."),
     ("D'", "D' is the driven tip at the end of the impact."),
+    paper: &'static str,
     ("", "The path of contact begins at E, A in ISO 21771."),
     ("E z+", "E z+ and E z- are E at the ends of the face, at positive and negative z."),
     ("B", "B is its end, E in ISO 21771."),
@@ -178,6 +192,11 @@ impl<'a> Page<'a> {
         Page {
             subjects,
             has_appendix: !settings.no_appendix,
+            paper: match settings.paper {
+                None => "",
+                Some(Paper::A4) => "size:A4;",
+                Some(Paper::Letter) => "size:letter;",
+            },
             title,
             version: env!("CARGO_PKG_VERSION"),
             date: today(),
