@@ -99,11 +99,11 @@ const MAIN_RESULTS: [&str; 25] = [
     "resonance_speed",
 ];
 
-/// The pictures of the first sheet, of a single case with the teeth: the first of them that the case
-/// has; the others are in the appendix.
+/// The pictures of the first sheet: the first of them that the case has, three and the teeth of a
+/// single case, four of several cases. The others are in the appendix.
 const MAIN_PICTURES: [&str; 5] = ["force", PATTERN, RELIEF, "transmission_error", "gap"];
-/// Their number, besides the teeth.
-const ON_FIRST_SHEET: usize = 3;
+/// Their number, with the teeth.
+const ON_FIRST_SHEET: usize = 4;
 
 /// A case of the page.
 struct PageCase<'a> {
@@ -125,28 +125,14 @@ struct Html<'a> {
     page: &'a Page<'a>,
     charts: Vec<String>,
     further: Vec<String>,
-}
-
-/// The content of a page, without its pictures.
-#[derive(Template)]
-#[template(path = "report.md", config = "assets/askama.toml")]
-pub struct Page<'a> {
-    subjects: &'a [Subject],
-    has_appendix: bool,
-    title: String,
-    version: &'static str,
-    date: String,
-    cases: Vec<PageCase<'a>>,
-    inputs: Table,
     /// The meanings of the marks in `charts`.
     marks: String,
-    main: Vec<Table>,
-    results: Vec<Table>,
+}
+
 /// Marks of pictures with their meanings; the axes name E.
 const MARKS: [(&str, &str); 7] = [
     ("D", "D is the first contact of the driven tip."),
     ("D'", "D' is the driven tip at the end of the impact."),
-    paper: &'static str,
     ("", "The path of contact begins at E, A in ISO 21771."),
     ("E z+", "E z+ and E z- are E at the ends of the face, at positive and negative z."),
     ("B", "B is its end, E in ISO 21771."),
@@ -154,6 +140,20 @@ const MARKS: [(&str, &str); 7] = [
     ("N1", "The line of action touches the base circles at N1 and N2."),
 ];
 
+/// The content of a page, without its pictures.
+#[derive(Template)]
+#[template(path = "report.md", config = "assets/askama.toml")]
+pub struct Page<'a> {
+    subjects: &'a [Subject],
+    has_appendix: bool,
+    paper: &'static str,
+    title: String,
+    version: &'static str,
+    date: String,
+    cases: Vec<PageCase<'a>>,
+    inputs: Table,
+    main: Vec<Table>,
+    results: Vec<Table>,
     units: System,
 }
 
@@ -231,7 +231,8 @@ impl<'a> Page<'a> {
         let is_main = |picture: &Picture| MAIN_PICTURES.contains(&picture.key);
         let mut charts: Vec<String> =
             MAIN_PICTURES.iter().filter_map(|key| find(key)).flat_map(drawn).collect();
-        let mut further = charts.split_off(charts.len().min(ON_FIRST_SHEET));
+        let count = ON_FIRST_SHEET - usize::from(self.is_single());
+        let mut further = charts.split_off(charts.len().min(count));
         let others = pictures().filter(|picture| picture.is_on_page && !is_main(picture));
         for picture in others {
             let is_first = picture.key == "teeth" && self.is_single();
@@ -298,14 +299,14 @@ impl PageCase<'_> {
         })
     }
 
-    /// Name, method and notes of the case, and the table `[about]`, as a line each.
-    fn about(&self) -> Vec<String> {
+    /// The texts of the table `[about]`; then name, method and notes of the case.
+    fn about(&self) -> Vec<Vec<String>> {
         let report = self.report;
         let method = report.solution.method.name();
         // The heading of a case without title is its name.
         let mut line = match report.case.title() {
             "" => format!("Method {method}"),
-            _ => format!("{}, method {method}", sanitize(&report.name)),
+            _ => format!("{}, method {method}", self.file_name()),
         };
         let notes = one_line(report.text("notes"));
         if !notes.is_empty() {
@@ -319,17 +320,12 @@ impl PageCase<'_> {
             }
             format!("{name}: {}", one_line(text))
         });
-        let about = about.collect::<Vec<_>>().join(" · ");
-        [about, line].into_iter().filter(|line| !line.is_empty()).collect()
+        [about.collect(), vec![line]].into_iter().filter(|line| !line.is_empty()).collect()
     }
 
     /// The notes without the marks of Markdown.
     fn plain_notes(&self) -> Vec<String> {
         self.notes.iter().map(|note| note.replace('`', "")).collect()
-    }
-
-    fn name(&self) -> String {
-        sanitize(&self.report.name)
     }
 
     /// The file's name without folders.
@@ -363,11 +359,13 @@ fn notes(report: &Report) -> Vec<String> {
     notes.map(|note| with_labels(&note.message)).collect()
 }
 
-/// A sentence with the labels of fields in place of their keys.
+/// A sentence with the labels of fields and quantities in place of their keys.
 fn with_labels(sentence: &str) -> String {
     let word = |word: &str| {
         let key = word.trim_end_matches([',', ';', '.', ':']);
+        let quantity = || Quantity::find(key).filter(|found| found.key == key && key.contains('_'));
         let label = index_of(key).map(|at| FIELDS[at].full_label());
+        let label = label.or_else(|| Some(quantity()?.label.to_owned()));
         label.map_or_else(|| word.to_owned(), |label| label + &word[key.len()..])
     };
     sanitize(&sentence.split(' ').map(word).collect::<Vec<_>>().join(" "))
@@ -393,8 +391,11 @@ fn inputs(cases: &[PageCase], units: System) -> Table {
     };
     let is_relieved = cases.iter().any(has_relief);
     let rows = FIELDS.iter().enumerate().filter_map(|(at, field)| {
-        let defines =
-            DEFINING.contains(&field.name()) || field.name() == "relief_shape" && is_relieved;
+        let defines = match field.name() {
+            "relief_shape" => is_relieved,
+            "driver_hand" => cases.iter().any(|case| helical(&case.report.inputs)),
+            name => DEFINING.contains(&name),
+        };
         let fields: Vec<usize> = match field.table() {
             "" | "driven" => return None,
             "driver" => [Some(at), index_of(&format!("driven.{}", field.name()))]
@@ -436,7 +437,10 @@ fn inputs(cases: &[PageCase], units: System) -> Table {
                 (_, [own, 0.0]) => drawn(own),
                 (_, [own, by]) => format!("{} ±{}", drawn(own), drawn(by)),
             };
-            Cell::Default(format!("{} / {} {}", text(0), text(1), units.unit(unit)))
+            Cell::Default(match reliefs.amounts {
+                [0.0, 0.0] => "–".to_owned(),
+                _ => format!("{} / {} {}", text(0), text(1), units.unit(unit)),
+            })
         };
         let names = [format!("tip relief {label}"), (*symbol).to_owned()].map(Cell::from);
         names.into_iter().chain(cases.iter().map(of)).collect()
@@ -515,6 +519,10 @@ fn of_variants(comparison: &Comparison, units: System) -> Table {
     let names = comparison.cases.iter().map(|case| sanitize(&case.name));
     let mut columns = columns("", names);
     columns.push(Column::text("unit", ""));
+    let outcomes = comparison.cases.iter().map(|case| case.outcome().replace('-', " ").into());
+    let blank = || std::iter::once(Cell::from(""));
+    let verdict = std::iter::once("at the entry".into()).chain(blank()).chain(outcomes);
+    let verdict = verdict.chain(blank()).collect();
     let tables = comparison.tables(units);
     let rows = tables.iter().flat_map(|table| &table.rows).map(|row| {
         let [symbol, label, unit] = [2, 3, 4].map(|at: usize| row[at].clone());
@@ -557,10 +565,6 @@ fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples, units: System
     let chances = probabilities(&summary).into_iter();
     let chances =
         chances.map(|(name, text)| format!("Probability of {name} (95 % interval): {text}."));
-    let outcomes = comparison.cases.iter().map(|case| case.outcome().replace('-', " ").into());
-    let blank = || std::iter::once(Cell::from(""));
-    let verdict = std::iter::once("at the entry".into()).chain(blank()).chain(outcomes);
-    let verdict = verdict.chain(blank()).collect();
     let title = format!("Tolerance, {}", samples_of(study, &summary));
     Table {
         notes: [spread].into_iter().chain(chances).collect(),

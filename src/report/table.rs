@@ -70,6 +70,11 @@ impl Column {
         Column { key: key.into(), title: title.into(), gap: 1, ..Column::default() }
     }
 
+    /// The class of its cells in HTML.
+    fn class(&self) -> &str {
+        if self.is_right { "number" } else { &self.key }
+    }
+
     /// A column of numbers, aligned to the right: their unit in SI, and the unit and the digits in
     /// text.
     pub fn number(
@@ -322,29 +327,52 @@ impl Table {
     /// The table as HTML, with headers if `has_head`: the class of a cell is `number`, or the key
     /// of its column.
     pub fn html(&self, has_head: bool) -> String {
-        let cell = |tag: &str, column: &Column, faint: &str, text: &str| {
-            let class = if column.is_right { "number" } else { &column.key };
-            let text = match (tag, &*column.key) {
-                ("td", "symbol") => typeset(&numbered(text)),
-                ("td", _) => typeset(text),
-                _ => escaped(text),
-            };
-            format!("<{tag} class=\"{class}{faint}\">{text}</{tag}>")
-        };
-        let title = |column| cell("th", column, "", &column.title);
-        let value = |(column, value): (&Column, &Cell)| {
-            let faint = if matches!(value, Cell::Default(_)) { " soft" } else { "" };
-            cell("td", column, faint, &column.shown(value))
-        };
-        let has_head = has_head && !self.rows.is_empty();
-        let head = has_head.then(|| self.columns.iter().map(title).collect());
-        let rows = self.rows.iter().map(|row| self.columns.iter().zip(row).map(value).collect());
-        let rows = head.into_iter().chain(rows).map(|cells: String| format!("<tr>{cells}</tr>\n"));
         let caption = match self.title.as_str() {
             "" => String::new(),
             title => format!("<caption>{}</caption>\n", escaped(title)),
         };
-        format!("<table>\n{caption}{}</table>\n", rows.collect::<String>())
+        format!("<table>\n{caption}{}{}</table>\n", self.head(has_head), self.body())
+    }
+
+    /// Tables with the same columns as one table in HTML, each below a line with its title, apart
+    /// from the last column. The headers are repeated on every printed page.
+    pub fn html_of(tables: &[Table], has_head: bool) -> String {
+        let Some(first) = tables.first() else { return String::new() };
+        let width = |column: &Column| format!("<col class=\"{}\">", column.class());
+        let widths: String = first.columns.iter().map(width).collect();
+        let head = first.head(has_head);
+        let group = |table: &Table| {
+            let title = match table.title.as_str() {
+                "" => String::new(),
+                title => format!(
+                    "<tr><th colspan=\"{}\">{}</th></tr>\n",
+                    table.columns.len() - 1,
+                    escaped(title)
+                ),
+            };
+            format!("<tbody>\n{title}{}</tbody>\n", table.body())
+        };
+        let groups: String = tables.iter().map(group).collect();
+        format!("<table>\n<colgroup>{widths}</colgroup>\n{head}{groups}</table>\n")
+    }
+
+    fn head(&self, has_head: bool) -> String {
+        if !has_head || self.rows.is_empty() {
+            return String::new();
+        }
+        let title = |column: &Column| cell_of("th", column, "", &column.title);
+        format!("<thead><tr>{}</tr></thead>\n", self.columns.iter().map(title).collect::<String>())
+    }
+
+    fn body(&self) -> String {
+        let value = |(column, value): (&Column, &Cell)| {
+            let faint = if matches!(value, Cell::Default(_)) { " soft" } else { "" };
+            cell_of("td", column, faint, &column.shown(value))
+        };
+        let row = |row: &Vec<Cell>| {
+            format!("<tr>{}</tr>\n", self.columns.iter().zip(row).map(value).collect::<String>())
+        };
+        self.rows.iter().map(row).collect()
     }
 }
 
@@ -355,6 +383,16 @@ pub(super) fn typeset(text: &str) -> String {
         if is_index { format!("<sub>{part}</sub>") } else { part }
     };
     parts(text).into_iter().map(part).collect()
+}
+
+/// A cell of an HTML table.
+fn cell_of(tag: &str, column: &Column, faint: &str, text: &str) -> String {
+    let text = match (tag, &*column.key) {
+        ("td", "symbol") => typeset(&numbered(text)),
+        ("td", _) => typeset(text),
+        _ => escaped(text),
+    };
+    format!("<{tag} class=\"{}{faint}\">{text}</{tag}>", column.class())
 }
 
 /// Symbols with the number of the gear as an index: `z_1 / z_2` for `z1 / z2`.
