@@ -151,13 +151,18 @@ fn at_exit(solution: &Solution, system: System) -> Option<String> {
     let most = Some(load.recess_force).filter(|most| *most > 0.0)?;
     let force = shown_in(Quantity::find("static_force_at_end")?, most, system);
     let angle = shown("static_last_contact_angle")?;
-    let relief = solution.clearing.and_then(|clearing| clearing.at_exit);
+    let clearing = solution.clearing;
+    let relief_of_entry = clearing.and_then(|clearing| clearing.relief);
+    let relief = clearing.and_then(|clearing| clearing.at_exit);
     let required = |on| relief.map(|(given, more)| required(more, given, on, system));
     let at_rest = if solution.method == Method::Dynamic { " at rest" } else { "" };
     if solution.outcome == Outcome::CornerContact {
         let is_larger = most > LARGER * load.approach_force;
         let required = required("on the driver").filter(|_| is_larger);
-        let required = required.map(|required| format!(", {required}"));
+        let required = required.map(|required| {
+            let each = relief_of_entry.map_or("", |_| " (each with the other gear unchanged)");
+            format!(", {required}{each}")
+        });
         return Some(format!("; at the exit {force}{at_rest}{}", required.unwrap_or_default()));
     }
     let required =
