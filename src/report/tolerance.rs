@@ -16,8 +16,9 @@ use crate::study::statistics::{Estimate, Figure, Indices, PERCENTILES, least_cou
 use crate::study::tolerance::{Design, Distribution, centre};
 use crate::study::tolerance::{Exceedance, OfQuantity, Samples, Summary, Tolerance};
 
-/// Greatest length of a bar of a histogram, in characters.
+/// Greatest length of a bar of a histogram, in characters; on a screen, in a narrow pane.
 const LONGEST_BAR: usize = 40;
+const SHORT_BAR: usize = 30;
 
 /// A tolerance study and its results.
 #[derive(Clone, Copy)]
@@ -36,12 +37,12 @@ impl ToleranceReport<'_> {
     /// The results for a screen that already shows the case: the figures come first, and bars
     /// consist of block characters.
     pub fn lines_for_screen(&self, units: System) -> Vec<String> {
-        let [samples, spread, figures] = self.sections("█", units);
+        let [samples, spread, figures] = self.sections(("█", SHORT_BAR), units);
         [samples, figures, spread].concat()
     }
 
     /// The lines about the samples, the distributions and the results.
-    fn sections(&self, bar: &str, units: System) -> [Vec<String>; 3] {
+    fn sections(&self, bar: (&str, usize), units: System) -> [Vec<String>; 3] {
         let summary = self.study.summary(self.samples);
         let first = format!("{}, method {}", samples(self.study, &summary), self.method.name());
         let rows = probabilities(&summary);
@@ -82,7 +83,12 @@ impl ToleranceReport<'_> {
         if is_sum { "sum" } else { "independent" }
     }
 
-    fn quantity_lines(&self, of: &OfQuantity, bar: &str, units: System) -> Vec<String> {
+    fn quantity_lines(
+        &self,
+        of: &OfQuantity,
+        (bar, longest): (&str, usize),
+        units: System,
+    ) -> Vec<String> {
         let OfQuantity { quantity, figures, .. } = of;
         let title = format!("{} ({})", name_of(quantity), quantity.key);
         let Some(figures) = figures else {
@@ -120,7 +126,7 @@ impl ToleranceReport<'_> {
             (0..counts.len()).map(|bin| printed(from + step * bin as f64)).collect();
         let width = widest(lower.iter().map(String::as_str));
         lines.extend(counts.iter().zip(lower).map(|(count, lower)| {
-            let bar = bar.repeat((count * LONGEST_BAR).div_ceil(most));
+            let bar = bar.repeat((count * longest).div_ceil(most));
             let gap = if bar.is_empty() { "" } else { " " };
             format!("  {lower:>width$} | {bar}{gap}{count}")
         }));
@@ -195,7 +201,7 @@ impl ToleranceReport<'_> {
 
 impl Results for ToleranceReport<'_> {
     fn lines(&self, case: Named) -> Vec<String> {
-        let [samples, spread, figures] = self.sections("#", System::Metric);
+        let [samples, spread, figures] = self.sections(("#", LONGEST_BAR), System::Metric);
         [vec![case.heading()], samples, spread, figures].concat()
     }
 
@@ -273,7 +279,13 @@ pub(super) fn distributions(case: &Case) -> Vec<(&'static str, String)> {
             Acting::No(why) | Acting::Beside(why) => format!("; changes nothing: {why}"),
             Acting::Yes => String::new(),
         };
-        (spread.field, format!("{value}, {}{idle}", sanitize(&spread.text)))
+        let drawn = Distribution::of(spread, case, &inputs);
+        let cut = if drawn.is_ok_and(|drawn| drawn.is_cut()) {
+            "; samples below 0 count as 0"
+        } else {
+            ""
+        };
+        (spread.field, format!("{value}, {}{cut}{idle}", sanitize(&spread.text)))
     };
     case.spread.iter().map(of).collect()
 }

@@ -483,15 +483,29 @@ impl Distribution {
         )
     }
 
+    /// Whether samples below 0 count as 0: a relief cannot add material.
+    pub fn is_cut(&self) -> bool {
+        self.key().ends_with("_relief") && self.centre - self.reach() < -self.slack()
+    }
+
+    /// The greatest distance of a value from the centre, for a normal distribution as far as the range
+    /// of a field must contain it.
+    fn reach(&self) -> f64 {
+        if self.shape == Shape::Normal { ALLOWED * self.width } else { self.width }
+    }
+
+    /// The rounding error of an end of the distribution.
+    fn slack(&self) -> f64 {
+        1e-12 * self.range.0.abs().max(self.range.1.abs())
+    }
+
     /// The end of the distribution that is outside the range of the field.
     fn beyond(&self) -> Option<String> {
-        let (reach, by) = match self.shape {
-            Shape::Normal => (ALLOWED * self.width, format!(" at {ALLOWED} standard deviations")),
-            _ => (self.width, String::new()),
-        };
-        let (from, to) = self.range;
-        let slack = 1e-12 * from.abs().max(to.abs());
-        let is_outside = |end: &f64| *end < from - slack || *end > to + slack;
+        let is_normal = self.shape == Shape::Normal;
+        let by =
+            if is_normal { format!(" at {ALLOWED} standard deviations") } else { String::new() };
+        let (reach, slack, (from, to)) = (self.reach(), self.slack(), self.range);
+        let is_outside = |end: &f64| *end < from - slack && !self.is_cut() || *end > to + slack;
         let end = [self.centre - reach, self.centre + reach].into_iter().find(is_outside)?;
         let unit = FIELDS[self.field].usual_unit();
         let rounded = significant(units::per(end, unit), 6);
@@ -503,7 +517,7 @@ impl Distribution {
     pub fn quantile(&self, part: f64) -> f64 {
         let Distribution { centre, width, .. } = *self;
         let normal = Normal::standard();
-        match self.shape {
+        let value = match self.shape {
             Shape::Normal => centre + width * normal.inverse_cdf(part),
             Shape::Uniform => centre + width * (2.0 * part - 1.0),
             Shape::Triangular if part < 0.5 => centre - width * (1.0 - (2.0 * part).sqrt()),
@@ -514,7 +528,8 @@ impl Distribution {
                 let offset = width / CUT * normal.inverse_cdf(inside);
                 centre + offset.clamp(-width, width)
             }
-        }
+        };
+        if self.is_cut() { value.max(0.0) } else { value }
     }
 
     /// Writes a value into the inputs of a model.
@@ -640,19 +655,24 @@ mod tests {
     fn a_spread_that_leaves_the_range_or_has_no_value_is_refused() {
         let mut case = Case::table_1();
         case.set("driven.tip_relief", "10 um").unwrap();
+        case.set("deviations.backlash", "10 um").unwrap();
         let refusal = |key, text| {
             let spread = Spread::new(key, text).unwrap();
             let found = Distribution::of(&spread, &case, &case.inputs().unwrap());
             found.map_err(|problem| problem.to_string())
         };
-        let message = refusal("driven.tip_relief", "uniform 12 um").unwrap_err();
+        let message = refusal("deviations.backlash", "uniform 12 um").unwrap_err();
         assert!(
-            message.starts_with("spread.\"driven.tip_relief\": uniform 12 um reaches -2 um"),
+            message.starts_with("spread.\"deviations.backlash\": uniform 12 um reaches -2 um"),
             "{message}"
         );
-        let message = refusal("driven.tip_relief", "normal 3 um").unwrap_err();
+        let message = refusal("deviations.backlash", "normal 3 um").unwrap_err();
         assert!(message.contains("-5 um at 5 standard deviations"), "{message}");
-        assert!(refusal("driven.tip_relief", "truncated 10 um").is_ok());
+        assert!(refusal("deviations.backlash", "truncated 10 um").is_ok());
+        // A relief cannot add material.
+        let relief = refusal("driven.tip_relief", "uniform 12 um").unwrap();
+        assert!([0.0, 0.05].map(|part| relief.quantile(part)) == [0.0, 0.0] && relief.is_cut());
+        assert!((relief.quantile(0.5) - 10e-6).abs() < 1e-18);
         let message = refusal("operation.torque", "normal 1 N m").unwrap_err();
         assert!(message.contains("operation.torque has no value to spread around"), "{message}");
         assert!(message.ends_with("the case gives operation.power: spread operation.power"));

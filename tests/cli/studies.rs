@@ -285,7 +285,7 @@ fn a_bad_distribution_gets_place_cause_and_fix() {
         ("\"pair.module\" = { grade = 7 }", "a grade gives a base pitch deviation"),
         ("\"deviations.base_pitch\" = { grade = 12 }", "from 1 to 11"),
         ("\"pair.module\" = { triangle = \"1 mm\" }", "did you mean triangular?"),
-        ("\"driven.tip_relief\" = { uniform = \"1 um\" }", "outside the field's range"),
+        ("\"deviations.backlash\" = { uniform = \"1 um\" }", "outside the field's range"),
         ("\"operation.torque\" = { uniform = \"1 N m\" }", "has no value to spread around"),
     ] {
         let (_folder, case) = with_spread(lines);
