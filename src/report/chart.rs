@@ -59,6 +59,8 @@ pub struct Axis {
     pub unit: String,
     /// Labels of values in place of numbers.
     pub labels: Labels,
+    /// The least range of the axis, if the curves are no measure of it.
+    pub least: Option<Span>,
 }
 
 /// Values of an axis with their labels.
@@ -225,15 +227,15 @@ impl Axis {
     /// An axis of numbers in a unit.
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Axis {
         let unit = Some(unit.into()).filter(|unit| unit != "1");
-        Axis { name: name.into(), unit: unit.unwrap_or_default(), labels: Labels::new() }
+        Axis { name: name.into(), unit: unit.unwrap_or_default(), ..Axis::default() }
     }
 
     /// The name with the unit.
     pub fn in_unit(&self) -> String {
-        if self.unit.is_empty() {
-            self.name.clone()
-        } else {
-            format!("{} in {}", self.name, self.unit)
+        match self.unit.as_str() {
+            "" => self.name.clone(),
+            "in" => format!("{} in inches", self.name),
+            unit => format!("{} in {unit}", self.name),
         }
     }
 
@@ -253,9 +255,9 @@ impl Axis {
         Axis { labels: labels.collect(), ..Axis::new(name, "") }
     }
 
-    /// The range of the labels.
+    /// The range of the labels, and the least range.
     pub fn span(&self) -> Span {
-        Span::of(self.labels.iter().map(|label| label.0))
+        Span::of(self.labels.iter().map(|label| label.0)).and(self.least.unwrap_or(Span::NONE))
     }
 
     /// Labels of at most `most` intervals of a range.

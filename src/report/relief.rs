@@ -72,7 +72,8 @@ impl Specification {
 
     /// The columns of the gains, and the rule by which one of the reliefs is specified.
     pub fn legend(&self, units: System) -> String {
-        let [um, mm, force] = ["um", "mm", "N"].map(|unit| units.unit(unit));
+        let [um, force] = ["um", "N"].map(|unit| units.unit(unit));
+        let mm = if units == System::Inch { "inches" } else { "mm" };
         let figure = match self.demand.minimise {
             Criterion::Te => "worst TE".to_owned(),
             _ => self.criterion(),

@@ -55,7 +55,7 @@ fn any_relief_of_the_list_is_written_into_the_case() {
     desk.keys(&["Up"; 9]).keys(&["Down", "Enter"]);
     assert_eq!(desk.text("model.relief_shape"), "linear");
     desk.keys(&["Ctrl-Z", "Esc", ":", "units", "Enter", ":", "relief", "Enter"]);
-    desk.has(&["TE (transmission error) in thou, La in in", "lbf ft"]).lacks(&[" mm", " N ", "…"]);
+    desk.has(&["error) in thou, La in inches", "lbf ft"]).lacks(&[" mm", " N ", "…"]);
     desk.keys(&["Up"; 9]).keys(&["Down", "Down", "Enter"]);
     assert_eq!(desk.text("model.relief_shape"), "parabolic");
     desk.assert(desk.text("driven.tip_relief_length").ends_with(" mm"));

@@ -432,7 +432,7 @@ fn work_that_another_case_replaced_is_requested_again() {
 fn with_inch_units_a_study_is_in_inches() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.go_to("pair.module");
-    desk.keys(&["Esc", "6", ":", "units", "Enter"]).assert_shows("over module in in");
+    desk.keys(&["Esc", "6", ":", "units", "Enter"]).assert_shows("over module in inches");
     desk.assert_shows("m = 0.19685 in:");
     desk.keys(&["l", "Enter"]);
     assert!(desk.text("pair.module").ends_with(" in"));
