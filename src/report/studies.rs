@@ -1,12 +1,12 @@
 //! Sweeps, crossings, excitation and stiffness as text, CSV, JSON and charts.
 
-use super::chart::{self, Axis, Chart, Series};
+use super::chart::{self, Axis, Chart, Series, Span};
 use super::charts::{MICRON_MILLIMETRE, MILLIMETRE, pieces};
 use super::table::{
     Cell, Column, Json, Named, Results, Table, item, json, measured, object, reason, sorted,
     write_line,
 };
-use super::{common_unit, name_of, number, shown};
+use super::{common_unit, name_of, number, shown, svg};
 use crate::case::changes::label;
 use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::sanitize;
@@ -24,6 +24,7 @@ use crate::study::stiffness::{
     FIELD, FieldPoint, Flanks, GearComparison, PathComparison, PathPoint, Point,
 };
 use crate::study::tolerance::Samples;
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 /// A search and its result.
@@ -271,12 +272,38 @@ fn are_geometric(numbers: &[f64]) -> bool {
         && numbers.windows(2).all(|pair| are_near(pair[1] / pair[0], second / first))
 }
 
+/// The chart of a sweep.
+#[derive(Debug, Clone)]
+pub struct SweepChart {
+    /// The chart.
+    pub chart: Chart,
+    /// The quantities with another unit than the first one, which the chart leaves out.
+    pub omitted: Vec<&'static Quantity>,
+    /// Why points have no value, for the caption; empty if every point has a value.
+    pub gaps: String,
+}
+
+impl SweepChart {
+    /// The picture with the caption.
+    pub fn svg(&self, caption: &str) -> String {
+        let gaps = Some(&self.gaps).filter(|gaps| !gaps.is_empty());
+        let gaps = gaps.map_or_else(String::new, |gaps| format!("\nno curve: {gaps}"));
+        svg::draw(&self.chart, &(caption.to_owned() + &gaps))
+    }
+
+    /// The quantities that the chart leaves out, if any.
+    pub fn remark(&self) -> Option<String> {
+        let keys = self.omitted.iter().map(|quantity| quantity.key).collect::<Vec<_>>().join(",");
+        (!keys.is_empty()).then(|| format!("another unit, not drawn: {keys}; --only selects"))
+    }
+}
+
 /// The chart of a sweep from its CSV: the quantities, or the selected ones, with the unit of the first,
 /// over the varied field with the most values, with a curve for each combination of the other fields.
 ///
 /// # Errors
 /// The reason if the text is no sweep or has no values.
-pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
+pub fn drawn(text: &str, only: &[&Quantity]) -> Result<SweepChart, String> {
     let invalid = |error: csv::Error| format!("this is no CSV of `tipstrike sweep`: {error}");
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let head = reader.headers().map_err(invalid)?.clone();
@@ -289,11 +316,12 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
         columns().filter(|(_, (key, _))| index_of(key).is_some()).map(|(at, _)| at).collect();
     let known = columns().filter_map(|(at, (key, _))| Some((at, Quantity::find(key)?)));
     let is_wanted = |quantity: &Quantity| only.iter().any(|wanted| wanted.key == quantity.key);
-    let mut known: Vec<(usize, &Quantity)> =
+    let known: Vec<(usize, &Quantity)> =
         known.filter(|(_, quantity)| only.is_empty() || is_wanted(quantity)).collect();
     let none = "this is no CSV of `tipstrike sweep` with a varied field and the quantity";
     let &(_, first) = known.first().ok_or(none)?;
-    known.retain(|(_, quantity)| quantity.unit == first.unit);
+    let (known, omitted): (Vec<_>, Vec<_>) =
+        known.into_iter().partition(|(_, quantity)| quantity.unit == first.unit);
     let distinct = |columns: &[usize]| {
         let mut found: Vec<Vec<&str>> = Vec::new();
         for row in &rows {
@@ -356,13 +384,23 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<Chart, String> {
         1 => (first.label.trim_start(), name_of(first)),
         _ => (common, common.to_owned()),
     };
-    Ok(Chart {
+    let outcome = columns().find(|(_, (key, _))| *key == "outcome").map(|(at, _)| at);
+    let is_gap = |row: &&csv::StringRecord| known.iter().all(|&(at, _)| row[at].is_empty());
+    let gaps: BTreeSet<String> = rows
+        .iter()
+        .filter(is_gap)
+        .filter_map(|row| Some(row[outcome?].replace('-', " ")))
+        .collect();
+    let varied = Span::of(places.iter().map(|cells| place(cells[0])));
+    let chart = Chart {
         title: format!("{name} over {}", label(key)),
-        across: Axis { labels, ..Axis::new(label(key), across_unit) },
+        across: Axis { labels, least: Some(varied), ..Axis::new(label(key), across_unit) },
         up: Axis::new(up, units::named(unit)),
         series,
         ..Chart::default()
-    })
+    };
+    let omitted = omitted.into_iter().map(|(_, quantity)| quantity).collect();
+    Ok(SweepChart { chart, omitted, gaps: gaps.into_iter().collect::<Vec<_>>().join(", ") })
 }
 
 /// The values of a sample: name, unit, title in text, and unit and digits in text.
@@ -739,14 +777,18 @@ mod tests {
             500,20,1500.0,corner-contact\n500,30,,no-corner-contact\n\
             1000,20,2500.0,corner-contact\n1000,30,1000.0,corner-contact\n\
             1500,20,3500.0,corner-contact\n1500,30,1100.0,corner-contact\n";
-        let found = drawn(text, &[]).unwrap();
+        let SweepChart { chart: found, gaps, .. } = drawn(text, &[]).unwrap();
+        assert_eq!(
+            (gaps.as_str(), found.across.least),
+            ("no corner contact", Some(Span::new(500.0, 1500.0)))
+        );
         assert_eq!((found.across.unit.as_str(), found.up.unit.as_str()), ("rpm", "N"));
         let names: Vec<&str> = found.series.iter().map(|series| series.name.as_str()).collect();
         assert_eq!(names, ["driven number of teeth 20", "driven number of teeth 30"]);
         assert_eq!(found.series[0].pieces[0].len(), 3);
         assert_eq!(found.series[1].pieces, [vec![(1000.0, 1000.0), (1500.0, 1100.0)]]);
         let choices = "model.method,impact_force [N],outcome\nexact,2.0,x\npaper,1.0,x\n";
-        assert_eq!(drawn(choices, &[]).unwrap().across.labels[1], (1.0, "paper".to_owned()));
+        assert_eq!(drawn(choices, &[]).unwrap().chart.across.labels[1], (1.0, "paper".to_owned()));
         assert!(drawn("a,b\n1,2\n", &[]).is_err() && drawn("", &[]).is_err());
     }
 }

@@ -65,17 +65,17 @@ pub fn draw(chart: &Chart, caption: &str) -> String {
 }
 
 fn caption_height(caption: &str) -> f64 {
-    if caption.is_empty() { 0.0 } else { LINE }
+    LINE * caption.lines().count() as f64
 }
 
-/// The name of the pair in a line of its own.
+/// The name of the pair in a line of its own, and remarks below it.
 fn caption_line(caption: &str, left: f64, y: f64) -> String {
-    if caption.is_empty() {
-        return String::new();
-    }
-    let size = fitted(caption, 15.0, WIDTH - left);
-    let text = escaped(caption);
-    format!("<text x=\"{left}\" y=\"{y}\" style=\"font-size:{size:.1}px\">{text}</text>\n")
+    let line = |(at, line): (usize, &str)| {
+        let (y, size, text) =
+            (y + LINE * at as f64, fitted(line, 15.0, WIDTH - left), escaped(line));
+        format!("<text x=\"{left}\" y=\"{y}\" style=\"font-size:{size:.1}px\">{text}</text>\n")
+    };
+    caption.lines().enumerate().map(line).collect()
 }
 
 /// A size of letters, smaller for a text that is longer than its room.
@@ -105,7 +105,7 @@ fn legend(chart: &Chart) -> Vec<(String, String)> {
         };
         shades.enumerate().map(shade).collect::<String>()
     };
-    let line = |class: &str| format!("<path d=\"M0-5h30\" class=\"{class}\"/>");
+    let line = |class: &str| format!("<path d=\"M0-5h30\" class={class}/>");
     let mut legend = Vec::new();
     if let Some(map) = &chart.map {
         let ends = map.ends.as_ref().map(|[least, most]| format!("{} to {}", least.1, most.1));
@@ -113,7 +113,7 @@ fn legend(chart: &Chart) -> Vec<(String, String)> {
         let has = |cell: Cell, name: &str| map.cells.contains(&cell).then(|| name.to_owned());
         let parts = [
             (shades(0..NO_CONTACT), ends),
-            (line("bound"), limit),
+            (line("\"bound\""), limit),
             (shades(NO_CONTACT..REFUSED), has(Cell::NoContact, "no contact")),
             (shades(REFUSED..SHADES), has(Cell::Refused, "refused")),
         ];
@@ -122,8 +122,8 @@ fn legend(chart: &Chart) -> Vec<(String, String)> {
     legend.extend(chart.series.iter().enumerate().map(|(at, series)| {
         let look = at % LOOKS.len();
         let symbol = match series.kind {
-            Kind::Curve => line(&format!("curve s{look}")),
-            Kind::Bound => line("bound"),
+            Kind::Curve => line(&curve(at)),
+            Kind::Bound => line("\"bound\""),
             Kind::Bars => {
                 format!("<rect x=\"8\" y=\"-11\" width=\"14\" height=\"12\" class=\"f{look}\"/>")
             }
@@ -282,9 +282,9 @@ fn draw_series(
     let look = at % LOOKS.len();
     let points = || series.pieces.iter().flatten().copied();
     let class = match series.kind {
-        Kind::Curve => format!("curve s{look}"),
-        Kind::Bound => "bound".to_owned(),
-        Kind::Marks(_) => format!("thin s{look}"),
+        Kind::Curve => curve(at),
+        Kind::Bound => "\"bound\"".to_owned(),
+        Kind::Marks(_) => format!("\"thin s{look}\""),
         Kind::Bars => {
             let (width, from) = Series::bar(at, all);
             for (x, y) in points() {
@@ -310,7 +310,7 @@ fn draw_series(
         }
         let points = piece.iter().map(|&point| place(point));
         let points: Vec<String> = points.map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
-        let _ = writeln!(text, "<polyline points=\"{}\" class=\"{class}\"/>", points.join(" "));
+        let _ = writeln!(text, "<polyline points=\"{}\" class={class}/>", points.join(" "));
     }
     if let Kind::Marks(ringed) = series.kind {
         let ring = format!("<circle r=\"9\" class=\"thin s{look}\"/>");
@@ -348,6 +348,17 @@ fn cut(name: &str) -> String {
     }
     name.chars().take(MOST_LETTERS - 1).chain(['…']).collect()
 }
+
+/// The class of the curve of a series. A colour that returns has the dashes of another colour.
+fn curve(at: usize) -> String {
+    let (look, round) = (at % LOOKS.len(), at / LOOKS.len());
+    let dashes = DASHES[(look + round) % LOOKS.len()];
+    let style = format!(" style=\"stroke-dasharray:{dashes}\"");
+    format!("\"curve s{look}\"{}", if round > 0 { &style } else { "" })
+}
+
+/// The dashes of each series in the style sheet.
+const DASHES: [&str; 6] = ["none", "9 3", "3 2", "9 3 2 3", "14 4", "2 4"];
 
 /// The mark of each series.
 const LOOKS: [&str; 6] = [

@@ -270,7 +270,10 @@ fn write_study(
             let drawn = studies::drawn(&String::from_utf8_lossy(&text), &study.quantities);
             let drawn = drawn.map_err(|reason| Failure::of_case(name, &reason))?;
             let caption = Named { name, title: study.case.title() }.caption();
-            text = draw(&drawn, &caption).into_bytes();
+            if let Some(remark) = drawn.remark() {
+                streams.say(&format!("{name}: {remark}"));
+            }
+            text = drawn.svg(&caption).into_bytes();
         }
         write_to(out, streams, |sink| sink.write_all(&text))?;
     }
