@@ -468,17 +468,28 @@ fn draw_page(app: &App, shown: &StudyResults, inner: Rect, buffer: &mut Buffer) 
     }
     let top = top(app, shown);
     let page = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
-    // A narrow pane has the values without the blanks before them.
     let width = usize::from(page.width);
-    let lines = shown.page[top..].iter().map(|line| match text::width(line) {
-        wide if wide > width => {
-            let words = line.split_whitespace().collect::<Vec<_>>().join(" ");
-            text::cut(&words, width)
-        }
-        _ => line.clone(),
-    });
+    // A title, a bar of a histogram and a row of a table are lines of different kinds.
+    let kind = |line: &String| (line.starts_with(' '), line.contains('|'));
+    let blocks = shown.page.chunk_by(|line, next| kind(line) == kind(next));
+    let lines = blocks.flat_map(|block| narrowed(block, width)).skip(top);
     text::draw_lines(lines, page, buffer);
     text::scroll_bar_beside(top, shown.page.len(), page, buffer);
+}
+
+/// The rows of a table; too wide a table has single blanks between its columns.
+fn narrowed(rows: &[String], width: usize) -> Vec<String> {
+    if rows.iter().all(|row| text::width(row) <= width) {
+        return rows.to_vec();
+    }
+    let is_blank =
+        |at: usize| rows.iter().all(|row| row.chars().nth(at).is_none_or(|it| it == ' '));
+    let column = |at: &usize| *at == 0 || !is_blank(*at) || !is_blank(*at - 1);
+    let narrow = |row: &String| {
+        let kept = row.chars().enumerate().filter(|(at, _)| column(at)).map(|(_, it)| it);
+        text::cut(&kept.collect::<String>(), width)
+    };
+    rows.iter().map(narrow).collect()
 }
 
 /// The number of lines of the tolerance that fit.
