@@ -228,10 +228,10 @@ pub(super) fn scroll_bar_beside(top: usize, lines: usize, area: Rect, buffer: &m
     }
 }
 
-/// Draws wrapped text into an area, with a margin of one column on both sides.
+/// Draws wrapped text into an area, cut at its end, with a margin of one column on both sides.
 pub(super) fn draw_words(words: &str, area: Rect, buffer: &mut Buffer) {
     let area = area.inner(Margin::new(1, 0));
-    draw_lines(wrap(words, area.width.into()), area, buffer);
+    draw_lines(fitted(words, area.width.into(), area.height.into()), area, buffer);
 }
 
 /// The extension of a case file.
