@@ -775,7 +775,7 @@ pub(super) fn keep_variant(app: &mut App, name: &str) {
     case.keep_variant(variant);
     edit::replace(app, case);
     app.say(format!(
-        "variant {name} now has {count} {edits}; the form shows the case without them; Ctrl-Z undoes"
+        "variant {name} now has {count} {edits}; the form shows the saved case; Ctrl-Z undoes"
     ));
 }
 
