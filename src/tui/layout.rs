@@ -276,12 +276,12 @@ impl Place {
     /// A field that takes text or a name.
     pub(crate) const FORM: Place = Place::TEXT.or(Place::CHOICE);
     /// The panes in which letters are commands.
-    pub(crate) const OUTSIDE: Place = Place::FIELD
+    pub(crate) const OUTSIDE: Place = Place::VALUES.or(Place::STUDY).or(Place::TOLERANCE);
+    /// The panes in which a value can be copied.
+    pub(crate) const VALUES: Place = Place::FIELD
         .or(Place::RESULTS)
         .or(Place::CURSOR)
         .or(Place::TRADE)
-        .or(Place::STUDY)
-        .or(Place::TOLERANCE)
         .or(Place::OWN_CHART)
         .or(Place::PATTERN)
         .or(Place::MISSING_CHART);

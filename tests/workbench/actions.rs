@@ -108,6 +108,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("X Esc", "u", "", "module               5 mm "),
     ("Esc", "b", "", "baseline: case.toml as it is now"),
     ("Esc", "y", "", "[copied 5 mm]"),
+    ("Esc 6", "y", "", "Command of the study"),
     ("Esc", "Y", "", "# Zhou & Chen 2014, Table 1"),
     ("Esc 3", "z", "", "  2500 ┤"),
     ("Esc 3", "1", "", "▸ 1 Form"),

@@ -16,6 +16,7 @@ use crate::study::shard::Format;
 use crate::tui::app::App;
 use crate::tui::app::actions::{Choice, Content, Effect, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
+use crate::tui::app::dialogs::page::Page as TextPage;
 use crate::tui::app::dialogs::question::{PathDialog, Question};
 use crate::tui::app::panes::chart;
 use crate::tui::layout::Pane;
@@ -203,11 +204,7 @@ pub(super) fn copy_value(app: &mut App) {
             }
             None => Err("no cursor and no value to copy: h and l show the cursor".to_owned()),
         },
-        Pane::Study => studies::command(app).map(|command| {
-            let first = if app.tab.is_unsaved() { "; save the case before it runs" } else { "" };
-            let what = format!("the command of the study{first}: {command}");
-            (command, what)
-        }),
+        Pane::Study => return copy_command(app),
         Pane::Results | Pane::Trade => {
             let quantity = app.marked_result();
             let found = quantity.map(|quantity| {
@@ -224,6 +221,21 @@ pub(super) fn copy_value(app: &mut App) {
         Ok((text, what)) => copy(app, text, &what),
         Err(reason) => app.complain(reason),
     }
+}
+
+/// Copies the command that repeats the study, and shows it.
+fn copy_command(app: &mut App) {
+    let command = match studies::command(app) {
+        Ok(command) => command,
+        Err(reason) => return app.complain(reason),
+    };
+    let copied = "The clipboard of the terminal has this text.";
+    let first = "Save the case before the command runs: it reads the file.";
+    let about = if app.tab.is_unsaved() { vec![copied, first] } else { vec![copied] };
+    let commands = command.lines().flat_map(|line| [line, ""]);
+    let lines = commands.chain(about).map(str::to_owned).collect();
+    copy(app, command, "the command of the study");
+    app.prompts.push(Prompt::Read(TextPage::new("Command of the study", Some(lines))));
 }
 
 /// Requests the report of the active method as Markdown: title, verdict, inputs, and results with

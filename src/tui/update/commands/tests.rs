@@ -23,8 +23,8 @@ fn no_key_has_two_meanings_in_a_place() {
     }
 }
 
-/// Letters with similar meanings in several panes: move, more or less, start again, other view.
-const ALIKE: &str = "hjklHLgG+=-0v";
+/// Letters with similar meanings in several panes: move, more or less, start again, other view, copy.
+const ALIKE: &str = "hjklHLgG+=-0vy";
 
 #[test]
 fn a_letter_has_one_meaning_in_all_panes() {
