@@ -28,9 +28,8 @@ use crate::tui::session;
 use crate::tui::solver::{Answer, Baseline, Variants};
 use crate::tui::text::{self, symbol};
 
-/// Number of quantities that stay visible below the sentences, and below a long verdict or fault.
-const USUAL_ROWS: usize = 12;
-const LEAST_ROWS: usize = 4;
+/// Number of quantities that stay visible below the sentences; at most two thirds of the lines.
+const LEAST_ROWS: usize = 12;
 
 /// The state of the pane, separate for each open case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -198,11 +197,9 @@ struct Sentence {
 /// Where a sentence is shown besides the page of notes.
 #[derive(PartialEq, Eq)]
 enum Place {
-    /// Always.
+    /// Always; a long sentence ends after one of its clauses.
     Pane,
-    /// Always, in one line.
-    Line,
-    /// If there is room.
+    /// If there is room, also for the sentences before it.
     Room,
     /// Nowhere else.
     Page,
@@ -212,38 +209,30 @@ enum Place {
 fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
     let width = usize::from(app.area(Pane::Results).width.saturating_sub(1));
     let height = usize::from(app.area(Pane::Results).height.saturating_sub(1));
-    let (mut head, mut has_more) = (Vec::new(), false);
     let height = height.saturating_sub(usize::from(app.has_result_header()));
-    let kept = |rows: usize| height.saturating_sub(rows);
-    let most = if app.tab.answer.is_some() { kept(LEAST_ROWS + 1) } else { height };
-    let lines = |sentence: &Sentence| {
-        let lines = match sentence.place {
-            Place::Line => vec![text::cut(&sentence.text, width)],
-            _ => text::wrap(&sentence.text, width),
-        };
-        lines.into_iter().map(|line| Line::styled(line, sentence.style)).collect::<Vec<_>>()
-    };
-    let mut shown = sentences(app, false);
-    let always = shown.iter().filter(|sentence| sentence.place == Place::Pane);
-    let has_limits = !app.tab.case.limits.is_empty();
-    if has_limits && always.flat_map(lines).count() > kept(USUAL_ROWS) {
-        shown = sentences(app, true);
-    }
-    for sentence in shown {
-        let (lines, place) = (lines(&sentence), sentence.place);
+    let has_rows = app.tab.answer.is_some();
+    let room = if has_rows { height - LEAST_ROWS.min(2 * height / 3) } else { height };
+    let (mut head, mut has_more, mut is_cut) = (Vec::new(), false, false);
+    for Sentence { text, style, place } in sentences(app) {
+        let (mut lines, left) = (text::wrap(&text, width), room - head.len());
         // The last line names the page of the hidden sentences.
-        let room = kept(USUAL_ROWS).saturating_sub(head.len() + 1);
-        match place {
-            Place::Pane | Place::Line => head.extend(lines),
-            Place::Room if !has_more && lines.len() <= room => head.extend(lines),
-            Place::Room | Place::Page => has_more = true,
+        let is_shown = match place {
+            Place::Pane => left > 0,
+            Place::Room => !has_more && lines.len() < left,
+            Place::Page => false,
+        };
+        has_more |= !is_shown;
+        if is_shown && lines.len() > left {
+            has_more = true;
+            let end = symbol(&format!(" … ({}n)", app.leave()), app.look.ascii).into_owned();
+            let clauses = to_clause(&text, &end, width, left);
+            is_cut = clauses.is_some();
+            lines = clauses.unwrap_or_else(|| text::fitted(&text, width, left));
         }
+        let lines = lines.into_iter().filter(|_| is_shown);
+        head.extend(lines.map(|line| Line::styled(line, style)));
     }
-    if head.len() > most {
-        head.truncate(most);
-        head.iter_mut().last().into_iter().for_each(|line| line.push_span("…"));
-    }
-    let notes = has_more.then(|| {
+    let notes = (has_more && !is_cut).then(|| {
         let notes = match app.tab.answer.as_ref().map_or(0, |answer| answer.notes.len()) {
             0 => "more".to_owned(),
             1 => "1 note".to_owned(),
@@ -252,16 +241,21 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
         format!("{notes} ({}n)", app.leave())
     });
     let folded = app.tab.answer.as_ref().and_then(|answer| folded(app, answer));
-    // Variants, and the last of the usual rows, need the line; the line of keys has the key of the notes.
-    let is_needed = head.len() == kept(USUAL_ROWS)
-        || app.shown_variants().is_some() && head.len() > kept(USUAL_ROWS);
-    let last: Vec<String> = notes.into_iter().chain(folded).filter(|_| !is_needed).collect();
-    if !last.is_empty() {
+    let last: Vec<String> = notes.into_iter().chain(folded).collect();
+    if !last.is_empty() && head.len() < room {
         let last = text::cut(&last.join(", "), width);
         head.push(Line::styled(last, app.look.theme.note));
     }
-    let rows = if app.tab.answer.is_some() { kept(head.len()) } else { 0 };
+    let rows = if has_rows { height.saturating_sub(head.len()) } else { 0 };
     (head, rows)
+}
+
+/// A text that ends after the last clause with which it has at most `rows` lines, unless the clauses
+/// leave more than one line.
+fn to_clause(text: &str, end: &str, width: usize, rows: usize) -> Option<Vec<String>> {
+    let ends = text.rmatch_indices([',', ';']).map(|(at, _)| text[..at].to_owned() + end);
+    let mut ends = ends.map(|text| text::wrap(&text, width));
+    ends.find(|lines| lines.len() <= rows).filter(|lines| lines.len() + 1 >= rows)
 }
 
 /// The folded rows and columns, with the key that shows them.
@@ -273,12 +267,12 @@ fn folded(app: &App, answer: &Answer) -> Option<String> {
 
 /// Every sentence in full, one per line: the page of notes.
 pub(crate) fn in_full(app: &App) -> Vec<String> {
-    sentences(app, false).into_iter().flat_map(|sentence| [sentence.text, String::new()]).collect()
+    sentences(app).into_iter().flat_map(|sentence| [sentence.text, String::new()]).collect()
 }
 
-/// Faults, limits that are not met, verdict, figures, limits that are met, and notes, the most
-/// important first. If `is_short`, the limits that are not met share a line before the verdict.
-fn sentences(app: &App, is_short: bool) -> Vec<Sentence> {
+/// Faults, symbols of the limits that are not met, verdict, these limits in full, figures, limits that
+/// are met, and notes: the most important sentence first.
+fn sentences(app: &App) -> Vec<Sentence> {
     let theme = app.look.theme;
     let mut all = Vec::new();
     let mut add = |text: String, style: Style, place: Place| {
@@ -303,11 +297,6 @@ fn sentences(app: &App, is_short: bool) -> Vec<Sentence> {
         };
         let is_unknown = |verdict: &&Verdict<'_>| verdict.standing == Standing::Unknown;
         let (unknown, exceeded): (Vec<_>, Vec<_>) = unmet.into_iter().partition(is_unknown);
-        // Long sentences follow the verdict.
-        let (first, later) = if is_short { (Vec::new(), exceeded) } else { (exceeded, Vec::new()) };
-        for verdict in first {
-            add(format!("! {}", limit(verdict)), theme.problem, Place::Pane);
-        }
         let symbols = |(standing, of): (Standing, &Vec<&Verdict<'_>>)| {
             // A limit of the free impact can be exceeded by the method's own quantity.
             let exceeding = |of: &&Verdict<'_>| match (of.standing, of.beside) {
@@ -317,17 +306,17 @@ fn sentences(app: &App, is_short: bool) -> Vec<Sentence> {
             let symbols: Vec<_> = of.iter().map(exceeding).collect();
             (!of.is_empty()).then(|| format!("{}: {}", standing.word(), symbols.join(", ")))
         };
-        let named = [(Standing::Exceeded, &later), (Standing::Unknown, &unknown)];
+        let named = [(Standing::Exceeded, &exceeded), (Standing::Unknown, &unknown)];
         let named: Vec<String> = named.into_iter().filter_map(symbols).collect();
         if !named.is_empty() {
-            add(format!("! Limit {}.", named.join("; ")), theme.problem, Place::Line);
+            add(format!("! Limit {}.", named.join("; ")), theme.problem, Place::Pane);
         }
         let place = if has_fault { Place::Room } else { Place::Pane };
         let age = age(app, answer);
         let is_pending = answer.strikes() && app.tab.lacks(Stage::Clearing);
         let verdict = digest::sentence(solution, app.settings.units, is_pending);
         add(format!("{age}{verdict}"), fresh(theme.focus), place);
-        for verdict in later.into_iter().chain(unknown) {
+        for verdict in exceeded.into_iter().chain(unknown) {
             add(format!("! {}", limit(verdict)), theme.problem, Place::Room);
         }
         let figures = [differing(answer, solution), digest::whine(solution)];
@@ -396,8 +385,8 @@ fn faults(app: &App) -> Vec<String> {
     }
     let (symbol, label) = rows::names_of(&app.tab.case, *row);
     let name = format!("{symbol} {label}");
-    let more = if rows.len() > 1 { format!("; {} more", rows.len() - 1) } else { String::new() };
-    vec![format!("! {}: {}{more} ({key})", name.trim_start(), problem.cause)]
+    let more = if rows.len() > 1 { format!(" and {} more", rows.len() - 1) } else { String::new() };
+    vec![format!("! {}{more} ({key}): {}", name.trim_start(), problem.cause)]
 }
 
 /// Whether the limit is met; also by the method's own quantity, unless that quantity has a limit.
