@@ -665,7 +665,11 @@ fn report(
         let subject = run(py, call, |go_on| source.subject(file, format, None, go_on))?;
         subjects.push(subject.map_err(|refusal| case.refused(&refusal))?);
     }
-    Ok(render(format, &subjects, &page::Settings { title, no_appendix, ..page::Settings::default() })?)
+    Ok(render(
+        format,
+        &subjects,
+        &page::Settings { title, no_appendix, ..page::Settings::default() },
+    )?)
 }
 
 /// The SI unit of each field; empty for bare numbers.

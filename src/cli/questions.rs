@@ -95,7 +95,9 @@ pub fn within(option: &'static str, count: usize, least: usize, most: usize) -> 
 }
 
 /// Parses a number of points between two limits.
-pub(super) fn count_within<const LEAST: usize, const MOST: usize>(text: &str) -> Result<usize, String> {
+pub(super) fn count_within<const LEAST: usize, const MOST: usize>(
+    text: &str,
+) -> Result<usize, String> {
     let count = text.parse().ok().filter(|count| (LEAST..=MOST).contains(count));
     count.ok_or_else(|| format!("write a number from {LEAST} to {MOST}"))
 }

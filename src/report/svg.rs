@@ -53,7 +53,8 @@ pub fn draw(chart: &Chart, caption: &str) -> String {
     for ((symbol, name), (x, y)) in legend.into_iter().zip(places) {
         let beside = x + 38.0;
         let size = fitted(&name, 15.0, WIDTH - beside);
-        let size = if size < 15.0 { format!(" style=\"font-size:{size:.1}px\"") } else { String::new() };
+        let size =
+            if size < 15.0 { format!(" style=\"font-size:{size:.1}px\"") } else { String::new() };
         let name = typeset(&name);
         let _ = writeln!(
             text,

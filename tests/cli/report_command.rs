@@ -194,7 +194,8 @@ fn a_case_with_variants_and_spread_has_a_table_of_each_on_its_pages() {
         let variants = ["Variants, with the differences from the case", "relieved: Corner contact"];
         let spread =
             ["Tolerance, 500 samples", "base pitch deviation 16 um", "1 thou ±0.1969 thou"];
-        let rest = ["Probability of corner contact", "impact_force", "P95", "refused", "jammed: Refused"];
+        let rest =
+            ["Probability of corner contact", "impact_force", "P95", "refused", "jammed: Refused"];
         has(&page, &[&variants[..], &spread, &rest].concat());
         numbers_are_finite(&page);
     }
@@ -208,7 +209,8 @@ fn a_page_has_the_texts_about_the_case_and_leaves_out_its_appendix_on_request() 
     let about = "\n[about]\nproject = \"Mill um <7>\"\ndate = 2026-11-26\n\"drawing no.\" = 4711\n";
     let (_folder, case) = table_1_with(about);
     let case = case.as_str();
-    let line = "Project: Mill um &#60;7&#62;</span> · <span>Date: 2026-11-26</span> · <span>Drawing";
+    let line =
+        "Project: Mill um &#60;7&#62;</span> · <span>Date: 2026-11-26</span> · <span>Drawing";
     let page = report(&[case], "html");
     assert!(page.contains(line) && page.contains("<h2 class=\"appendix\">All results"), "{page}");
     let short = report(&[case, "--title", "Gear 7", "--no-appendix", "--paper", "a4"], "html");

@@ -12,10 +12,10 @@ use crate::cli::options::{
     Cases, Changes, Destination, Edits, Only, Quantities, Setting, Settings, TABLES, WORDS,
     by_method, formats, methods, one_quantity, station_count,
 };
+use crate::cli::questions::count_within;
 use crate::cli::{
     self, Arguments, Done, Exit, Failure, Opened, Streams, check_out, follow, write_text,
 };
-use crate::cli::questions::count_within;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stage, Stages};
 use crate::report::charts::{Picture, find, pictures};
