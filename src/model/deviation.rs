@@ -217,7 +217,8 @@ pub(super) fn deflected<'t>(
 /// ```
 ///
 /// # Errors
-/// [`Refusal::TotalContactRatioBelowOne`] if no other pair is in contact, or the errors of the
+/// [`Refusal::TotalContactRatioBelowOne`] if no other pair is in contact,
+/// [`Refusal::InterferenceAtEnd`] if it is only inside the driven base circle, or the errors of the
 /// compliance.
 pub(super) fn deflected_over_face(
     face: &FaceInputs,
@@ -231,7 +232,10 @@ pub(super) fn deflected_over_face(
         let place = ContactPlace::on_line_of_action(geometry, start + path);
         teeth.under(&place, mesh_force)
     };
-    let is_on_path = |path: &f64| *path > 0.0 && start + path <= geometry.end;
+    // Past N2 there is no involute.
+    let is_on_path = |path: &f64| {
+        *path > 0.0 && start + path <= geometry.end && start + path < geometry.tangent_length
+    };
     let mut stiffness = 0.0;
     for slice in 0..SLICES {
         let part = (f64::from(slice) + 0.5) / f64::from(SLICES);
@@ -241,6 +245,9 @@ pub(super) fn deflected_over_face(
         for path in ahead {
             stiffness += 1.0 / teeth.pair_at_load(&place(path), mesh_force)? / f64::from(SLICES);
         }
+    }
+    if stiffness <= 0.0 && geometry.end >= geometry.tangent_length {
+        return Err(Refusal::InterferenceAtEnd { start: geometry.tangent_length - geometry.end });
     }
     if stiffness <= 0.0 {
         let ratio = face.total_contact_ratio(geometry);
