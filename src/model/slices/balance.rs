@@ -285,15 +285,15 @@ impl Face {
     ) -> Option<Sides> {
         /// Of a base pitch: a narrower side has too few digits.
         const NARROWEST: f64 = 1e-9;
-        let way = to - from;
-        let least = NARROWEST * self.mesh.base_pitch / way.abs();
-        let edges = self.edges.iter().map(|edge| (edge - from) / way);
-        let edges = edges.filter(|part| here.is_none() && least < *part && *part < 1.0 - least);
-        let bend = slice.bend.filter(|bend| edges.clone().all(|edge| (edge - bend).abs() > least));
-        let mut inside: SmallVec<[f64; 4]> = edges.chain(bend).collect();
-        if inside.is_empty() {
+        let (way, least) = (to - from, NARROWEST * self.mesh.base_pitch);
+        let (low, high) = (from.min(to) + least, from.max(to) - least);
+        let edges = self.edges.iter().filter(|edge| low < **edge && **edge < high);
+        if slice.bend.is_none() && edges.clone().next().is_none() {
             return None;
         }
+        let mut inside: SmallVec<[f64; 4]> = edges.map(|edge| (edge - from) / way).collect();
+        let is_apart = |bend: &f64| inside.iter().all(|edge| ((edge - bend) * way).abs() > least);
+        inside.extend(slice.bend.filter(is_apart));
         inside.sort_by(f64::total_cmp);
         let mut cuts: SmallVec<[(f64, [f64; 6]); 4]> = SmallVec::new();
         cuts.push((0.0, one));

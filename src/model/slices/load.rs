@@ -172,10 +172,12 @@ impl Face {
 
     /// The same of the incoming pair. Its load has a bend or a jump at an edge of the section, too.
     fn top_of_incoming(&self, loads: &Loads, slice: usize) -> f64 {
-        let near = [slice.saturating_sub(1), (slice + 1).min(self.slices.len() - 1)];
-        let [one, other] = near.map(|at| self.path(loads, 0, at));
-        let has_edge = self.edges.iter().any(|edge| (edge - one) * (edge - other) < 0.0);
-        if has_edge { loads.at(0, slice) } else { self.top(slice, |at| loads.at(0, at)) }
+        let (here, top) = (loads.at(0, slice), self.top(slice, |at| loads.at(0, at)));
+        let has_edge = || {
+            let [one, other] = [slice - 1, slice + 1].map(|at| self.path(loads, 0, at));
+            self.edges.iter().any(|edge| (edge - one) * (edge - other) < 0.0)
+        };
+        if top > here && has_edge() { here } else { top }
     }
 
     /// z of the bottom of the parabola through the least of some values and its neighbours.
@@ -601,12 +603,19 @@ impl<'a> Passage<'a> {
         let (face, length) = (self.face, self.face.mesh.length);
         let (from, to) = face.mesh.ends();
         let looks = self.places(from - face.reach, to + face.reach, LOOKS);
-        let carries = looks.iter().map(|s| Ok(face.touch(&*self.loads(*s)?).0 > 0.0));
-        let carries = carries.collect::<Result<Vec<bool>, Refusal>>()?;
-        let ends = [carries.iter().position(|it| *it), carries.iter().rposition(|it| *it)];
-        let [Some(first), Some(last)] = ends else {
+        let carries = |at: usize| Ok(face.touch(&*self.loads(looks[at])?).0 > 0.0);
+        let find = |places: &mut dyn Iterator<Item = usize>| -> Result<_, Refusal> {
+            for at in places {
+                if carries(at)? {
+                    return Ok(Some(at));
+                }
+            }
+            Ok(None)
+        };
+        let Some(first) = find(&mut (0..looks.len()))? else {
             return Ok(None);
         };
+        let last = find(&mut (first..looks.len()).rev())?.unwrap_or(first);
         if first == 0 || last + 1 == looks.len() {
             return Err(Refusal::BeyondReach);
         }
@@ -631,9 +640,10 @@ impl<'a> Passage<'a> {
             return Ok(None);
         };
         let mut places = self.places(first, last, 1);
-        if last > mesh.length {
-            let middle = f64::midpoint(mesh.length, last);
-            places.insert(places.partition_point(|place| *place < middle), middle);
+        // A strike at the exit of a spur pair can be shorter than a step.
+        let before = places.len() - 1;
+        if places[before - 1] <= mesh.length && mesh.length < last {
+            places.insert(before, f64::midpoint(mesh.length, last));
         }
         let samples = self.samples(&places)?;
         let [first_place, last_place] =
