@@ -520,8 +520,8 @@ const MODEL: &[Field] = &[
     )]),
     count("model.slices", "", "slices", (3, MOST_SLICES as u32), Default("auto"), |inputs, value| {
             inputs.slices = (value > 0).then_some(value as usize);
-        }, "Slices of the face width; auto: enough for forces within about 0.1 %; a narrow peak of the line \
-            load can be some percent off.").reasons(&FACE),
+        }, "Slices of the face width; auto: enough for forces within about 0.1 %; a contact of a few slices \
+            can be some percent off.").reasons(&FACE),
     choice("model.slice_coupling", "", "slice coupling", FLAG, Default("true"), |inputs, value| inputs.slice_coupling = value == 1, "Whether a force on a slice displaces the slices beside it; without it each slice \
             deflects alone.").reasons(&FACE),
     choice("model.inertia", "", "inertia model", &["outline", "base-circle"], Default("outline"), |inputs, value| {
