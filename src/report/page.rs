@@ -405,8 +405,11 @@ fn inputs(cases: &[PageCase], units: System) -> Table {
             _ => vec![at],
         };
         let texts = cases.iter().map(|case| {
-            let texts = fields.iter().map(|&field| input(field, case.report, units));
-            texts.collect::<Vec<(Option<String>, bool)>>()
+            // A spur pair has no hand.
+            let is_absent = field.name() == "driver_hand" && !helical(&case.report.inputs);
+            let text =
+                |field| if is_absent { (None, true) } else { input(field, case.report, units) };
+            fields.iter().map(|&field| text(field)).collect::<Vec<(Option<String>, bool)>>()
         });
         let texts: Vec<_> = texts.collect();
         let mut all = texts.iter().flatten();
