@@ -258,7 +258,9 @@ fn stiffness(column: &Column, cases: &[NamedCase]) -> Result<Vec<Series>, String
                 "" => format!("{}{is_own}{section}", model.name()),
                 case => of(case, model.name()) + section,
             };
-            series.push(Series { name, pieces: vec![points], kind: Kind::Curve });
+            // The model of a single case is the strong line.
+            let place = if model == own && case.is_empty() { 0 } else { series.len() };
+            series.insert(place, Series { name, pieces: vec![points], kind: Kind::Curve });
         }
     }
     let none = || absence.unwrap_or_else(|| "no compliance model covers the pair".to_owned());
