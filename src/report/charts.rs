@@ -445,7 +445,6 @@ fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
     let is_other = |near: &AtSpeed| {
         curve.peak_rising().is_none_or(|peak| (near.speed - peak.speed).abs() > step)
     };
-    let near = curve.peak_near(1.0).filter(|near| is_other(near));
     // The names of several cases leave no room for the peak.
     let peak_of = |peak: Option<String>| peak.filter(|_| name.is_empty()).unwrap_or_default();
     let called = |run: &str, peak: Option<String>| of(name, &(run.to_owned() + &peak_of(peak)));
@@ -453,15 +452,23 @@ fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
     let is_jump = |point: &AtSpeed| jumps.iter().any(|jump| jump == point);
     let way = if jumps.is_empty() { "rising/falling" } else { "speed rising" };
     let down = curve.down.iter().map(|point| point.as_ref().filter(|point| is_jump(point)));
+    // Several cases share the room of the legend.
+    let fractions = [(1.0, "near N = 1"), (1.0 / 2.0, "near N = 1/2"), (1.0 / 3.0, "near N = 1/3")];
+    let fractions = fractions.into_iter().take(if name.is_empty() { fractions.len() } else { 1 });
+    let near = fractions.map(|(ratio, run)| {
+        let found = curve.peak_near(ratio).filter(|near| is_other(near));
+        let pieces = found.map(|near| vec![at(near)]).into_iter().collect();
+        Series { name: called(run, peak(found)), pieces, kind: Kind::Marks(None) }
+    });
     let all = [
         Series {
             name: called(way, rising),
-            pieces: unbroken(curve.up.iter().map(Option::as_ref)),
+            pieces: through(curve.up.iter().map(Option::as_ref), step, curve.peak_rising()),
             kind: Kind::Curve,
         },
         Series {
             name: called("speed falling", falling),
-            pieces: unbroken(down),
+            pieces: through(down, step, curve.peak_falling()),
             kind: Kind::Curve,
         },
         Series {
@@ -469,13 +476,8 @@ fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
             pieces: lost(curve, &jumps),
             kind: Kind::Marks(None),
         },
-        Series {
-            name: called("near N = 1", peak(near)),
-            pieces: near.map(|near| vec![at(near)]).into_iter().collect(),
-            kind: Kind::Marks(None),
-        },
     ];
-    all.into_iter().filter(|series| !series.pieces.is_empty()).collect()
+    all.into_iter().chain(near).filter(|series| !series.pieces.is_empty()).collect()
 }
 
 /// Every fifth point with loss of contact, so that the curve between them is visible.
@@ -491,12 +493,28 @@ fn at(point: &AtSpeed) -> Point {
     (rpm(point.speed), point.tooth_factor)
 }
 
-/// Groups of neighbouring points.
-fn unbroken<'a>(points: impl Iterator<Item = Option<&'a AtSpeed>>) -> Vec<Vec<Point>> {
-    let place = |point: Option<&AtSpeed>| {
+/// Groups of neighbouring points of a run, through its peak, which is beside its greatest point.
+fn through<'a>(
+    run: impl Iterator<Item = Option<&'a AtSpeed>>,
+    step: f64,
+    peak: Option<&'a AtSpeed>,
+) -> Vec<Vec<Point>> {
+    const ROUNDING: f64 = 1e-6;
+    let mut run: Vec<Option<&AtSpeed>> = run.collect();
+    let factor = |point: &Option<&AtSpeed>| point.map_or(0.0, |point| point.tooth_factor);
+    let greatest =
+        (0..run.len()).max_by(|one, other| factor(&run[*one]).total_cmp(&factor(&run[*other])));
+    let greatest = greatest.and_then(|at| Some((at, run[at]?.speed)));
+    if let (Some(peak), Some((at, speed))) = (peak, greatest) {
+        let by = (peak.speed - speed) / step;
+        if by != 0.0 && by.abs() < 1.0 + ROUNDING {
+            run.insert(at + usize::from(by > 0.0), Some(peak));
+        }
+    }
+    let place = |point: &Option<&AtSpeed>| {
         point.map_or((0.0, None), |point| (rpm(point.speed), Some(point.tooth_factor)))
     };
-    pieces(points.map(place), f64::INFINITY)
+    pieces(run.iter().map(place), f64::INFINITY)
 }
 
 /// The keys of the charts of the driver and of the driven gear.
@@ -780,6 +798,26 @@ mod charts_tests {
 
     fn pieces_of(points: &[(f64, Option<f64>)]) -> Vec<Vec<Point>> {
         pieces(points.iter().copied(), 1.5)
+    }
+
+    #[test]
+    fn a_curve_over_speed_passes_through_its_peak_on_the_side_of_its_branch() {
+        let at = |speed: f64, tooth_factor| AtSpeed {
+            speed,
+            ratio: 1.0,
+            tooth_factor,
+            peak_to_peak: 0.0,
+            contact_lost: false,
+        };
+        let run = [at(1.0, 1.0), at(2.0, 5.0), at(3.0, 2.0)];
+        for (peak, place) in [(at(1.0, 6.0), 1), (at(1.5, 6.0), 1), (at(3.0, 6.0), 2)] {
+            let found = &through(run.iter().map(Some), 1.0, Some(&peak))[0];
+            assert_eq!((found.len(), found[place].1), (4, 6.0), "{found:?}");
+        }
+        let behind_gap = [None, Some(&run[1]), None];
+        let found = through(behind_gap.into_iter(), 1.0, Some(&at(1.0, 6.0)));
+        assert_eq!(found, [vec![(rpm(1.0), 6.0), (rpm(2.0), 5.0)]]);
+        assert_eq!(through(run.iter().map(Some), 1.0, Some(&run[1]))[0].len(), 3);
     }
 
     #[test]
