@@ -119,7 +119,8 @@ pub enum Command {
     /// the torque of the case, with the speed rising and falling; relief shows the reliefs of both
     /// gears over the roll angle, and contact_pattern the line load over the face width. The
     /// picture follows the light or dark setting of the browser. A sweep is drawn over the field
-    /// with the most values, with a curve for each combination of the others.
+    /// with the most values, with a curve for each combination of the others; a quantity over two
+    /// fields with at least 5 numbers each is drawn as a map, with the later field across.
     #[command(
         override_usage = "tipstrike plot [OPTIONS] <CASE>\n       tipstrike plot [OPTIONS] --sweep <FILE.csv>"
     )]

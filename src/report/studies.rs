@@ -6,11 +6,12 @@ use super::table::{
     Cell, Column, Json, Named, Results, Table, item, json, measured, object, reason, sorted,
     write_line,
 };
-use super::{common_unit, name_of, number, shown, svg};
+use super::{common_unit, name_of, number, shown, shown_with, svg};
 use crate::case::changes::label;
 use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::sanitize;
 use crate::case::units::{self, System};
+use crate::model::explanation::tidy;
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::{Quantity, Stage};
 use crate::numeric::decimal::{shortest, significant};
@@ -298,8 +299,62 @@ impl SweepChart {
     }
 }
 
+/// Curves of at most so many points have marks at them.
+const FEW_POINTS: usize = 21;
+/// A sweep of two fields with at least so many numbers each is a map.
+const MAP_POINTS: usize = 5;
+/// Significant digits of the places of a map.
+const MAP_DIGITS: usize = 5;
+
+/// Marks the points of each curve of few points.
+pub fn with_marks(series: &mut [Series]) {
+    for series in series.iter_mut().filter(|series| series.kind == chart::Kind::Curve) {
+        if series.pieces.iter().map(Vec::len).sum::<usize>() <= FEW_POINTS {
+            series.kind = chart::Kind::Marks(None);
+        }
+    }
+}
+
+/// The map of a quantity over the points of two fields, across and up, by their indices: the texts of
+/// the points, and the cells row by row.
+pub fn map_chart(
+    known: &Quantity,
+    axes: [(Axis, Vec<String>); 2],
+    cells: Vec<chart::Cell>,
+    unit: &'static str,
+) -> Chart {
+    let number = |cell: &chart::Cell| match *cell {
+        chart::Cell::Value(value) => Some(value),
+        _ => None,
+    };
+    let values = Span::of(cells.iter().filter_map(number));
+    let worded = |value| (value, shown_with(known, value, unit).to_string());
+    let places = [0, 1].map(|axis| (0..axes[axis].1.len()).map(|at| at as f64).collect());
+    let [across, up] = axes.map(|(axis, texts)| {
+        let last = texts.len().saturating_sub(1);
+        let mut points = vec![0, last / 2, last];
+        points.dedup();
+        let labels = points.into_iter().map(|at| (at as f64, texts[at].clone()));
+        Axis { labels: labels.collect(), ..axis }
+    });
+    Chart {
+        title: format!("{} over {} and {}", known.label.trim(), across.name, up.name),
+        across,
+        up,
+        map: Some(chart::Map {
+            value: Axis::new(known.symbol, unit),
+            places,
+            cells,
+            ends: (values.from <= values.to).then(|| [values.from, values.to].map(worded)),
+            limit: None,
+        }),
+        ..Chart::default()
+    }
+}
+
 /// The chart of a sweep from its CSV: the quantities, or the selected ones, with the unit of the first,
-/// over the varied field with the most values, with a curve for each combination of the other fields.
+/// over the varied field with the most values, with a curve for each combination of the other fields. A
+/// single quantity over two fields with at least [`MAP_POINTS`] numbers each is a map.
 ///
 /// # Errors
 /// The reason if the text is no sweep or has no values.
@@ -351,6 +406,40 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<SweepChart, String> {
     let values = rows.iter().flat_map(|row| known.iter().filter_map(|&(at, _)| number(row, at)));
     let unit = common_unit(first, values, System::Metric);
     let factor = units::factor(unit).unwrap_or(1.0);
+    let outcome = columns().find(|(_, (key, _))| *key == "outcome").map(|(at, _)| at);
+    if let (&[(at, quantity)], &[other]) = (&known[..], &others[..]) {
+        let fields = [across.max(other), across.min(other)];
+        let points = fields.map(|field| distinct(&[field]));
+        let [texts, other_texts] = [0, 1].map(|axis| {
+            let numbers = points[axis].iter().map(|cells| cells[0].parse::<f64>().ok());
+            let texts = numbers.map(|number| Some(tidy(number?, MAP_DIGITS)));
+            texts.collect::<Option<Vec<String>>>().filter(|texts| texts.len() >= MAP_POINTS)
+        });
+        let is_grid = rows.len() == points[0].len() * points[1].len();
+        if let (Some(texts), Some(other_texts), true) = (texts, other_texts, is_grid) {
+            let cell =
+                |row: &csv::StringRecord| match (number(row, at), &row[outcome.unwrap_or(at)]) {
+                    (Some(value), _) => chart::Cell::Value(value),
+                    (None, "no-corner-contact") => chart::Cell::NoContact,
+                    (None, "refused") => chart::Cell::Refused,
+                    (None, _) => chart::Cell::Blank,
+                };
+            let mut cells = vec![chart::Cell::Blank; rows.len()];
+            for row in &rows {
+                let place = |axis: usize| {
+                    points[axis].iter().position(|cells| cells[0] == &row[fields[axis]])
+                };
+                if let (Some(x), Some(y)) = (place(0), place(1)) {
+                    cells[y * texts.len() + x] = cell(row);
+                }
+            }
+            let axis = |at: usize| Axis::new(label(names[fields[at]].0), names[fields[at]].1);
+            let axes = [(axis(0), texts), (axis(1), other_texts)];
+            let chart = map_chart(quantity, axes, cells, unit);
+            let omitted = omitted.into_iter().map(|(_, quantity)| quantity).collect();
+            return Ok(SweepChart { chart, omitted, gaps: String::new() });
+        }
+    }
     let mut series = Vec::new();
     for &(at, quantity) in &known {
         for combination in distinct(&others) {
@@ -371,6 +460,7 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<SweepChart, String> {
         }
     }
     series.retain(|series| !series.pieces.is_empty());
+    with_marks(&mut series);
     if series.is_empty() {
         return Err(format!("the sweep has no values of {}", first.key));
     }
@@ -384,7 +474,6 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<SweepChart, String> {
         1 => (first.label.trim_start(), name_of(first)),
         _ => (common, common.to_owned()),
     };
-    let outcome = columns().find(|(_, (key, _))| *key == "outcome").map(|(at, _)| at);
     let is_gap = |row: &&csv::StringRecord| known.iter().all(|&(at, _)| row[at].is_empty());
     let gaps: BTreeSet<String> = rows
         .iter()
@@ -790,5 +879,24 @@ mod tests {
         let choices = "model.method,impact_force [N],outcome\nexact,2.0,x\npaper,1.0,x\n";
         assert_eq!(drawn(choices, &[]).unwrap().chart.across.labels[1], (1.0, "paper".to_owned()));
         assert!(drawn("a,b\n1,2\n", &[]).is_err() && drawn("", &[]).is_err());
+    }
+
+    #[test]
+    fn a_sweep_of_two_fields_with_several_numbers_each_is_a_map_with_the_later_field_across() {
+        let mut text =
+            "driven.tip_relief [um],driver.tip_relief [um],impact_force [N],outcome\n".to_owned();
+        for (up, across) in (0..5).flat_map(|up| (0..6).map(move |across| (up, across))) {
+            text += &match up {
+                4 => format!("{up},{across},,no-corner-contact\n"),
+                _ => format!("{up},{across},{}.0,corner-contact\n", 10 * up + across),
+            };
+        }
+        let SweepChart { chart: found, gaps, .. } = drawn(&text, &[]).unwrap();
+        let map = found.map.as_ref().unwrap();
+        assert_eq!((map.places[0].len(), map.places[1].len(), gaps.as_str()), (6, 5, ""));
+        assert_eq!((found.across.unit.as_str(), found.across.labels[1].1.as_str()), ("um", "2"));
+        assert_eq!(map.cells[7], chart::Cell::Value(11.0));
+        assert_eq!(map.cells[24], chart::Cell::NoContact);
+        assert_eq!(map.ends.as_ref().map(|[least, most]| (least.0, most.0)), Some((0.0, 35.0)));
     }
 }

@@ -7,6 +7,7 @@ use std::mem::discriminant;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Style;
 use ratatui::symbols::Marker;
 
 use super::chart::curves::sign_of;
@@ -16,11 +17,12 @@ use crate::case::{Case, FIELDS};
 use crate::model::explanation::tidy;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity};
-use crate::report::chart::{Axis, Cell as MapCell, Chart, Kind, Labels, Map, Point, Series, Span};
+use crate::report::chart::{Axis, Cell as MapCell, Chart, Kind, Labels, Point, Series, Span};
 use crate::report::charts::pieces;
+use crate::report::studies::{map_chart, with_marks};
 use crate::report::table::{Cell, Column, Table};
 use crate::report::verdict::Absence;
-use crate::report::{self, common_unit, shown_in, shown_with};
+use crate::report::{self, common_unit, name_of, shown_in, shown_with};
 use crate::study::axis::{ADDED, Axis as StudyAxis, AxisPoint, add_by_sign};
 use crate::study::batch::{self, PointOutcome, Refusals, Refused, Row};
 use crate::study::tolerance::USUAL_SAMPLES;
@@ -513,10 +515,12 @@ fn title(app: &App) -> String {
         StudyParameters::Tolerance(_) => format!("Tolerance{}{state}", position(app, shown)),
         StudyParameters::Grid(_) => {
             let chart = chart(app, shown);
-            format!(
-                "Study{state}: {}",
-                chart.map_or_else(String::new, |(chart, _)| chart.quantities())
-            )
+            // The legend of a map has the names of its axes.
+            let words = chart.map(|(chart, _)| match &chart.map {
+                Some(map) => map.value.in_unit(),
+                None => chart.quantities(),
+            });
+            format!("Study{state}: {}", words.unwrap_or_default())
         }
     };
     let outdated =
@@ -620,7 +624,12 @@ const LABELS: u16 = 7;
 fn draw_points(app: &App, shown: &StudyResults, area: Rect, buffer: &mut Buffer) {
     let Some((chart, looks)) = chart(app, shown) else { return };
     let (theme, is_map) = (app.look.theme, chart.map.is_some());
-    let words = (!is_map).then(|| ("▴ cursor".to_owned(), theme.focus)).into_iter().collect();
+    let words = if is_map {
+        let axes = [("x", &chart.across), ("y", &chart.up)];
+        axes.map(|(name, axis)| (format!("{name}: {}", axis.in_unit()), Style::new())).to_vec()
+    } else {
+        vec![("▴ cursor".to_owned(), theme.focus)]
+    };
     let margin = if is_map { LABELS } else { 0 };
     let spans = match shown.axes() {
         [axis] => (chart.spans().0.and(ends(axis)), chart.spans().1),
@@ -652,11 +661,14 @@ pub(crate) fn picture(app: &App) -> Option<Chart> {
     let shown = app.tab.study.shown.as_ref().filter(|_| app.tab.study.obstacle.is_none())?;
     let (known, (mut chart, _)) = (shown.quantity()?, chart(app, shown)?);
     let (label, is_map) = (known.label.trim(), chart.map.is_some());
-    let second = if is_map { format!(" and {}", chart.up.name) } else { String::new() };
-    chart.title = format!("{label} over {}{second}", chart.across.name);
     if !is_map {
-        chart.up.name = format!("{label} {}", known.symbol);
+        chart.title = format!("{label} over {}", chart.across.name);
+        chart.up.name = name_of(known);
         chart.series.retain(|series| series.kind == Kind::Curve && !series.pieces.is_empty());
+        if let [only] = &mut chart.series[..] {
+            only.name = name_of(known);
+        }
+        with_marks(&mut chart.series);
     }
     (is_map || !chart.series.is_empty()).then_some(chart)
 }
@@ -744,7 +756,6 @@ fn map(
 ) -> Option<(Chart, Vec<SeriesLook>)> {
     let (theme, known, found) = (app.look.theme, shown.quantity()?, shown.layers.first()?);
     let unit = common_unit(known, found.values(), app.settings.units);
-    let worded = |value| (value, shown_with(known, value, unit).to_string());
     let is_contact = absence(app, found).is_none();
     let cell = |point| match point {
         (PointOutcome::Refused, _) => MapCell::Refused,
@@ -754,30 +765,16 @@ fn map(
     };
     let limit = app.tab.case.limits.iter().find(|limit| limit.quantity == known);
     let limit = limit.and_then(|limit| limit.bound(|_| None)).filter(|value| value.is_finite());
-    let values = Span::of(found.values());
-    let numbers = |axis: &StudyAxis| (0..axis.points.len()).map(|at| at as f64).collect();
-    let labelled = |axis: &StudyAxis| {
-        let last = axis.points.len().saturating_sub(1);
-        let mut points = vec![0, last / 2, last];
-        points.dedup();
-        let labels = points.into_iter().map(|at| (at as f64, short(axis, at)));
-        Axis { labels: labels.collect(), ..field_axis(axis) }
-    };
+    let axes = [across, up]
+        .map(|axis| (field_axis(axis), (0..axis.points.len()).map(|at| short(axis, at)).collect()));
     let now = place_of_present(app, across).zip(place_of_present(app, up));
     let now = now.map(|place| vec![place]).into_iter().collect();
-    let chart = Chart {
-        across: labelled(across),
-        up: labelled(up),
-        series: vec![Series { name: "now".to_owned(), pieces: now, kind: Kind::Marks(None) }],
-        map: Some(Map {
-            value: up_axis(shown, unit),
-            places: [numbers(across), numbers(up)],
-            cells: found.points().map(cell).collect(),
-            ends: (values.from <= values.to).then(|| [values.from, values.to].map(worded)),
-            limit: limit.map(|limit| (limit, format!("limit {}", worded(limit).1))),
-        }),
-        ..Chart::default()
-    };
+    let mut chart = map_chart(known, axes, found.points().map(cell).collect(), unit);
+    chart.series.push(Series { name: "now".to_owned(), pieces: now, kind: Kind::Marks(None) });
+    if let Some(map) = &mut chart.map {
+        map.value = up_axis(shown, unit);
+        map.limit = limit.map(|limit| (limit, format!("limit {}", shown_with(known, limit, unit))));
+    }
     Some((chart, vec![(Marker::Custom('●'), theme.focus)]))
 }
 
