@@ -1,6 +1,5 @@
 //! Every line of the table of actions: keys in, screen out. A line without a test fails here.
 use crate::harness::{Desk, LARGE, TABLE_1, time_evenly};
-
 use std::collections::{BTreeMap, BTreeSet};
 
 use tipstrike::tui::testing::BINDINGS;
@@ -86,11 +85,13 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 3 k k l l", "h", "", "harmonic of the mesh frequency 1.000: at rest"),
     ("Esc 3 k k l", "L", "", "harmonic of the mesh frequency 10.00: at rest"),
     ("Esc 3 k k l l", "H", "", "harmonic of the mesh frequency 1.000: at rest"),
+    ("Esc 3 k k", "End", "", "harmonic of the mesh frequency 10.00: at rest"),
+    ("Esc 3 k k", "p", "", "harmonic of the mesh frequency 1.000: at rest"),
     ("Esc 3", "j", "", "▸ 3 Gap S in um over roll angle"),
     ("Esc 3 j j", "k", "", "▸ 3 Gap S in um over roll angle"),
-    ("Esc 3", "+", "", " 1.2           1.0           0.8 "),
-    ("Esc 3 + +", "-", "", " 1.2           1.0           0.8 "),
-    ("Esc 3 + +", "0", "", " 0.5                       0 "),
+    ("Esc 3", "+", "", "-1.2          -1.0          -0.8 "),
+    ("Esc 3 + +", "-", "", "-1.2          -1.0          -0.8 "),
+    ("Esc 3 + +", "0", "", "-0.5                       0 "),
     ("Esc 3", "v", "", "the charts show the strike"),
     ("Esc 3", "t", "", "Force F_S in N over time after E in us"),
     ("Esc 4", "+", "", "┤ 5 mm"),

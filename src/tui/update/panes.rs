@@ -206,6 +206,14 @@ pub(super) fn step_point(app: &mut App, by: isize) {
     }
 }
 
+/// Moves that cursor to the next peak.
+pub(super) fn step_peak(app: &mut App) {
+    match app.charts().next_peak() {
+        Some(place) => app.chart.place = Some(place),
+        None => app.say("no chart to move in"),
+    }
+}
+
 /// Zooms the charts in by steps, or out if negative.
 pub(super) fn zoom_chart(app: &mut App, steps: i32) {
     let (before, view) = (app.charts().view(), app.charts().zoomed(steps));
@@ -280,7 +288,7 @@ pub(super) fn cursor_to_start(app: &mut App) {
 pub(super) fn ask_cursor(app: &mut App) {
     let is_own = app.chart.own_axes().is_some() && !app.chart.is_pattern();
     if is_own && app.layout.focus == Pane::Chart {
-        app.say("this chart has a cursor of its own: h and l move it");
+        app.say("this chart has a cursor of its own: h and l move it, p moves it to the next peak");
     } else if range_of_cursor(app).is_some() {
         let dialog = PathDialog::new("Cursor to", HOW, Line::default(), move_cursor);
         app.prompts.push(Prompt::Path(PathDialog { meaning: Some(meaning), ..dialog }));

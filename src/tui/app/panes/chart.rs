@@ -326,9 +326,29 @@ impl<'a> Charts<'a> {
         let mut points: Vec<f64> = points.collect();
         points.sort_by(f64::total_cmp);
         points.dedup();
+        let last = points.len().max(1) - 1;
         let now = self.0.chart.place.map(|place| points.partition_point(|point| *point < place));
-        let at = now.map_or(0, |now| now.saturating_add_signed(by)).min(points.len().max(1) - 1);
+        let first = if by == isize::MAX { last } else { 0 };
+        let at = now.map_or(first, |now| now.saturating_add_signed(by)).min(last);
         points.get(at).copied()
+    }
+
+    /// The next peak to the right of the cursor of that chart, else the first: the greatest value of
+    /// each curve, and the marked peaks.
+    pub(crate) fn next_peak(self) -> Option<f64> {
+        let chart = self.own_chart()?;
+        let is_peak = |series: &&Series| {
+            !matches!(series.kind, Kind::Marks(_)) || series.name.contains(": peak")
+        };
+        let greatest = |series: &Series| {
+            let points = series.pieces.iter().flatten();
+            points.max_by(|one, other| one.1.total_cmp(&other.1)).map(|point| point.0)
+        };
+        let peaks = chart.series.iter().filter(is_peak).filter_map(greatest);
+        let mut peaks: Vec<f64> = peaks.collect();
+        peaks.sort_by(f64::total_cmp);
+        let next = peaks.iter().find(|peak| self.0.chart.place.is_none_or(|place| **peak > place));
+        next.or(peaks.first()).copied()
     }
 
     /// The values of that chart at its cursor, or its description without a cursor.
@@ -352,7 +372,15 @@ impl<'a> Charts<'a> {
         });
         let values: Vec<String> = values.collect();
         let mark = chart.marks.iter().find(|mark| mark.0.total_cmp(&place).is_eq());
-        let mark = mark.map_or_else(String::new, |(_, name)| format!(" ({name})"));
+        let is_here = |series: &&Series| {
+            let mut points = series.pieces.iter().flatten();
+            matches!(series.kind, Kind::Marks(_))
+                && points.any(|point| point.0.total_cmp(&place).is_eq())
+        };
+        let peaks = chart.series.iter().filter(is_here);
+        let peak = peaks.filter_map(|series| series.name.split_once(": peak")).next();
+        let name = mark.map(|(_, name)| *name).or(peak.map(|(name, _)| name));
+        let mark = name.map_or_else(String::new, |name| format!(" ({name})"));
         let mut points = chart.series.iter().flat_map(|series| series.pieces.iter().flatten());
         let is_point = values.is_empty() || points.any(|point| point.0.total_cmp(&place).is_eq());
         let between = if is_point { "" } else { ", between computed points" };
