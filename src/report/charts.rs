@@ -671,8 +671,21 @@ impl<'a> Pattern<'a> {
     /// The driver's angle after E in the middle of the face at the greatest line load before E, or at
     /// the greatest line load of the tooth, in rad.
     pub fn at_peak(&self) -> f64 {
-        let place = self.load.before_start.unwrap_or(self.load.peak).place;
-        place.path / self.radius - self.ahead(place.z)
+        self.in_mid_face(self.load.before_start.unwrap_or(self.load.peak))
+    }
+
+    /// The driver's angle after E in the middle of the face at the greatest line load in a range of the
+    /// angle in each plane, or of the tooth, in rad, and z of this load, in m.
+    pub fn greatest(&self, window: Span) -> (f64, f64) {
+        let all = [Some(self.load.peak), self.load.before_start, self.load.after_end];
+        let angle = |peak: &LinePeak| peak.place.path / self.radius;
+        let is_inside = |peak: &LinePeak| window.covers(Span::new(angle(peak), angle(peak)));
+        let peak = all.into_iter().flatten().find(is_inside).unwrap_or(self.load.peak);
+        (self.in_mid_face(peak), peak.place.z)
+    }
+
+    fn in_mid_face(&self, peak: LinePeak) -> f64 {
+        peak.place.path / self.radius - self.ahead(peak.place.z)
     }
 
     /// The pattern in a range of the driver's angle after E in each plane, in deg, with the contact

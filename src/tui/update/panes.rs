@@ -21,7 +21,7 @@ use crate::tui::app::panes::chart::curves::ChartView;
 use crate::tui::app::panes::chart::{
     self, CHARTS, ChartRequest, ChartValues, OwnChart, first_contact,
 };
-use crate::tui::app::panes::cursor::{Reach, cursor_range, meaning, parse_cursor};
+use crate::tui::app::panes::cursor::{Reach, cursor_range, greatest_load, meaning, parse_cursor};
 use crate::tui::app::panes::results::in_full;
 use crate::tui::app::panes::teeth::{Picture, TeethView};
 use crate::tui::layout::{Layout, Pane};
@@ -254,18 +254,31 @@ pub(super) fn follow_cursor(app: &mut App, cursor_before: Option<f64>) {
 
 /// Moves the cursor along the face by slices.
 pub(super) fn step_slice(app: &mut App, by: isize) {
-    let moved = app
-        .charts()
-        .pattern()
-        .map(|pattern| (pattern.beside(app.chart.z, by), app.cursor.unwrap_or(-pattern.at_peak())));
-    match moved {
-        Some((z, cursor)) => (app.chart.z, app.cursor) = (z, Some(cursor)),
+    if begin_in_pattern(app) {
+        return;
+    }
+    match app.charts().pattern().map(|pattern| pattern.beside(app.chart.z, by)) {
+        Some(z) => app.chart.z = z,
         None => app.complain("no line load over the face width to move in"),
     }
 }
 
+/// Starts a cursor of the contact pattern at its greatest line load. Returns whether it did.
+fn begin_in_pattern(app: &mut App) -> bool {
+    let is_first = app.cursor.is_none() && app.layout.focus == Pane::Chart;
+    let found = greatest_load(app.charts()).ok().filter(|_| is_first);
+    if let Some((angle, z)) = found {
+        (app.cursor, app.chart.z) = (Some(angle), z);
+        stop_playing(app);
+    }
+    found.is_some()
+}
+
 /// Moves the cursor by columns towards E.
 pub(super) fn step_cursor(app: &mut App, columns: isize) {
+    if begin_in_pattern(app) {
+        return;
+    }
     let reach = range_of_cursor(app).map(|reach| reach.moved(app.cursor, columns));
     put_cursor(app, reach.ok_or(NO_CURSOR));
 }
@@ -305,6 +318,11 @@ fn move_cursor(app: &mut App, typed: &str, _: Next) {
             let plan = app.layout.plan();
             if !plan.shows(Pane::Chart) && !plan.shows(Pane::Teeth) {
                 show(app, Pane::Chart);
+            }
+            if let (Ok((_, z)), "peak") =
+                (greatest_load(app.charts()), &*typed.trim().to_lowercase())
+            {
+                app.chart.z = z;
             }
             put_cursor(app, Ok(angle));
             let reading = chart::readout(app.charts(), angle);

@@ -279,7 +279,7 @@ impl<'a> Charts<'a> {
     }
 
     /// The line load while the contact pattern is selected.
-    fn shown_pattern(self) -> Option<Pattern<'a>> {
+    pub(super) fn shown_pattern(self) -> Option<Pattern<'a>> {
         self.pattern().filter(|_| self.0.chart.is_pattern())
     }
 

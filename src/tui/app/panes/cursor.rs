@@ -125,6 +125,8 @@ pub(crate) fn parse_cursor(charts: Charts<'_>, typed: &str) -> Result<f64, Strin
         "l" => {
             last_contact(solution).ok_or("only static and dynamic compute the last contact L")?
         }
+        // Its range is that of another plane.
+        "peak" if charts.shown_pattern().is_some() => return greatest_load(charts).map(|it| it.0),
         "peak" => peak(charts).ok_or("the chart has no curve, so no peak")?,
         _ => measured(charts, typed)?,
     };
@@ -150,6 +152,17 @@ fn describe(charts: Charts<'_>, angle: f64) -> String {
 
 fn speed(charts: Charts<'_>) -> f64 {
     charts.answer().map_or(0.0, |answer| answer.inputs.speed)
+}
+
+/// The driver's angle before E, in rad, and the place along the face, in m, of the greatest line load
+/// in the visible part of the contact pattern, or of the tooth.
+///
+/// # Errors
+/// Returns an error if no contact pattern is visible.
+pub(crate) fn greatest_load(charts: Charts<'_>) -> Result<(f64, f64), String> {
+    let pattern = charts.shown_pattern().ok_or("no contact pattern")?;
+    let (angle, z) = pattern.greatest(charts.window().scaled(1f64.to_radians()));
+    Ok((0.0 - angle, z))
 }
 
 // The angle at which the curve of the active method in the selected chart is farthest from 0.
