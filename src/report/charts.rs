@@ -164,6 +164,9 @@ impl fmt::Display for Picture {
     }
 }
 
+/// The unit of the roll angles, with its remark.
+const ANGLE: &str = "deg; negative before E";
+
 /// A longer interval between stations, in requested intervals, is a gap in the curve.
 const LEFT_OUT: f64 = 1.5;
 
@@ -186,7 +189,7 @@ pub fn graph_chart(graph: &Graph, cases: &[NamedCase]) -> Result<Chart, String> 
     };
     graph.label.clone_into(&mut chart.title);
     let middle = if chart.marks.len() > 2 { " in mid-face" } else { "" };
-    chart.across = Axis::new(format!("driver roll angle after E{middle}"), "deg");
+    chart.across = Axis::new(format!("driver roll angle after E{middle}"), ANGLE);
     Ok(chart)
 }
 
@@ -724,7 +727,7 @@ impl<'a> Pattern<'a> {
         let is_drawn = |series: &Series| !series.pieces.is_empty();
         Chart {
             title: format!("Contact pattern: line load of the tooth {state}"),
-            across: Axis::new("driver roll angle after E in each plane", "deg"),
+            across: Axis::new("driver roll angle after E in each plane", ANGLE),
             up: Axis::new("z", unit),
             series: [lines(false), lines(true), peaks].into_iter().filter(is_drawn).collect(),
             marks: vec![(0.0, "E"), (degrees(self.length), "B")],

@@ -13,7 +13,7 @@ fn at(desk: &mut Desk, typed: &str) -> f64 {
 fn an_angle_in_any_unit_and_a_time_mean_the_same_place() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc"]);
-    let same = "0.6 deg,0.6,10.471975511965976 mrad,0.010471975511965976 rad,-50 us,-0.05 ms";
+    let same = "-0.6 deg,-0.6,-10.471975511965976 mrad,-0.010471975511965976 rad,-50 us,-0.05 ms";
     for typed in same.split(',') {
         let angle = at(&mut desk, typed).to_degrees();
         assert!((angle - 0.6).abs() < 1e-9, "{typed}: {angle}");
@@ -44,7 +44,7 @@ fn points_have_names() {
 fn a_wrong_text_shows_the_reason_and_stays() {
     let mut desk = Desk::new(SMALL);
     for (typed, said) in [
-        ("30 deg", "30 deg (2500 us) before E is out of range: from"),
+        ("-30 deg", "30 deg (2500 us) before E is out of range: from"),
         ("there", "there is not an angle, time or point"),
         ("5 mm", "5 mm is not an angle, time or point"),
         ("1 m", "1 m is not an angle, time or point"),
@@ -61,6 +61,6 @@ fn a_wrong_text_shows_the_reason_and_stays() {
 #[test]
 fn the_chart_opens_if_no_pane_shows_the_cursor() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "5", "a", "0.6", "Enter"]).assert_shows("▸ 3 Force");
-    desk.keys(&["4", "1", "a", "0.6", "Enter"]).has(&["▸ 1 Form", "─ 4 "]);
+    desk.keys(&["Esc", "5", "a", "-0.6", "Enter"]).assert_shows("▸ 3 Force");
+    desk.keys(&["4", "1", "a", "-0.6", "Enter"]).has(&["▸ 1 Form", "─ 4 "]);
 }

@@ -16,7 +16,7 @@ const SCREENS: &[(&str, Way)] = &[
         desk.keys(&["Esc", "l", "Alt-G", "18cr"]);
     }),
     ("aim", |desk| {
-        desk.keys(&["Esc", "a", "0.6"]);
+        desk.keys(&["Esc", "a", "-0.6"]);
     }),
     ("limits_to_pick", |desk| {
         desk.keys(&["Alt-L", "dyn"]);

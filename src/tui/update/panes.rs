@@ -29,7 +29,7 @@ use crate::tui::session::Next;
 use crate::tui::text::Line;
 
 /// The instruction of the dialog for the cursor.
-const HOW: &str = "Type an angle before E (1.2 deg, 20 mrad), a time after E (-80 us, 0.1 ms) \
+const HOW: &str = "Type an angle after E (-1.2 deg, -20 mrad), a time after E (-80 us, 0.1 ms) \
     or a point (D, E, B, L, peak).";
 const NO_CURSOR: &str = "no valid results for a cursor";
 

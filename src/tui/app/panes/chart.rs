@@ -468,18 +468,15 @@ impl<'a> Charts<'a> {
         if height == 0 { 0 } else { usize::from((height / ROWS).clamp(1, MOST)) }
     }
 
-    /// The factor from deg after E to the x axis, and its quantity: the driver's angle before E, after E
-    /// where most of the visible range is there, or the time after E.
+    /// The factor from deg after E to the x axis, and its quantity: the driver's angle or the time after
+    /// E.
     pub(crate) fn ruler(self) -> (f64, Axis) {
         let window = self.window();
         let speed = self.answer().map_or(0.0, |answer| answer.inputs.speed);
         let micros = 1f64.to_radians() / speed * 1e6;
         let longest = micros * window.from.abs().max(window.to.abs());
-        let roll_angle =
-            |side: &str| Axis::new(format!("roll angle {side} {}", self.entry()), "deg");
         match self.0.chart.by_time {
-            false if window.to > window.from.abs() => (1.0, roll_angle("after")),
-            false => (-1.0, roll_angle("before")),
+            false => (1.0, Axis::new(format!("roll angle after {}", self.entry()), "deg")),
             true if longest < MOST_MICROS => (micros, Axis::new("time after E", "us")),
             true => (1e-3 * micros, Axis::new("time after E", "ms")),
         }
@@ -529,7 +526,7 @@ impl<'a> Charts<'a> {
             spans: (self.window(), self.upright(at)),
             chart: is_drawn.then_some(Cow::Owned(chart)),
             looks,
-            words: vec![("time ->".to_owned(), Style::new())],
+            words: vec![("time ->, negative before E".to_owned(), Style::new())],
             margin: MARGIN,
             is_compared: graph.by_model.is_some(),
             marks: marks(self),
@@ -565,7 +562,7 @@ impl<'a> Charts<'a> {
         let running = is_running && !self.0.tab.shows_last_valid() && !is_pattern;
         // The legend of a map has the unit of its values; the title fits beside the hidden panes.
         let title = |chart: &Chart| match &chart.map {
-            Some(map) => format!("{} over roll angle, {}", map.value.name, chart.up.in_unit()),
+            Some(map) => format!("{}, roll angle after E, {}", map.value.name, chart.up.in_unit()),
             None => chart.quantities(),
         };
         let words = chart.as_deref().map_or_else(|| of.words()[0].to_owned(), title);

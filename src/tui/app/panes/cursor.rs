@@ -108,7 +108,7 @@ pub(crate) fn meaning(app: &App, typed: &str) -> (Result<String, String>, Option
     (meant, ending(charts, typed))
 }
 
-/// Parses an angle before E, a time or the name of a point; returns the driver's angle before E, in
+/// Parses an angle or a time after E or the name of a point; returns the driver's angle before E, in
 /// rad.
 ///
 /// # Errors
@@ -174,10 +174,10 @@ fn peak(charts: Charts<'_>) -> Option<f64> {
     Some(0.0 - highest.0.to_radians())
 }
 
-// Angles count before E and times after E, as on the axes.
+// Angles and times count after E, as on the axes.
 fn measured(charts: Charts<'_>, typed: &str) -> Result<f64, String> {
     let whole = [typed, &ending(charts, typed).unwrap_or_default()].concat();
-    let angle = units::parse(&whole, Dimension::Angle, "deg");
+    let angle = units::parse(&whole, Dimension::Angle, "deg").map(|angle| 0.0 - angle);
     let time =
         || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed(charts));
     angle.or_else(|_| time()).map_err(|_| match units::parse(typed.trim(), Dimension::Number, "") {
