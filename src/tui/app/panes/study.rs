@@ -625,8 +625,9 @@ fn draw_points(app: &App, shown: &StudyResults, area: Rect, buffer: &mut Buffer)
     let Some((chart, looks)) = chart(app, shown) else { return };
     let (theme, is_map) = (app.look.theme, chart.map.is_some());
     let words = if is_map {
-        let axes = [("x", &chart.across), ("y", &chart.up)];
-        axes.map(|(name, axis)| (format!("{name}: {}", axis.in_unit()), Style::new())).to_vec()
+        // The unit of x is below the corner of the axes.
+        let axes = [format!("x: {}", chart.across.name), format!("y: {}", chart.up.in_unit())];
+        axes.map(|words| (words, Style::new())).to_vec()
     } else {
         vec![("▴ cursor".to_owned(), theme.focus)]
     };
