@@ -70,7 +70,7 @@ impl TerminalChart<'_> {
         let Chart { across, up, series, marks, map, .. } = self.chart;
         let names = series.iter().zip(&self.looks).map(|(series, look)| {
             let missing = if series.pieces.is_empty() { " (no value)" } else { "" };
-            let name = series.name.split(',').next().unwrap_or_default();
+            let name = series.name.split(", ").next().unwrap_or_default();
             (format!("{} {name}{missing}", sample(look.0)), look.1)
         });
         let shades = map.iter().flat_map(|map| map_words(map, self.theme));
