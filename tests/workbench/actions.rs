@@ -86,7 +86,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 3 k k l", "L", "", "harmonic of the mesh frequency 10.00: at rest"),
     ("Esc 3 k k l l", "H", "", "harmonic of the mesh frequency 1.000: at rest"),
     ("Esc 3 k k", "End", "", "harmonic of the mesh frequency 10.00: at rest"),
-    ("Esc 3 k k", "p", "", "harmonic of the mesh frequency 1.000: at rest"),
+    ("Esc 3 k k", "a", "", "harmonic of the mesh frequency 1.000: at rest"),
     ("Esc 3", "j", "", "▸ 3 Gap S in um over roll angle"),
     ("Esc 3 j j", "k", "", "▸ 3 Gap S in um over roll angle"),
     ("Esc 3", "+", "", "-1.2          -1.0          -0.8 "),

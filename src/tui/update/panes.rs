@@ -207,7 +207,7 @@ pub(super) fn step_point(app: &mut App, by: isize) {
 }
 
 /// Moves that cursor to the next peak.
-pub(super) fn step_peak(app: &mut App) {
+fn step_peak(app: &mut App) {
     match app.charts().next_peak() {
         Some(place) => app.chart.place = Some(place),
         None => app.say("no chart to move in"),
@@ -301,7 +301,7 @@ pub(super) fn cursor_to_start(app: &mut App) {
 pub(super) fn ask_cursor(app: &mut App) {
     let is_own = app.chart.own_axes().is_some() && !app.chart.is_pattern();
     if is_own && app.layout.focus == Pane::Chart {
-        app.say("this chart has a cursor of its own: h and l move it, p moves it to the next peak");
+        step_peak(app);
     } else if range_of_cursor(app).is_some() {
         let dialog = PathDialog::new("Cursor to", HOW, Line::default(), move_cursor);
         app.prompts.push(Prompt::Path(PathDialog { meaning: Some(meaning), ..dialog }));

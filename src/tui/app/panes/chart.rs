@@ -105,7 +105,7 @@ impl OwnChart {
                 "Dynamic factor over speed",
                 "Show the dynamic factor over speed, up and down, with the resonances.",
                 "The peak force of a tooth over that at rest. N is the mesh frequency over the \
-                    natural frequency; N = 1, 1/2 and 1/3 mark the resonances.",
+                    natural frequency; N = 1, 1/2 and 1/3 mark the resonances. a: next peak.",
             ],
             OwnChart::Pattern => [
                 "Contact pattern",
