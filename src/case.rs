@@ -72,9 +72,10 @@ impl Limit {
         let known = Quantity::find(key).ok_or_else(|| check::unknown_quantity(&field, key))?;
         let (key, owned) = (known.key, text.to_owned());
         if let Some((factor, other)) = relative(text) {
-            let of = quantity(&field, if other == "nominal" { "mesh_force" } else { other })?;
+            let of = quantity(&field, if other == NOMINAL { MESH_FORCE } else { other })?;
             if of.unit != known.unit || of.is_flag() {
-                let cause = format!("{} has another unit than {key}", of.key);
+                let name = if other == NOMINAL { "nominal, the mesh_force," } else { of.key };
+                let cause = format!("{name} has another unit than {key}");
                 return Err(Problem::new(&field, cause, "name a result in the same unit"));
             }
             return Ok(Limit { quantity: known, text: owned, value: factor, of: Some(of) });
@@ -92,6 +93,13 @@ impl Limit {
         Ok(Limit { quantity: known, text: owned, value, of: None })
     }
 
+    /// The text for a sentence, on one line, with the result that `nominal` names.
+    pub fn shown(&self) -> String {
+        let text = sanitize::sanitize(&self.text);
+        let is_nominal = relative(&self.text).is_some_and(|(_, other)| other == NOMINAL);
+        if is_nominal { format!("{text} ({MESH_FORCE})") } else { text }
+    }
+
     /// The greatest allowed value in SI, if the result to which it is relative has a value.
     pub fn bound(&self, value: impl Fn(&'static Quantity) -> Option<f64>) -> Option<f64> {
         let base = self.of.map_or(Some(1.0), value);
@@ -103,6 +111,10 @@ impl Limit {
         [Some(self.quantity), self.of].into_iter().flatten()
     }
 }
+
+/// The short name of the nominal force in a relative limit, and the key of this force.
+const NOMINAL: &str = "nominal";
+const MESH_FORCE: &str = "mesh_force";
 
 /// The factor and the result of a text such as "1.3 x mesh_force".
 fn relative(text: &str) -> Option<(f64, &str)> {

@@ -293,7 +293,7 @@ pub(super) fn distributions(case: &Case) -> Vec<(&'static str, String)> {
 /// The probabilities of corner contact and of a value above each limit, with their intervals.
 pub(super) fn probabilities(summary: &Summary) -> Vec<(String, String)> {
     let limits = summary.limits.iter().map(|Exceedance { limit, probability, .. }| {
-        (format!("{} > {}", name_of(limit.quantity), sanitize(&limit.text)), probability.as_ref())
+        (format!("{} > {}", name_of(limit.quantity), limit.shown()), probability.as_ref())
     });
     let exit =
         summary.exit.as_ref().map(|exit| ("corner contact at the exit".to_owned(), Some(exit)));

@@ -1,7 +1,6 @@
 //! The limits of a case compared with its results, and why a quantity has no value.
 
 use super::{name_of, shown_in, value};
-use crate::case::sanitize::sanitize;
 use crate::case::units::{self, System};
 use crate::case::{Case, Limit};
 use crate::model::inputs::Method;
@@ -160,7 +159,7 @@ impl Verdict<'_> {
     pub fn sentence(&self, system: System) -> String {
         let statement = self.statement(system);
         let Some(beside) = self.beside else { return statement };
-        let limit = sanitize(&self.limit.text);
+        let limit = self.limit.shown();
         let above = if self.is_exceeded_beside() { format!(" > {limit}") } else { String::new() };
         let is_unlimited = beside.own.is_some() && !beside.is_limited;
         let also = if is_unlimited { "; this quantity has no limit" } else { "" };
@@ -174,7 +173,7 @@ impl Verdict<'_> {
     }
 
     fn statement(&self, system: System) -> String {
-        let (name, mut limit) = (name_of(self.limit.quantity), sanitize(&self.limit.text));
+        let (name, mut limit) = (name_of(self.limit.quantity), self.limit.shown());
         if let Some(bound) = self.bound.filter(|_| self.limit.of.is_some()) {
             limit = format!("{limit} = {}", shown_in(self.limit.quantity, bound, system));
         }

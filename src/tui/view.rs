@@ -21,7 +21,6 @@ use super::update::commands::BINDINGS;
 use crate::case::fields::{Absent, Field, Kind, in_unit, index_of};
 use crate::case::{Acting, FIELDS, Limit, Spread, partial_relevance, relevance};
 use crate::model::inputs::Method;
-use crate::model::{QUANTITIES, Quantity};
 use crate::report::verdict::verdicts;
 use crate::study::tolerance::centre;
 use crate::study::trade::Trade;
@@ -198,11 +197,14 @@ fn about_limit(app: &App, limit: &Limit) -> String {
         format!("{} {}. ", verdict.standing.word(), verdict.sentence(app.settings.units))
     });
     let own = limit.quantity;
-    let is_alike = |other: &&Quantity| other.unit == own.unit && !other.is_flag() && *other != own;
-    let other = if own.unit == "N" { Quantity::find("mesh_force") } else { None };
-    let other = other.or_else(|| QUANTITIES.iter().find(is_alike));
-    let multiple =
-        other.map_or_else(String::new, |of| format!(", or a multiple such as 1.3 x {}", of.key));
+    let multiple = match own.key {
+        "mesh_force" | "static_te_peak_to_peak" => "",
+        _ if own.unit == "N" => ", or 1.3 x mesh_force (1.3 x nominal)",
+        key if key.contains("_te_") || key.contains("transmission_error") => {
+            ", or 1.3 x static_te_peak_to_peak"
+        }
+        _ => "",
+    };
     format!("{}Upper limit of {name}{multiple}; empty: no limit.", sentence.unwrap_or_default())
 }
 

@@ -73,7 +73,7 @@ fn a_limit_on_an_absent_value_is_not_met_and_has_a_reason() {
     has(
         &page,
         &[
-            "unknown cases/zhou-chen-2014.toml: peak force F_max has no value (limit 1.3 x nominal = 1981.6 N): ",
+            "unknown cases/zhou-chen-2014.toml: peak force F_max has no value (limit 1.3 x nominal (mesh_force) = 1981.6 N): ",
             "method exact does not compute this quantity; static, dynamic and auto do",
         ],
     );

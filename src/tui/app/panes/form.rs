@@ -94,7 +94,7 @@ enum Row {
 
 /// Draws the form. Returns the position of the text cursor.
 pub(crate) fn draw(app: &App, buffer: &mut Buffer) -> Option<Position> {
-    let inner = app.draw_title(Pane::Form, "Form", buffer);
+    let inner = app.draw_title(Pane::Form, &title(app), buffer);
     if inner.is_empty() {
         return None;
     }
@@ -112,6 +112,17 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) -> Option<Position> {
         }
     }
     cursor
+}
+
+/// The title, which names the result whose limit is edited.
+fn title(app: &App) -> String {
+    let case = &app.tab.case;
+    match rows::row(case, app.tab.form.focus) {
+        rows::Row::Limit(limit) if app.has_line() => {
+            format!("Form: limit of {}", text::symbol(limit.quantity.symbol, app.look.ascii))
+        }
+        _ => "Form".to_owned(),
+    }
 }
 
 /// The first visible line such that the focused field is visible with its reason and, if possible,
@@ -220,7 +231,8 @@ fn draw_line(app: &App, index: usize, line: Rect, buffer: &mut Buffer) -> Option
     };
     let (of_symbol, end) = (SYMBOL.max(width(symbol)), text::width(&verdict) as u16);
     let least = if field.is_some() { VALUE } else { 0 };
-    let of_value = if is_typed { VALUE } else { least.max(width(&value)) };
+    // The label gives way to a limit, whose factor stays visible.
+    let of_value = if is_typed && field.is_some() { VALUE } else { least.max(width(&value)) };
     let rest = line.width.saturating_sub(MARKS + of_symbol + end);
     let of_label = of_label.min(rest.saturating_sub(of_value));
     let widths = [Length(MARKS), Length(of_symbol), Length(of_label), Fill(1), Length(end)];
