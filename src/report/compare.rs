@@ -418,7 +418,7 @@ fn wrapped(table: &Table, label: usize) -> Table {
 }
 
 /// The symbol of an input: of the field, or of the subject of a limit or a distribution.
-fn symbol(key: &str) -> String {
+pub(crate) fn symbol(key: &str) -> String {
     let quantity = key.strip_prefix("limits.").and_then(Quantity::find);
     let field = key.strip_prefix("spread.").map_or(key, |field| field.trim_matches('"'));
     let field = index_of(field).map(|field| FIELDS[field].symbol);

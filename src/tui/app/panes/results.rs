@@ -11,13 +11,14 @@ use ratatui::layout::{Layout, Position, Rect};
 use ratatui::style::Style;
 use ratatui::text::Line;
 
+use crate::case::fields::index_of;
 use crate::case::sanitize::sanitize;
-use crate::case::units::{self, named};
-use crate::case::{Case, FIELDS, Field, changes};
+use crate::case::units::named;
+use crate::case::{Case, FIELDS, changes};
 use crate::model::inputs::Method;
 use crate::model::quantities::Need;
 use crate::model::{QUANTITIES, Quantity, Solution, Stage, Stages};
-use crate::report::compare::difference;
+use crate::report::compare::{self, difference};
 use crate::report::trade::duration;
 use crate::report::verdict::{Beside, Standing, Verdict, verdict, verdicts};
 use crate::report::{self, digest, value_as_in};
@@ -225,9 +226,9 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
         if is_shown && lines.len() > left {
             has_more = true;
             let end = symbol(&format!(" … ({}n)", app.leave()), app.look.ascii).into_owned();
-            let clauses = to_clause(&text, &end, width, left);
-            is_cut = clauses.is_some();
-            lines = clauses.unwrap_or_else(|| text::fitted(&text, width, left));
+            is_cut = true;
+            lines = to_clause(&text, &end, width, left)
+                .unwrap_or_else(|| to_word(lines, &end, width, left));
         }
         let lines = lines.into_iter().filter(|_| is_shown);
         head.extend(lines.map(|line| Line::styled(line, style)));
@@ -256,6 +257,19 @@ fn to_clause(text: &str, end: &str, width: usize, rows: usize) -> Option<Vec<Str
     let ends = text.rmatch_indices([',', ';']).map(|(at, _)| text[..at].to_owned() + end);
     let mut ends = ends.map(|text| text::wrap(&text, width));
     ends.find(|lines| lines.len() <= rows).filter(|lines| lines.len() + 1 >= rows)
+}
+
+/// The first `rows` lines, the last one with as many words as fit before the end.
+fn to_word(mut lines: Vec<String>, end: &str, width: usize, rows: usize) -> Vec<String> {
+    lines.truncate(rows);
+    if let Some(last) = lines.last_mut() {
+        let room = width.saturating_sub(text::width(end));
+        while text::width(last) > room {
+            last.truncate(last.rfind(' ').unwrap_or(0));
+        }
+        last.push_str(end);
+    }
+    lines
 }
 
 /// The folded rows and columns, with the key that shows them.
@@ -406,14 +420,13 @@ fn differing(answer: &Answer, solution: &Solution) -> Option<String> {
 }
 
 fn title(app: &App, count: usize, rows: usize) -> String {
-    let name = if app.tab.shows_last_valid() { "Results: LAST VALID" } else { "Results" };
+    let name = if app.shown_variants().is_some() { "Variants" } else { "Results" };
+    let valid = if app.tab.shows_last_valid() { ": LAST VALID" } else { "" };
     let top = app.tab.results.top;
     let position = (0 < rows && rows < count)
         .then(|| format!(" {}-{}/{count}", top + 1, (top + rows).min(count)));
-    let base = match (app.shown_variants(), app.baseline.as_ref()) {
-        (Some(_), _) => Some(", variants".to_owned()),
-        (None, baseline) => baseline.map(|baseline| format!(", against {}", baseline.name)),
-    };
+    let base = app.baseline.as_ref().filter(|_| app.shown_variants().is_none());
+    let base = base.map(|baseline| format!(", against {}", baseline.name));
     let pending = app.tab.answer.as_ref().and_then(|answer| answer.pending);
     let pending = pending.map(|method| format!(", {} pending", method.name()));
     let cost = app.tab.answer.as_ref().filter(|_| app.shows_cost).map(|answer| answer.cost);
@@ -423,7 +436,7 @@ fn title(app: &App, count: usize, rows: usize) -> String {
         app.shown_answer().filter(|_| !app.has_result_header() || app.shown_variants().is_some());
     let method = method.map(|answer| format!(" by {}", answer.active.name()));
     let parts = [position, method, base, pending, cost].into_iter().flatten();
-    name.to_owned() + &parts.collect::<String>()
+    format!("{name}{valid}{}", parts.collect::<String>())
 }
 
 /// The most important quantities of each method.
@@ -454,8 +467,10 @@ const NONE: &str = "–";
 const NOT_SOLVED: &str = "not solved";
 /// A longer name of a variant is cut.
 const LONGEST_NAME: usize = 18;
-/// A longer input of a variant is cut.
-const LONGEST_INPUT: usize = 9;
+/// A longer input of a variant is cut; in a narrow pane its name, the text of the case and that of a
+/// variant.
+const LONGEST_INPUT: usize = 24;
+const NARROW_INPUT: [usize; 3] = [10, 9, 12];
 /// The width of all but a few symbols, and of all but a few numbers.
 const SYMBOL: usize = 8;
 const NUMBER: usize = 8;
@@ -563,7 +578,8 @@ pub(crate) fn compared(app: &App, quantity: &'static Quantity) -> Option<String>
         let cell = |column: &Column| column.cells.last().cloned().unwrap_or_default();
         let unit = columns.iter().find(|column| column.is_unit).map(cell).unwrap_or_default();
         let numbers = columns.iter().filter(|column| column.is_number);
-        let words = numbers.map(|column| match (column.heading.as_str(), cell(column)) {
+        let above = |cell: String| cell.trim_end().replace(EXCEEDED, " above its limit");
+        let words = numbers.map(|column| match (column.heading.as_str(), above(cell(column))) {
             ("case", own) => format!("Case {own} {unit}").trim_end().to_owned(),
             ("", by) if by.is_empty() => by,
             ("", by) => format!(" ({by})"),
@@ -647,6 +663,24 @@ fn columns(
         report::common_unit(quantity, of_methods.chain(of_variants), app.settings.units)
     };
     let own = |quantity| value(answer, active, quantity);
+    let is_above = |case: &Case, solution: &Solution, quantity: &Quantity| {
+        let mut limits = case.limits.iter();
+        limits.any(|limit| {
+            let is_own = limit.quantity.row_in(active) == quantity;
+            is_own && verdict(limit, solution).standing == Standing::Exceeded
+        })
+    };
+    // Beside variants each number has its own mark.
+    let marked = |case: &Case, solution: Option<&Solution>, numbers: Vec<String>| {
+        let Some(solution) = solution else { return numbers };
+        let is_above = |of: &Quantity| is_above(case, solution, of);
+        if app.tab.is_stale() || !all.iter().any(|of| is_above(of)) {
+            return numbers;
+        }
+        let mark = |of: &Quantity| if is_above(of) { EXCEEDED } else { " " };
+        let numbers = known.iter().zip(numbers);
+        numbers.map(|(of, number)| number + mark(of)).collect::<Vec<_>>()
+    };
     let number = |quantity: &'static Quantity, value: Option<f64>| {
         let shown = |value| report::shown_with(quantity, value, unit(quantity)).number;
         value.map_or_else(|| NONE.to_owned(), shown)
@@ -675,6 +709,10 @@ fn columns(
             // The fastest method, which is the least accurate one, is removed first.
             None => (50 - at, method.name().to_owned(), [theme.other, Style::new()]),
         };
+        let numbers = match variants {
+            Some(_) => marked(&app.tab.case, answer.of(method), numbers),
+            None => numbers,
+        };
         columns.push(Column::numbers(rank, heading, numbers, styles));
     }
     let of_units = cells(&|of| {
@@ -698,6 +736,11 @@ fn columns(
             Ok(_) => number(of, now(of)),
             Err(_) => "refused".to_owned(),
         });
+        let case = app.tab.case.variant(name).map(|variant| app.tab.case.with(variant));
+        let values = match case {
+            Ok(case) => marked(&case, found.as_ref().ok(), values),
+            Err(_) => values,
+        };
         let differences = cells(&|of| match (now(of), own(of)) {
             (Some(now), Some(own)) => difference(of, now, own, unit(of)),
             _ => String::new(),
@@ -725,26 +768,40 @@ fn columns(
 }
 
 /// Inserts differing inputs of the variants above the quantities.
-fn add_inputs(app: &App, inputs: &[(usize, Vec<String>)], columns: &mut [Column]) {
-    for (row, (field, texts)) in inputs.iter().enumerate() {
-        let unit = units::split(&texts[0], "").map_or("", |(_, unit)| unit);
-        let is_alike = texts.iter().all(|text| text.ends_with(unit));
-        let value = |text: &String| {
-            let text = text.strip_suffix(unit).filter(|_| is_alike).unwrap_or(text);
-            text::cut(&sanitize(text.trim_end()), LONGEST_INPUT)
-        };
-        let Field { symbol: own, label, .. } = &FIELDS[*field];
-        let names = [symbol(own, app.look.ascii).into_owned(), (*label).to_owned()];
-        let unit = if is_alike { unit.to_owned() } else { String::new() };
+fn add_inputs(app: &App, inputs: &[(String, Vec<String>)], columns: &mut [Column]) {
+    let [of_name, of_case, of_variant] =
+        if app.area(Pane::Results).width < WIDE { NARROW_INPUT } else { [LONGEST_INPUT; 3] };
+    let cut = |text: &str, most| text::cut(&sanitize(text), most);
+    for (row, (key, texts)) in inputs.iter().enumerate() {
+        let [own, label] = names_of(key);
+        let own = cut(&symbol(&own, app.look.ascii), of_name);
         let first = app.shown_variants().map_or(0, |(_, first)| first);
-        let others = texts.iter().skip(1 + first).flat_map(|text| [value(text), String::new()]);
-        let cells = names.into_iter().chain([value(&texts[0]), unit]).chain(others);
+        let others = texts.iter().skip(1 + first);
+        let others = others.flat_map(|text| [cut(text, of_variant), String::new()]);
+        let case = [own, label, cut(&texts[0], of_case), String::new()];
+        let cells = case.into_iter().chain(others);
         columns.iter_mut().zip(cells).for_each(|(column, cell)| column.cells.insert(row, cell));
     }
 }
 
-/// The fields that differ between the case and its variants, with the text of each.
-fn inputs(app: &App) -> Vec<(usize, Vec<String>)> {
+/// The symbol and the label of an input. An input without a symbol has its label instead.
+fn names_of(key: &str) -> [String; 2] {
+    let (kind, subject) = key.split_once('.').unwrap_or_default();
+    let symbol = compare::symbol(key);
+    let field = if kind == "spread" { subject.trim_matches('"') } else { key };
+    let quantity = Quantity::find(subject).filter(|_| kind == "limits");
+    let label = index_of(field).map(|field| FIELDS[field].label);
+    let label = quantity.map(|quantity| quantity.label.trim_start()).or(label).unwrap_or(key);
+    match kind {
+        "limits" => [format!("{symbol} limit"), label.to_owned()],
+        "spread" => [format!("{symbol} spread"), label.to_owned()],
+        _ if symbol.is_empty() => [label.to_owned(), String::new()],
+        _ => [symbol, label.to_owned()],
+    }
+}
+
+/// The keys of the inputs that differ between the case and its variants, with the text of each.
+fn inputs(app: &App) -> Vec<(String, Vec<String>)> {
     let Some((variants, _)) = app.shown_variants() else { return Vec::new() };
     let own = &app.tab.case;
     let of_variant = |(name, _): &(String, _)| own.variant(name).map(|variant| own.with(variant));
@@ -753,7 +810,18 @@ fn inputs(app: &App) -> Vec<(usize, Vec<String>)> {
     let text = |case: &Case, field: usize| case.effective(field).unwrap_or(NONE).to_owned();
     let texts = |field| cases.iter().map(|case| text(case, field)).collect::<Vec<_>>();
     let fields = (0..FIELDS.len()).filter(|field| !FIELDS[*field].table().is_empty());
-    let differing = fields.map(|field| (field, texts(field)));
+    let fields = fields.map(|field| (FIELDS[field].key.to_owned(), texts(field)));
+    let mut entries: Vec<String> = Vec::new();
+    for change in cases.iter().flat_map(|case| changes::between(own, case)) {
+        let is_entry = ["limits.", "spread."].iter().any(|start| change.key.starts_with(start));
+        if is_entry && !entries.contains(&change.key) {
+            entries.push(change.key);
+        }
+    }
+    let text = |case, key: &str| changes::text_of(case, key).unwrap_or_else(|| NONE.to_owned());
+    let texts = |key: &String| cases.iter().map(|case| text(case, key)).collect();
+    let entries = entries.into_iter().map(|key| (key.clone(), texts(&key)));
+    let differing = fields.chain(entries);
     differing.filter(|(_, texts)| texts.iter().any(|text| *text != texts[0])).collect()
 }
 
