@@ -85,6 +85,11 @@ pub(super) fn are_same(one: &Case, other: &Case) -> bool {
     sorted(one) == sorted(other)
 }
 
+/// The examples of limits and distributions in a new case.
+const LIMIT_EXAMPLE: &str = "# impact_force = \"2500 N\"";
+const SPREAD_EXAMPLE: &str = "# \"deviations.base_pitch\" = { normal = \"4 um\" }";
+/// The example of a variant of a new case, as [`ABOUT_EXAMPLE`].
+const VARIANT_EXAMPLE: &str = "# [variants.relieved]\n# \"driven.tip_relief\" = \"48 um\"";
 /// The table `[about]` of a new case.
 const ABOUT_EXAMPLE: &str = "# [about]\n# project = \"\"\n# author = \"\"";
 
@@ -115,19 +120,11 @@ pub(super) fn template(case: &Case, comments: &[(&str, String)]) -> String {
         }
     }
     for (table, help, example) in [
-        (
-            "limits",
-            "Greatest allowed value of any quantity of the results.",
-            "impact_force = \"2500 N\"",
-        ),
-        (
-            "spread",
-            "Distribution of a field around its value, for tolerance.",
-            "\"deviations.base_pitch\" = { normal = \"4 um\" }",
-        ),
+        ("limits", "Greatest allowed value of any quantity of the results.", LIMIT_EXAMPLE),
+        ("spread", "Distribution of a field around its value, for tolerance.", SPREAD_EXAMPLE),
     ] {
         let lines = of_table(&[table]);
-        let lines = if lines.is_empty() { format!("# {example}") } else { lines.join("\n") };
+        let lines = if lines.is_empty() { example.to_owned() } else { lines.join("\n") };
         let _ = writeln!(text, "\n# {help}\n[{table}]\n{lines}");
     }
     let about = of_table(&["about"]);
@@ -139,7 +136,7 @@ pub(super) fn template(case: &Case, comments: &[(&str, String)]) -> String {
     let _ = writeln!(text, "\n# Texts for the page of a report, with any keys.\n{lines}");
     text.push_str("\n# Overrides of the case, for compare, --variant and the workbench.\n");
     if case.variants.is_empty() {
-        text.push_str("# [variants.relieved]\n# \"driven.tip_relief\" = \"48 um\"\n");
+        text.extend([VARIANT_EXAMPLE, "\n"]);
     }
     let variants = case.variants.iter().map(|variant| {
         let lines = of_table(&["variants", &variant.name]);
@@ -340,7 +337,11 @@ fn is_inside(layout: &Layout, at: usize) -> bool {
 
 /// The line of the table that has the example of a field of the case as a comment, as in a new file.
 fn example_of(text: &str, layout: &Layout, new: &Written) -> Option<Range<usize>> {
-    let comment = format!("# {}", check::assignment(&FIELDS[index_of(&new.key())?]));
+    let comment = match new.table() {
+        [table] if table == "limits" => LIMIT_EXAMPLE.to_owned(),
+        [table] if table == "spread" => SPREAD_EXAMPLE.to_owned(),
+        _ => format!("# {}", check::assignment(&FIELDS[index_of(&new.key())?])),
+    };
     let header = layout.headers().find(|header| header.path == new.table())?.span.end;
     let next = layout.headers().map(|header| header.start).find(|&start| start > header);
     let lines = text[header..next.unwrap_or(text.len())].split_inclusive('\n');
@@ -351,9 +352,9 @@ fn example_of(text: &str, layout: &Layout, new: &Written) -> Option<Range<usize>
     found.map(|(at, _)| at..at + comment.len())
 }
 
-/// The lines with the example of the table `[about]`, if the next entry is a header.
-fn example_of_about(text: &str, layout: &Layout) -> Option<Range<usize>> {
-    let example = ABOUT_EXAMPLE.replace('\n', line_end(text));
+/// The lines with the example of a table, if the next entry is a header.
+fn example_of_table(text: &str, layout: &Layout, example: &str) -> Option<Range<usize>> {
+    let example = example.replace('\n', line_end(text));
     let start = text.find(&format!("\n{example}{}", line_end(text)))? + 1;
     let next = layout.entries.iter().filter(|own| own.start > start).min_by_key(|own| own.start);
     let is_free = !is_inside(layout, start) && next.is_none_or(|own| own.place == Place::Header);
@@ -414,7 +415,13 @@ fn append(text: &mut String, layout: &Layout, new: &Written) {
     let (table, end) = (new.table(), line_end(text));
     let names: Vec<String> = table.iter().map(|name| key_of(name)).collect();
     let added = format!("[{}]{end}{}{end}", names.join("."), new.line());
-    if let Some(example) = example_of_about(text, layout).filter(|_| table == ["about"]) {
+    let example = match table {
+        [about] if about == "about" => Some(ABOUT_EXAMPLE),
+        [variants, _] if variants == "variants" => Some(VARIANT_EXAMPLE),
+        _ => None,
+    };
+    let example = example.and_then(|example| example_of_table(text, layout, example));
+    if let Some(example) = example {
         return text.replace_range(example, added.trim_end());
     }
     let inner = layout.headers().find(|header| header.path.starts_with(table));
