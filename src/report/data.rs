@@ -7,7 +7,7 @@ use crate::case::units::System;
 use crate::case::{FIELDS, Field};
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity, Solution, Stage};
-use crate::report::digest::{differing, free_impact, sentence, whine};
+use crate::report::digest::{differing, free_impact, lacks_relief, sentence, whine};
 use crate::report::stations::columns;
 pub use crate::report::table::write_line;
 use crate::report::table::{Cell, Column, Table, WIDTH, flow, item, json, measured, object, text};
@@ -59,6 +59,9 @@ fn beside(quantity: &Quantity, solution: &Solution) -> Option<&'static str> {
 pub(super) fn verdict(report: &Report, system: System) -> Vec<String> {
     let solution = &report.solution;
     let mut sentences = vec![sentence(solution, system, false)];
+    if !report.selection.is_whole() && lacks_relief(solution) {
+        sentences.push("Tip relief that prevents it: add clearing_relief to --only.".to_owned());
+    }
     if report.selection.is_whole() {
         let all: Vec<&Solution> = report.others.iter().collect();
         let exact = all.iter().find(|other| other.method == Method::Exact);

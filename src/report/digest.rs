@@ -50,7 +50,10 @@ impl Digest {
             Ok(solution) => {
                 let own = solution.method.name();
                 let by = if own == asked { "" } else { ", chosen by auto" };
-                let outcome = sentence(solution, system, false);
+                let mut outcome = sentence(solution, system, false);
+                if lacks_relief(solution) {
+                    outcome.push_str(" The opened case has the tip relief that prevents it.");
+                }
                 (verdict::verdicts(case, solution), format!("{own}{by}"), outcome)
             }
             Err(refusal) => {
@@ -248,6 +251,11 @@ pub fn relief(solution: &Solution, system: System, is_pending: bool) -> Option<S
         }
         None => is_pending.then(|| "tip relief that prevents it: being computed".to_owned()),
     }
+}
+
+/// Whether a sentence lacks the tip relief because its stage did not run.
+pub(super) fn lacks_relief(solution: &Solution) -> bool {
+    solution.outcome == Outcome::CornerContact && !solution.stages.has(Stage::Clearing)
 }
 
 /// The additional tip relief `on` a gear that prevents a contact.
