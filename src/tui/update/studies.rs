@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::{edit, key_of, panes};
 use crate::case::fields::FIELDS;
 use crate::case::fields::index_of;
-use crate::case::{Case, Evaluator, Problem, Variant};
+use crate::case::{Case, Evaluator, Limit, Problem, Variant};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Solution, Stage};
 use crate::report::page::{format_of, is_picture};
@@ -117,8 +117,11 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
                 d in this pane shows the field over its range."
                 .to_owned());
         }
+        // The samples have the quantities of the limits beside that of the study.
+        let is_limited = case.limits.iter().flat_map(Limit::quantities).any(|own| own == quantity);
+        let before = app.tab.study.sampled().filter(|_| is_limited);
         let (quantity, samples, units) =
-            (quantity.key, app.tab.study.state.samples(), app.settings.units);
+            (before.unwrap_or(quantity.key), app.tab.study.state.samples(), app.settings.units);
         let parameters = ToleranceParameters { case, inputs, quantity, samples, units };
         return Ok(StudyParameters::Tolerance(Box::new(parameters)));
     }
@@ -402,7 +405,8 @@ pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), Strin
         };
         text.map_err(|error| error.to_string())
     };
-    Ok((": the study (y copies its command)".to_owned(), Box::new(content)))
+    let lines = if format == Format::Json { " as JSON Lines, one object per line" } else { "" };
+    Ok((format!(": the study{lines} (y copies its command)"), Box::new(content)))
 }
 
 /// The rows of a study; those of a curve that the pane has solved are not solved again.

@@ -256,6 +256,15 @@ impl Study {
         self.request = Some(request);
     }
 
+    /// The key of the quantity of the last tolerance.
+    pub(crate) fn sampled(&self) -> Option<&'static str> {
+        let shown = self.shown.as_ref().map(|shown| &shown.request);
+        match &self.request.as_ref().or(shown)?.parameters {
+            StudyParameters::Tolerance(of) => Some(of.quantity),
+            StudyParameters::Grid(_) => None,
+        }
+    }
+
     /// The results of the present request.
     pub(crate) fn results(&mut self) -> Option<&mut StudyResults> {
         if !self.is_shown() {

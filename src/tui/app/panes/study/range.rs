@@ -305,6 +305,15 @@ pub(crate) fn typed_axes(
             };
             values = values.trim_end_matches([',', ' ']);
         }
+        if let Some((range, count)) = last_word(values)
+            && range.split_once("..").is_some_and(|(_, to)| to.contains(char::is_alphabetic))
+            && count.parse::<usize>().is_ok()
+        {
+            let range = range.trim_end_matches([',', ' ']);
+            return Err(format!(
+                "{count} is no unit: for {count} points type {range}, {count} points"
+            ));
+        }
         if let Some(count) = sampling.points.filter(|count| *count > MOST_POINTS) {
             return Err(too_many(count));
         }
