@@ -381,7 +381,11 @@ impl Report {
         let format = destination.format(*format, PAGES, false)?.unwrap_or(Format::Html);
         check_out(Some(out), &input.cases.iter().map(AsRef::as_ref).collect::<Vec<_>>())?;
         let mut subjects = Vec::new();
-        let worst = input.each(None, streams, |opened, _| {
+        let worst = input.each(None, streams, |opened, streams| {
+            if samples.is_some() && opened.document.case.spread.is_empty() {
+                let name = opened.document.name();
+                streams.say(&format!("{name}: --samples is not used: no [spread]"));
+            }
             let (source, file) = (opened.unsolved(), opened.document.render());
             let subject = follow("parts", |go_on| source.subject(file, format, *samples, go_on))?;
             subjects.push(subject.map_err(|refusal| opened.refused(&refusal))?);
