@@ -332,6 +332,27 @@ fn type_command(app: &mut App, typed: &str) {
     app.pick(picker);
 }
 
+/// Lists the texts of `[about]`, or the usual names; a line goes to the palette for its change.
+fn list_about(app: &mut App) {
+    let known = app.tab.case.about.iter().map(|(name, text)| (name.clone(), text.clone()));
+    let usual = ["project", "author"].map(|name| (name.to_owned(), String::new()));
+    let is_new = |(name, _): &(String, _)| app.tab.case.about.iter().all(|own| own.0 != *name);
+    let items = known.chain(usual.into_iter().filter(is_new)).map(|(name, text)| {
+        let about = if text.is_empty() { "not set" } else { "Change this text, or delete it." };
+        let command = format!("about {name} = {text}");
+        let typed = command.clone();
+        Item::command(
+            Choice::of(move |app| type_command(app, &typed)),
+            command,
+            about.to_owned(),
+            String::new(),
+        )
+    });
+    let mut picker = Picker::new("Texts for the reports: NAME = TEXT", items, TYPED);
+    picker.input = "about ".into();
+    app.pick(picker);
+}
+
 /// The scope of a command; in the form, the focused row decides too.
 fn scope(app: &App, name: &str) -> Scope {
     let (place, pane, row) = (app.place(), app.layout.focus, app.tab.form.focus);
@@ -572,7 +593,7 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::WORK, "", "variant", |app| type_command(app, "variant "),
         "Save the edits since the last save as a variant: type variant NAME. Without edits, load \
             that variant into the form."),
-    row(Place::WORK, "", "about", |app| type_command(app, "about "),
+    row(Place::WORK, "", "about", list_about,
         "Name the project, author or drawing number for the reports: type about project = GB 12. An \
             empty text removes the line."),
     row(Place::WORK, "Alt-E", "next error", super::fault,
