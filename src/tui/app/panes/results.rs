@@ -467,8 +467,8 @@ const NONE: &str = "–";
 const NOT_SOLVED: &str = "not solved";
 /// A longer name of a variant is cut.
 const LONGEST_NAME: usize = 18;
-/// A longer input of a variant is cut; in a narrow pane its name, the text of the case and that of a
-/// variant.
+/// A longer input of a variant is cut; in a narrow pane its name, a field, and a limit or a
+/// distribution of a variant.
 const LONGEST_INPUT: usize = 24;
 const NARROW_INPUT: [usize; 3] = [10, 9, 12];
 /// The width of all but a few symbols, and of all but a few numbers.
@@ -769,16 +769,18 @@ fn columns(
 
 /// Inserts differing inputs of the variants above the quantities.
 fn add_inputs(app: &App, inputs: &[(String, Vec<String>)], columns: &mut [Column]) {
-    let [of_name, of_case, of_variant] =
+    let [of_name, of_field, of_variant] =
         if app.area(Pane::Results).width < WIDE { NARROW_INPUT } else { [LONGEST_INPUT; 3] };
     let cut = |text: &str, most| text::cut(&sanitize(text), most);
     for (row, (key, texts)) in inputs.iter().enumerate() {
         let [own, label] = names_of(key);
         let own = cut(&symbol(&own, app.look.ascii), of_name);
+        let is_field = index_of(key).is_some();
+        let of_variant = if is_field { of_field } else { of_variant };
         let first = app.shown_variants().map_or(0, |(_, first)| first);
         let others = texts.iter().skip(1 + first);
         let others = others.flat_map(|text| [cut(text, of_variant), String::new()]);
-        let case = [own, label, cut(&texts[0], of_case), String::new()];
+        let case = [own, label, cut(&texts[0], of_field), String::new()];
         let cells = case.into_iter().chain(others);
         columns.iter_mut().zip(cells).for_each(|(column, cell)| column.cells.insert(row, cell));
     }
