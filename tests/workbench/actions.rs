@@ -66,7 +66,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 6 d l", "h", "", "▸ 6 Tolerance 1 to 14 of 28"),
     ("Esc 2", "v", "", "the case has no variants"),
     ("", ":variant", "", "Commands"),
-    ("", ":about", "", "Commands"),
+    ("", ":about", "", "Texts for r"),
     ("X", ":reload", "", "[> Cancel <]"),
     ("", ":journals", "", "no ended session left unsaved edits"),
     ("", ":seek", "", "tipstrike seek CASE --vary"),

@@ -348,7 +348,7 @@ fn list_about(app: &mut App) {
             String::new(),
         )
     });
-    let mut picker = Picker::new("Texts for the reports: NAME = TEXT", items, TYPED);
+    let mut picker = Picker::new("Texts for reports: NAME = TEXT", items, TYPED);
     picker.input = "about ".into();
     app.pick(picker);
 }
