@@ -484,6 +484,7 @@ impl Case {
             tolerance_length: tolerance_length.map(demand::tolerance).transpose().map_err(wrong)?,
             misalignment: demand::tolerance(misalignment).map_err(wrong)?,
             minimise: minimise.ok_or_else(|| wrong("minimise: write te, peak or entry"))?,
+            units: System::Metric,
         };
         self.answer(py, &demand, progress)
     }

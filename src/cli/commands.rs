@@ -104,8 +104,11 @@ pub enum Command {
     /// mm or 0.01 mm on short paths of contact), and the roll angle and diameter where each relief
     /// begins. Corner contact counts before the start and after the end of the path of contact, at
     /// the greatest load. Every figure is that of the least favourable combination of the
-    /// tolerances. Of the kinds of relief within 10 % of the least transmission error, or 2 % of
-    /// the least peak force, the command chooses the one with the smallest amounts. The
+    /// tolerances. Of the kinds of relief within 10 % of the least transmission error, or 5 % of
+    /// the least peak force, the command chooses the one with the smallest amounts. A relief is
+    /// advised if, within the tolerances, it lowers the figure to minimise by at least 5 % (the
+    /// force before E by 5 % of the mesh force) and raises no other figure (transmission error,
+    /// peak force, peak line load, dynamic factor) by a greater percentage. The
     /// transmission error is peak to peak, at rest and without base pitch deviations: the greatest
     /// over six loads of the range, over the face width at its ends, or the mean over a spectrum. With method dynamic the motion
     /// must have no corner contact either. --out FILE.svg draws the relief with its tolerances. CSV

@@ -16,7 +16,7 @@ use crate::model::inputs::{Method, ReliefShape};
 use crate::model::relief::{GearReliefs, Relief, Reliefs};
 use crate::numeric::decimal::shortest;
 use crate::study::relief::{
-    Begin, Choice, Criterion, Figures, MOST_LOAD, MapPoint, Off, Specification, TipReliefs,
+    Begin, Choice, Criterion, Figures, MOST_LOAD, MapPoint, Off, RULE, Specification, TipReliefs,
 };
 
 impl Specification {
@@ -29,11 +29,16 @@ impl Specification {
         let costs: Vec<&str> = costs.into_iter().chain(["greatest_load"]).collect();
         let force = if self.is_moving() { "in motion" } else { "at rest" };
         let gains = has_gains.then(|| {
-            (format!("What each relief gains; {}", self.legend(units)), self.gains(units))
+            (format!("What each relief gains; {}", self.legend(units)), self.gains(units, WIDTH))
         });
+        // The relief of the case is compared with the best one.
+        let compared = if at == 0 { self.best } else { at };
         let before = (
-            format!("Before and after, forces {force} at {greatest} % of the load"),
-            self.before_and_after(at, units),
+            format!(
+                "Before and after with \"{}\", forces {force} at {greatest} % of the load",
+                self.choices[compared].name
+            ),
+            self.before_and_after(compared, units),
         );
         let others = [
             (
@@ -59,8 +64,12 @@ impl Specification {
                 self.map(units),
             ),
         ];
-        let mut lines = vec![self.demand(units), String::new()];
-        lines.extend(self.drawing(at, units).lines());
+        let advice = self.advice(units);
+        let mut lines: Vec<String> = advice.into_iter().chain([self.demand(units)]).collect();
+        if self.choices[at].reliefs.removed() > 0.0 {
+            lines.push(String::new());
+            lines.extend(self.drawing(at, units).lines());
+        }
         lines.push(String::new());
         lines.extend(self.sentences(at, units));
         for (title, table) in [before].into_iter().chain(gains).chain(others) {
@@ -85,8 +94,51 @@ impl Specification {
         let factor = if self.is_moving() { ", dynamic factor K" } else { "" };
         format!(
             "Ca, TE (transmission error) in {um}, La in {mm}{factor}; worst TE, entry and peak force \
-             ({force}): in tolerance; * smallest relief {rule}"
+             ({force}): in tolerance; * smallest advised relief {rule}, else the case"
         )
+    }
+
+    /// Why no relief is advised.
+    fn advice(&self, units: System) -> Vec<String> {
+        let other = if self.choices[0].reliefs.removed() > 0.0 { "other " } else { "" };
+        let criterion = self.criterion();
+        let reason = match self.best {
+            _ if self.is_advised() => return Vec::new(),
+            0 => format!("the relief of the case has about the least {criterion}"),
+            best => {
+                let name = self.choices[best].name;
+                format!("the best, \"{name}\", changes the {}", self.changes(best, units))
+            }
+        };
+        let none = format!("No {other}relief is advised by the {criterion}");
+        vec![format!("{none}: within the tolerances, {reason}."), RULE.to_owned()]
+    }
+
+    /// Changes of the figures of a choice within the tolerances, that of the criterion first.
+    fn changes(&self, at: usize, units: System) -> String {
+        const LEAST: f64 = 0.005;
+        let names = [
+            ("transmission error", "um", 3),
+            ("peak force", "N", 4),
+            ("peak line load", "N/mm", 4),
+            ("force before E", "N", 3),
+            ("dynamic factor", "1", 3),
+        ];
+        let criterion = self.criterion();
+        let [from, to] = [0, at].map(|at| self.choices[at].compared());
+        let mut all = names.into_iter().zip(from.into_iter().zip(to)).collect::<Vec<_>>();
+        all.sort_by_key(|((name, ..), _)| *name != criterion);
+        let texts = all.into_iter().filter_map(|((name, unit, digits), (from, to))| {
+            let (from, to) = from.zip(to)?;
+            let is_shown = name == criterion || (to - from).abs() > LEAST * from;
+            let unit = if unit == "1" { "" } else { unit };
+            let [shown, other] = [from, to].map(|value| units.number(value, unit, digits));
+            let other = format!("{other} {}", units.unit(unit));
+            let change =
+                if from > 0.0 { format!(" ({})", change(from, to)) } else { String::new() };
+            is_shown.then(|| format!("{name} from {shown} to {}{change}", other.trim_end()))
+        });
+        texts.collect::<Vec<_>>().join(", ")
     }
 
     fn demand(&self, units: System) -> String {
@@ -118,7 +170,7 @@ impl Specification {
              lengths{tilt}; computed by method {}{reason}.",
             units.text(*torque, "N m", 4),
             self.criterion(),
-            units.text(demand.tolerance, "um", 3),
+            units.text(demand.tolerance, "um", if units == System::Inch { 2 } else { 3 }),
             units.text(self.tolerance_length(), "mm", 3),
             method.name()
         )
@@ -223,18 +275,8 @@ impl Specification {
                  {over_loads}{at_first}.",
                 self.figure(),
             ));
-            let [from, to] = [case, own].map(|choice| choice.worst.error);
-            if to > 1.02 * from {
-                lines.push(format!("Within the tolerances it rises {}.", changed(from, to)));
-            }
-            let [from, to] = [case, own].map(|choice| choice.nominal.peak);
-            if (to / from - 1.0).abs() > 0.02 {
-                let (shown, other) = (units.number(from, "N", 4), units.text(to, "N", 4));
-                let change = change(from, to);
-                lines.push(format!(
-                    "The peak force of a tooth changes from {shown} to {other} ({change})."
-                ));
-            }
+            lines
+                .push(format!("Gain and cost within the tolerances: {}.", self.changes(at, units)));
         }
         let ratio = own.unloaded_contact_ratio + self.helix.overlap_ratio;
         if ratio < 1.0 {
@@ -250,7 +292,7 @@ impl Specification {
                 self.helix.base_helix_angle.cos()
             ));
         }
-        lines.extend(self.alternative(own, units));
+        lines.extend(self.alternative(own, units).filter(|_| self.is_advised()));
         if self.is_cut {
             lines.push("The search ended with its budget; a better relief may exist.".to_owned());
         }
@@ -314,19 +356,23 @@ impl Specification {
         self.method == Method::Dynamic
     }
 
-    /// One row per choice: the relief, its transmission error, its forces and its dynamic factor.
-    pub fn gains(&self, units: System) -> Table {
+    /// One row per choice: the relief, its transmission error, its forces and its dynamic factor, in
+    /// `room` columns.
+    pub fn gains(&self, units: System, room: usize) -> Table {
         let [amounts, lengths] = KEYS;
         let reliefs = [amounts[0], lengths[0], amounts[1], lengths[1]].into_iter();
         let crowning = self.is_over_face.then_some(CROWNING);
-        // A line has room for the change unless the crowning or wider numbers need it.
-        let has_room = !self.is_over_face && units == System::Metric;
-        let change = has_room.then_some("change");
-        let errors = ["transmission_error"].into_iter().chain(change);
         let results = ["worst_transmission_error", "worst_entry_force", "worst_peak_force"];
         let results = results.into_iter().chain(self.is_moving().then_some("dynamic_factor"));
-        let keys = reliefs.chain(crowning).chain(errors).chain(results);
-        self.of_choices(&keys.collect::<Vec<_>>(), units)
+        let errors = ["transmission_error", CHANGE];
+        let mut keys: Vec<&str> = reliefs.chain(crowning).chain(errors).chain(results).collect();
+        let all = self.of_choices(&keys, units);
+        // Without room the change is left out.
+        if all.lines().iter().all(|line| line.chars().count() <= room) {
+            return all;
+        }
+        keys.retain(|key| *key != CHANGE);
+        self.of_choices(&keys, units)
     }
 
     /// One row per choice with these columns of the whole table, and a mark at the relief to
@@ -344,7 +390,7 @@ impl Specification {
     }
 
     fn marked(&self, at: usize) -> String {
-        let mark = if at == self.best { '*' } else { ' ' };
+        let mark = if at == self.specified() { '*' } else { ' ' };
         format!("{mark} {}", self.choices[at].name)
     }
 
@@ -362,7 +408,7 @@ impl Specification {
             Column::number(key, title, unit, shown).wide(1, 0)
         });
         let rows = self.choices.iter().enumerate().map(|(at, choice)| {
-            let best = if at == self.best { "true" } else { "false" };
+            let best = if at == self.specified() { "true" } else { "false" };
             let texts = [choice.name, best, name(choice.reliefs.shape)].map(Cell::from);
             let numbers = self.numbers().iter().map(|(key, .., (shown, digits), of)| {
                 let Some(value) = of(self, choice) else { return Cell::None("-".into()) };
@@ -373,7 +419,10 @@ impl Specification {
                         let number = units::per(value, units.unit(unit));
                         let steps = steps(key, unit, units);
                         let number = steps.map_or(number, |by| (number * by).round() / by);
-                        tidy(number, *digits)
+                        match decimals(key, self, units) {
+                            Some(decimals) => format!("{number:.decimals$}"),
+                            None => tidy(number, *digits),
+                        }
                     }
                 };
                 Cell::Shown(value, text)
@@ -493,14 +542,18 @@ impl Results for Specification {
     /// The diagram of the relief to specify with its tolerances, on the pair of the case.
     fn picture(&self, inputs: &Inputs) -> Option<Result<Chart, String>> {
         let (amount, length) = (self.demand.tolerance, self.tolerance_length());
-        let reliefs = self.chosen().reliefs.of(inputs).reliefs();
+        let specified = self.specified();
+        if specified != self.best && self.choices[specified].reliefs.removed() <= 0.0 {
+            return Some(Err(format!("no relief is advised by the {}", self.criterion())));
+        }
+        let reliefs = self.choices[specified].reliefs.of(inputs).reliefs();
         Some(relief_chart(&reliefs, &self.geometry, [amount, amount, length, length]))
     }
 
     fn lines(&self, case: Named) -> Vec<String> {
         // Rows of tables fit; only sentences are wrapped.
         let is_short = |line: &String| line.chars().count() <= WIDTH;
-        let lines = self.of_choice(self.best, true, System::Metric).into_iter();
+        let lines = self.of_choice(self.specified(), true, self.demand.units).into_iter();
         let lines =
             lines.flat_map(|line| if is_short(&line) { vec![line] } else { item("", &line) });
         std::iter::once(case.heading()).chain(lines).collect()
@@ -524,7 +577,7 @@ impl Results for Specification {
             json!({"relief": relief, "transmission_error": point.error, "margin": point.margin})
         };
         let shares: Vec<f64> = self.demand.loads().into_iter().map(|(_, share)| share).collect();
-        let chosen = self.chosen();
+        let chosen = &self.choices[self.specified()];
         json!({
             "method": self.method.name(),
             "torque": self.torque,
@@ -591,7 +644,7 @@ const NUMBERS: [Numbers; 24] = [
     ("driven.tip_relief_length", "La2", "m", ("mm", 4), |_, of| of.length(1)),
     ("transmission_error", "TE", "m", ("um", 3), |_, of| Some(of.nominal.error)),
     ("margin", "gap", "m", ("um", 2), |_, of| Some(of.worst.gap)),
-    ("change", "change", "1", ("%", 2), |all, of| {
+    (CHANGE, "change", "1", ("%", 2), |all, of| {
         Some(of.nominal.error / all.choices[0].nominal.error - 1.0)
     }),
     ("worst_transmission_error", "worst", "m", ("um", 3), |_, of| Some(of.worst.error)),
@@ -630,6 +683,7 @@ const SPREADS: [[&str; 2]; 2] = [
     ["spread.driver.tip_relief", "spread.driven.tip_relief"],
     ["spread.driver.tip_relief_length", "spread.driven.tip_relief_length"],
 ];
+const CHANGE: &str = "change";
 const CROWNING: &str = "driver.crowning";
 const BOTH_GAPS: &str = "gap before E and after B at rest";
 
@@ -741,13 +795,13 @@ fn name(shape: ReliefShape) -> &'static str {
 }
 
 /// A length or an angle in SI as a drawing states it, in the unit that corresponds to a metric unit:
-/// 51 um, 6.10 mm, 2.008 thou, 0.2402 in.
+/// 51 um, 6.10 mm, 2.01 thou, 0.2402 in.
 pub(super) fn drawn(value: f64, metric: &str, units: System) -> String {
     let unit = units.unit(metric);
     let number = units::per(value, unit);
     match unit {
         "um" => shortest((number * 10.0).round() / 10.0),
-        "thou" => shortest((number * 1000.0).round() / 1000.0),
+        "thou" => shortest((number * 100.0).round() / 100.0),
         "in" => format!("{number:.4}"),
         _ => format!("{number:.2}"),
     }
@@ -762,6 +816,20 @@ fn steps(key: &str, metric: &str, units: System) -> Option<f64> {
         (System::Inch, "um") => Some(if is_relief { 1e2 } else { 1e4 }),
         _ => None,
     }
+}
+
+/// The decimals of a column of lengths, the same in each row.
+fn decimals(key: &str, all: &Specification, units: System) -> Option<usize> {
+    let at = KEYS[1].iter().position(|length| *length == key)?;
+    let is_coarse = |length: f64| (length * 1e4 - (length * 1e4).round()).abs() < 1e-6;
+    Some(match units {
+        System::Inch => 3,
+        System::Metric => {
+            2 - usize::from(
+                all.choices.iter().filter_map(|choice| choice.length(at)).all(is_coarse),
+            )
+        }
+    })
 }
 
 fn percent(part: f64) -> String {

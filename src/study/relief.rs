@@ -10,6 +10,7 @@ use std::cell::Cell;
 use std::cmp::Ordering::Equal;
 use std::fmt;
 
+use crate::case::units::System;
 use crate::model::geometry::Geometry;
 use crate::model::helix::Helix;
 use crate::model::inputs::{Drive, Gear, Method, ReliefShape};
@@ -23,6 +24,17 @@ use search::{Bench, Grid, MOST_TRIES, Search};
 
 /// Step of an amount, in m: a drawing states whole micrometres.
 pub const AMOUNT_STEP: f64 = 1e-6;
+
+/// Step of an amount in inch units: 0.1 thou.
+const AMOUNT_STEP_INCH: f64 = 2.54e-6;
+
+/// The rule of [`Specification::specified`].
+pub const RULE: &str = "A relief is advised if, within the tolerances, it lowers the figure to \
+    minimise by at least 5 % (the force before E by 5 % of the mesh force) and raises no other \
+    figure (transmission error, peak force, peak line load, dynamic factor) by a greater percentage.";
+
+/// The least gain of the [`RULE`].
+const LEAST_GAIN: f64 = 0.05;
 
 /// The greatest load at which corner contact is looked for, relative to the greatest load of the
 /// demand.
@@ -141,7 +153,7 @@ pub struct Specification {
     pub loads: Vec<f64>,
     /// The reliefs of the case, then the best relief of each kind.
     pub choices: Vec<Choice>,
-    /// Index of the choice to specify.
+    /// Index of the best choice by the criterion.
     pub best: usize,
     /// One row per length, shortest first; one point per amount.
     pub map: Vec<Vec<MapPoint>>,
@@ -215,11 +227,34 @@ impl TipReliefs {
 }
 
 impl Choice {
+    /// The figures that the [`RULE`] compares: transmission error, peak force, peak line load and force
+    /// before E within the tolerances, then the nominal dynamic factor.
+    pub fn compared(&self) -> [Option<f64>; 5] {
+        let Figures { error, peak, line_load, entry, .. } = self.worst;
+        [Some(error), Some(peak), line_load, Some(entry), self.nominal.factor]
+    }
+
+    /// Whether the [`RULE`] advises this relief in place of that of the case.
+    fn is_advised(&self, case: &Choice, criterion: Criterion, mesh_force: f64) -> bool {
+        let [from, to] = [case, self].map(|choice| choice.worst.of(criterion));
+        let over = if criterion == Criterion::Entry { mesh_force } else { from };
+        let gain = (from - to) / over;
+        // The force before E is part of the peak force.
+        let figures = case.compared().into_iter().zip(self.compared()).enumerate();
+        let mut rises = figures
+            .filter(|(at, _)| *at != ENTRY)
+            .filter_map(|(_, (from, to))| from.zip(to).map(|(from, to)| to / from - 1.0));
+        gain >= LEAST_GAIN && rises.all(|rise| rise <= gain)
+    }
+
     /// The length on a gear, if it has a relief, in m.
     pub fn length(&self, at: usize) -> Option<f64> {
         (self.reliefs.amounts[at] > 0.0).then_some(self.reliefs.lengths[at])
     }
 }
+
+/// The place of the force before E in [`Choice::compared`].
+const ENTRY: usize = 3;
 
 impl Figures {
     /// The least favourable of each figure.
@@ -243,9 +278,21 @@ impl Figures {
 }
 
 impl Specification {
-    /// The choice to specify.
+    /// The best choice.
     pub fn chosen(&self) -> &Choice {
         &self.choices[self.best]
+    }
+
+    /// Whether the [`RULE`] advises the best choice. The relief of the case needs no advice.
+    pub fn is_advised(&self) -> bool {
+        let Specification { demand, mesh_force, .. } = self;
+        self.chosen().is_advised(&self.choices[0], demand.minimise, *mesh_force)
+    }
+
+    /// Index of the choice to specify: the best one if it is advised, otherwise the relief of the
+    /// case.
+    pub fn specified(&self) -> usize {
+        if self.is_advised() { self.best } else { 0 }
     }
 }
 
@@ -261,7 +308,8 @@ impl Specification {
 /// ```
 /// x is the transmission error of the static balance. If the method of the case is `dynamic`, the
 /// amounts grow until the motion has no corner contact either. Of the kinds of relief whose figures
-/// differ by no more than [`Criterion::worth`], the one with the smallest amounts is chosen. No kind
+/// differ by no more than [`Criterion::worth`], the one with the smallest amounts is chosen, and
+/// specified if it gains more than it costs ([`RULE`]). No kind
 /// has amounts above twice the least ones that prevent corner contact. If no relief prevents corner
 /// contact, the criterion `entry` chooses the one with the least overlap. If the load varies over the
 /// face width, both gears have the same relief, the crowning of the driver is found together with it,
@@ -287,7 +335,7 @@ pub fn specify(
     let at_rest = Inputs { method: Method::Static, stations: Some(1), ..inputs };
     let at_most = loaded(&at_rest, demand.greatest_load());
     let solution = solve(&at_most, Stages::of(Stage::Static))?;
-    let step = length_step(&solution.geometry);
+    let step = length_step(&solution.geometry, demand.units);
     let tolerance_length = demand.tolerance_length.unwrap_or(step);
     let demand = &Demand { tolerance_length: Some(tolerance_length), ..demand.clone() };
     let mut loads = demand.loads();
@@ -325,7 +373,13 @@ pub fn specify(
     for (done, (name, reliefs)) in (1..).zip(found) {
         pair.part.set(SEARCH + (1.0 - SEARCH) * f64::from(done) / (kinds + 1.0));
         match pair.cleared(name, reliefs) {
-            Ok(choice) => choices.push(choice),
+            Ok(choice) => {
+                let same = choices[1..].iter_mut().find(|one| one.reliefs == choice.reliefs);
+                match same {
+                    Some(same) => same.name = search::joined(same.name, choice.name),
+                    None => choices.push(choice),
+                }
+            }
             // Another kind of relief may still prevent corner contact.
             Err(none @ (NoRelief::Beyond { .. } | NoRelief::InMotion { .. })) => {
                 beyond = Some(none);
@@ -336,7 +390,7 @@ pub fn specify(
     if let (1, Some(none)) = (choices.len(), beyond) {
         return Err(none);
     }
-    let best = best(&choices, demand.minimise);
+    let best = best(&choices, demand.minimise, solution.mesh_force);
     Ok(Specification {
         asked,
         method,
@@ -356,13 +410,18 @@ pub fn specify(
     })
 }
 
-/// The choice with the smallest amounts among those whose figure is close to the best one. Of equal
-/// peak forces the transmission error decides.
-fn best(choices: &[Choice], criterion: Criterion) -> usize {
+/// The choice with the smallest amounts among those whose figure is close to the best one; of the
+/// advised choices if there are any. Of equal peak forces the transmission error decides.
+fn best(choices: &[Choice], criterion: Criterion, mesh_force: f64) -> usize {
     let mut candidates: Vec<usize> =
         (0..choices.len()).filter(|&at| !choices[at].worst.strikes).collect();
     if candidates.is_empty() {
         candidates = (1..choices.len()).collect();
+    }
+    let is_kept =
+        |at: &usize| *at == 0 || choices[*at].is_advised(&choices[0], criterion, mesh_force);
+    if candidates.iter().any(is_kept) {
+        candidates.retain(is_kept);
     }
     let others = [Criterion::Te].into_iter().filter(|_| criterion == Criterion::Peak);
     for criterion in [criterion].into_iter().chain(others) {
@@ -406,12 +465,16 @@ fn decimal(number: f64) -> f64 {
     (number * PLACES).round() / PLACES
 }
 
-/// The step of a length, in m: 0.1 mm, and less where the path of contact is short.
-fn length_step(geometry: &Geometry) -> f64 {
-    match longest(geometry) {
-        3e-3.. => 1e-4,
-        1e-3.. => 5e-5,
-        _ => 1e-5,
+/// The step of a length, in m: 0.1 mm or 0.005 in, and less where the path of contact is short.
+fn length_step(geometry: &Geometry, units: System) -> f64 {
+    let at = match longest(geometry) {
+        3e-3.. => 0,
+        1e-3.. => 1,
+        _ => 2,
+    };
+    match units {
+        System::Metric => [1e-4, 5e-5, 1e-5][at],
+        System::Inch => [1.27e-4, 5.08e-5, 1.27e-5][at],
     }
 }
 
@@ -447,11 +510,16 @@ fn grid(
         PART_OF_TIP * thickness.max(0.0)
     };
     let tips = [tip(&inputs.driver, &geometry.driver), tip(&inputs.driven, &geometry.driven)];
+    let amount_step = match demand.units {
+        System::Metric => AMOUNT_STEP,
+        System::Inch => AMOUNT_STEP_INCH,
+    };
     Ok(Grid {
+        amount_step,
         length_step,
         least_length,
         most_length,
-        most_amounts: tips.map(|tip| steps(tip.min(MOST * needed), AMOUNT_STEP)),
+        most_amounts: tips.map(|tip| steps(tip.min(MOST * needed), amount_step)),
         needed,
         tips,
     })

@@ -12,6 +12,8 @@ const LOADS: u32 = 6;
 
 /// Significant digits of a tolerance.
 const DIGITS: usize = 4;
+/// Significant digits of a tolerance in the other units.
+const FEW_DIGITS: usize = 2;
 
 /// The word before the deviation of the misalignment.
 const MISALIGNMENT: &str = "misalignment";
@@ -41,7 +43,7 @@ impl Criterion {
     /// A smaller relief is chosen if its figure exceeds the best one by at most this fraction: 10 %
     /// of a transmission error are 0.8 dB.
     pub fn worth(self) -> f64 {
-        [0.1, 0.02, 0.0][self as usize]
+        [0.1, 0.05, 0.0][self as usize]
     }
 }
 
@@ -79,6 +81,10 @@ pub struct Demand {
     /// The figure to minimise
     #[cfg_attr(feature = "cli", arg(long, value_name = "FIGURE", default_value = "te"))]
     pub minimise: Criterion,
+    /// Units of the text, and of the steps of amounts and lengths: 1 um and 0.1 mm, or 0.1 thou and
+    /// 0.005 in
+    #[cfg_attr(feature = "cli", arg(long, value_name = "SYSTEM", default_value = "metric"))]
+    pub units: System,
 }
 
 impl Default for Demand {
@@ -91,6 +97,7 @@ impl Default for Demand {
             tolerance_length: None,
             misalignment: 0.0,
             minimise: Criterion::Te,
+            units: System::Metric,
         }
     }
 }
@@ -140,12 +147,12 @@ impl Demand {
 
     /// Parses a text such as `25..110 %, 5 um, 0.1 mm, misalignment 8 um, te`: a range of loads or a
     /// spectrum, the tolerances of amounts, lengths and misalignment, the criterion. All but the
-    /// loads are optional.
+    /// loads are optional, with defaults that are round in these units.
     ///
     /// # Errors
     /// Returns the correct syntax.
-    pub fn parse(text: &str) -> Result<Demand, String> {
-        let (mut demand, mut tolerances) = (Demand::default(), 0);
+    pub fn parse(text: &str, units: System) -> Result<Demand, String> {
+        let (mut demand, mut tolerances) = (Demand::usual(units), 0);
         for (at, item) in text.split(',').map(str::trim).enumerate() {
             let criterion = Criterion::ALL.into_iter().find(|known| known.name() == item);
             if let Some(criterion) = criterion {
@@ -175,12 +182,14 @@ impl Demand {
     /// The demand of the dialog before a demand is typed: the tolerance is round in these units.
     pub fn usual(units: System) -> Demand {
         let tolerance = if units == System::Inch { "0.2 thou" } else { "5 um" };
-        Demand { tolerance: self::tolerance(tolerance).unwrap_or_default(), ..Demand::default() }
+        let tolerance = self::tolerance(tolerance).unwrap_or_default();
+        Demand { tolerance, units, ..Demand::default() }
     }
 
     /// The text that [`Demand::parse`] reads.
     pub fn text(&self, units: System) -> String {
-        let text = |length, unit| units.text(length, unit, DIGITS);
+        let digits = if units == self.units { DIGITS } else { FEW_DIGITS };
+        let text = |length, unit| units.text(length, unit, digits);
         let tolerances = [(Some(self.tolerance), "um"), (self.tolerance_length, "mm")];
         let tolerances = tolerances.into_iter();
         let tolerances = tolerances.filter_map(|(length, unit)| Some(text(length?, unit)));
@@ -264,14 +273,15 @@ mod tests {
     #[test]
     fn a_demand_is_parsed_from_its_text() {
         assert_eq!(Demand::usual(System::Metric).text(System::Metric), "25..110 %, 5 um, te");
-        let own = Demand::parse("50..100%").expect("a range");
+        let own = Demand::parse("50..100%", System::Metric).expect("a range");
         assert_eq!((own.loads, own.tolerance), ((0.5, 1.0), 5e-6));
-        let own = Demand::parse("50%:1, 130%:3, 4 um, 0.2 mm, misalignment 8 um, peak");
+        let own =
+            Demand::parse("50%:1, 130%:3, 4 um, 0.2 mm, misalignment 8 um, peak", System::Metric);
         let own = own.expect("a spectrum");
         assert!((own.misalignment - 8e-6).abs() < 1e-18);
         assert_eq!(own.loads(), [(0.5, 0.25), (1.3, 0.75)]);
         assert_eq!((own.minimise, own.tolerance_length), (Criterion::Peak, Some(2e-4)));
-        assert_eq!(Demand::parse(&own.text(System::Metric)), Ok(own));
+        assert_eq!(Demand::parse(&own.text(System::Metric), System::Metric), Ok(own));
         for (wrong, part) in [
             ("", ": write a range"),
             ("110..25 %", "110..25 %: the range is reversed"),
@@ -281,7 +291,7 @@ mod tests {
             ("50%:0", "with their shares"),
             ("fast", "fast: choose one of te, peak, entry"),
         ] {
-            assert!(Demand::parse(wrong).unwrap_err().contains(part), "{wrong}");
+            assert!(Demand::parse(wrong, System::Metric).unwrap_err().contains(part), "{wrong}");
         }
     }
 

@@ -4,14 +4,12 @@
 use std::collections::HashMap;
 
 use super::search::{KINDS, LEAST};
-use super::{
-    AMOUNT_STEP, Criterion, MOST_AMOUNT, NoRelief, SEARCH, TipReliefs, WholeSolves, decimal, loaded,
-};
+use super::{Criterion, MOST_AMOUNT, NoRelief, SEARCH, TipReliefs, WholeSolves, decimal, loaded};
 use crate::model::inputs::ReliefShape;
 use crate::model::{Inputs, Outcome, Quantity};
 use crate::study::batch::{Batch, Control, PointOutcome, Points, Row, Writer, solve_all};
 
-/// Amount on both gears and crowning in um, length in steps: the axes of the search.
+/// Amount on both gears, length and crowning in steps: the axes of the search.
 type Place = [i32; 3];
 
 /// The first amounts, relative to the deflection and deviation at the greatest load.
@@ -26,7 +24,7 @@ const DIRECTIONS: [Place; 5] = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [1, 
 const STEP: f64 = 0.01;
 /// Least strides.
 const LAST: Place = [2, 2, 2];
-/// Greatest crowning, in um.
+/// Greatest crowning, in steps.
 const MOST_CROWNING: i32 = 200;
 
 /// Solves of the pair: reliefs, part of the load, misalignment in m.
@@ -83,7 +81,10 @@ pub(super) fn search(pair: &WholeSolves<'_>) -> Result<(Named, u64), NoRelief> {
         let steps = [one, other, pair.grid.most_length, pair.grid.most_length];
         let most = pair.grid.reliefs(ReliefShape::Linear, steps);
         let overlap = (-pair.worst(&most)?.gap).max(0.0);
-        return Err(NoRelief::Beyond { most: AMOUNT_STEP * f64::from(one.max(other)), overlap });
+        return Err(NoRelief::Beyond {
+            most: pair.grid.amount_step * f64::from(one.max(other)),
+            overlap,
+        });
     }
     Ok((found, tries))
 }
@@ -92,9 +93,12 @@ impl Search<'_> {
     /// The best place: that of a coarse grid, then by steps that are halved where none is better.
     fn best(&mut self) -> Result<Option<Place>, NoRelief> {
         let (grid, inputs) = (self.pair.grid, self.pair.inputs);
-        let needed = grid.needed / AMOUNT_STEP;
+        let needed = grid.needed / grid.amount_step;
         let tilt = inputs.misalignment.abs() + self.pair.demand.misalignment;
-        let crownings = CROWNINGS.map(|part| steps(part * tilt.max(inputs.driver.crowning)));
+        let crownings = CROWNINGS.map(|part| {
+            let crowning = part * tilt.max(inputs.driver.crowning);
+            (crowning / grid.amount_step).round() as i32
+        });
         let places = AMOUNTS.iter().flat_map(|amount| {
             LENGTHS.iter().flat_map(move |length| {
                 crownings.map(|crowning| {
@@ -160,7 +164,7 @@ impl Search<'_> {
     fn reliefs(&self, [amount, length, crowning]: Place) -> TipReliefs {
         let grid = self.pair.grid;
         TipReliefs {
-            crowning: decimal(AMOUNT_STEP * f64::from(crowning)),
+            crowning: decimal(grid.amount_step * f64::from(crowning)),
             ..grid.reliefs(self.shape, grid.equal(amount, [length; 2]))
         }
     }
@@ -252,9 +256,4 @@ impl Search<'_> {
         })?;
         Ok(found)
     }
-}
-
-/// A length in whole um.
-fn steps(length: f64) -> i32 {
-    (length / AMOUNT_STEP).round() as i32
 }

@@ -4,7 +4,7 @@ use std::array::from_fn;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 
-use super::{AMOUNT_STEP, Criterion, Demand, MOST_AMOUNT, NoRelief, Off, TipReliefs, decimal};
+use super::{Criterion, Demand, MOST_AMOUNT, NoRelief, Off, TipReliefs, decimal};
 use crate::model::geometry::{Geometry, PairShape, geometry};
 use crate::model::inputs::{Gear, ReliefShape};
 use crate::model::mesh::Mesh;
@@ -31,6 +31,16 @@ pub(super) const KINDS: [(ReliefShape, [&str; 2]); 2] = [
 pub(super) const LEAST: &str = "least amount";
 /// The name of the relief with the least overlap, if none prevents corner contact.
 const LEAST_OVERLAP: &str = "least overlap";
+
+/// The name of equal reliefs of two kinds: the separate reliefs of both gears are alike, or one of
+/// them is the least amount too.
+pub(super) fn joined(name: &'static str, other: &'static str) -> &'static str {
+    match other {
+        LEAST if name.starts_with("linear") => "linear, least amount",
+        LEAST => "parabolic, least amount",
+        other => other,
+    }
+}
 
 /// Start lengths are multiples of this part of the longest length if they are the same on both gears.
 /// The best length can be one step wide, between lengths that are far worse.
@@ -60,6 +70,8 @@ const USUAL_TRIES: f64 = 20_000.0;
 /// The steps and bounds of amounts and lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Grid {
+    /// Step of an amount, in m.
+    pub(super) amount_step: f64,
     /// Step of a length, in m.
     pub(super) length_step: f64,
     /// Least and greatest length, in steps.
@@ -77,8 +89,8 @@ impl Grid {
     /// The reliefs with amounts increased by `steps`, if the tips allow it.
     pub(super) fn greater(&self, reliefs: &TipReliefs, steps: i32) -> Option<TipReliefs> {
         let more = |at: usize| {
-            let amount = (reliefs.amounts[at] / AMOUNT_STEP).round() as i32 + steps;
-            (amount <= self.most_amounts[at]).then(|| decimal(AMOUNT_STEP * f64::from(amount)))
+            let amount = (reliefs.amounts[at] / self.amount_step).round() as i32 + steps;
+            (amount <= self.most_amounts[at]).then(|| decimal(self.amount_step * f64::from(amount)))
         };
         Some(TipReliefs { amounts: [more(0)?, more(1)?], ..*reliefs })
     }
@@ -86,7 +98,7 @@ impl Grid {
     pub(super) fn reliefs(&self, shape: ReliefShape, [one, other, from, to]: Steps) -> TipReliefs {
         TipReliefs {
             shape,
-            amounts: [one, other].map(|steps| decimal(AMOUNT_STEP * f64::from(steps))),
+            amounts: [one, other].map(|steps| decimal(self.amount_step * f64::from(steps))),
             lengths: [from, to].map(|steps| decimal(self.length_step * f64::from(steps))),
             crowning: 0.0,
         }
@@ -216,12 +228,12 @@ impl<'a> Search<'a> {
 
     /// Why no relief prevents corner contact.
     fn none(&self) -> NoRelief {
-        let Grid { tips, most_amounts: [one, other], most_length, .. } = *self.grid;
+        let Grid { tips, amount_step, most_amounts: [one, other], most_length, .. } = *self.grid;
         let steps = [one, other, most_length, most_length];
         let worst = self.grid.reliefs(ReliefShape::Linear, steps).off(self.corners[0]);
         let overlap = self.bench.overlap(&worst);
-        let most = AMOUNT_STEP * f64::from(one.max(other));
-        match (0..2).find(|&at| tips[at] < most + AMOUNT_STEP) {
+        let most = amount_step * f64::from(one.max(other));
+        match (0..2).find(|&at| tips[at] < most + amount_step) {
             Some(at) => {
                 NoRelief::ThinTip { gear: ["driver", "driven"][at], most: tips[at], overlap }
             }
@@ -453,7 +465,7 @@ impl<'a> Bench<'a> {
     ) -> Result<Bench<'a>, Refusal> {
         let [driver, driven] = grid.most_amounts;
         let own = inputs.driver.tip_relief + inputs.driven.tip_relief;
-        let most = own.max(AMOUNT_STEP * f64::from(driver + driven)) + 2.0 * demand.tolerance;
+        let most = own.max(grid.amount_step * f64::from(driver + driven)) + 2.0 * demand.tolerance;
         let bare = |gear: &Gear| Gear { tip_relief: 0.0, ..*gear };
         let (driver, driven) = (bare(&inputs.driver), bare(&inputs.driven));
         let inputs = Inputs { driver, driven, ..inputs.clone() };

@@ -83,7 +83,8 @@ const ABOUT_RELIEF: [&str; 3] = [
     "In place of a range, a load spectrum gives each load its share of the time: 50%:0.2, 100%:0.8. \
         misalignment 10 um is the deviation of the misalignment over the face width.",
     "Enter searches. Enter on a relief of the list writes its shape, amounts, lengths and tolerances \
-        into the case as one edit.",
+        into the case as one edit. If no relief is advised by the figure to minimise, the relief of \
+        the case is selected, and the text gives the reason.",
 ];
 
 const PLACES: [(&str, Place); 18] = [

@@ -9,6 +9,7 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::{Dialog, Prompt, Window, wrapped};
+use crate::case::units::System;
 use crate::model::{Inputs, Refusal};
 use crate::study::relief::{Demand, NoRelief, Specification, specify};
 use crate::tui::app::App;
@@ -22,12 +23,17 @@ const LABEL: &str = "Loads, tolerances, te|peak|entry: ";
 /// Rows beside the list and its legend: input, state, headers, and one below the list.
 const BESIDE: usize = 4;
 
+/// Writes values of fields, with their texts in the shown units.
+type TakeOver = fn(&mut App, &[(&'static str, String)], &[(&'static str, String)]);
+
 /// The search and its result.
 #[derive(Debug, Clone)]
 pub struct ReliefDialog {
     /// The typed demand.
     pub(crate) input: Line,
     inputs: Inputs,
+    /// The units of the steps.
+    units: System,
     /// The demand of the last search.
     searched: Option<Demand>,
     /// The progress of the search.
@@ -39,20 +45,21 @@ pub struct ReliefDialog {
     problem: Option<String>,
     /// The first visible line about the selected relief.
     top: usize,
-    /// Writes values of fields into the case.
-    take_over: fn(&mut App, &[(&'static str, String)]),
+    /// Writes values of fields into the case, and reports them as shown.
+    take_over: TakeOver,
 }
 
 impl ReliefDialog {
     /// The dialog on a pair with a demand, before its first search.
     pub(crate) fn new(
         inputs: Inputs,
-        demand: String,
-        take_over: fn(&mut App, &[(&'static str, String)]),
+        (demand, units): (String, System),
+        take_over: TakeOver,
     ) -> ReliefDialog {
         ReliefDialog {
             input: Line::whole(demand),
             inputs,
+            units,
             searched: None,
             percent: 0,
             answer: None,
@@ -72,7 +79,7 @@ impl ReliefDialog {
 
     /// Searches for the typed demand, as `tipstrike relief`.
     pub(crate) fn search(&mut self) -> Option<Work> {
-        let demand = match Demand::parse(self.input.value()) {
+        let demand = match self.demand() {
             Ok(demand) => demand,
             Err(problem) => {
                 self.problem = Some(problem);
@@ -111,13 +118,17 @@ impl ReliefDialog {
 
     /// Shows the result of the search.
     fn take(&mut self, found: Result<Box<Specification>, String>) {
-        (self.selected, self.top) = (found.as_ref().map_or(0, |found| found.best), 0);
+        (self.selected, self.top) = (found.as_ref().map_or(0, |found| found.specified()), 0);
         self.answer = Some(found);
+    }
+
+    fn demand(&self) -> Result<Demand, String> {
+        Demand::parse(self.input.value(), self.units)
     }
 
     /// Whether the last search is for the typed demand.
     fn is_searched(&self) -> bool {
-        self.searched.is_some() && Demand::parse(self.input.value()).ok() == self.searched
+        self.searched.is_some() && self.demand().ok() == self.searched
     }
 
     fn state(&self) -> String {
@@ -195,8 +206,9 @@ impl Dialog for ReliefDialog {
         let system = |key: &str| rows::written_system(&app.tab.case, key);
         let values =
             report.settings(self.selected, |key| system(key).unwrap_or(app.settings.units));
+        let shown = report.settings(self.selected, |_| app.settings.units);
         let take_over = self.take_over;
-        Some(Change::of(move |app| take_over(app, &values)))
+        Some(Change::of(move |app| take_over(app, &values, &shown)))
     }
 
     fn draw(&self, app: &App, buffer: &mut Buffer) -> Option<Position> {
@@ -208,7 +220,8 @@ impl Dialog for ReliefDialog {
         let rows = heights.map(Constraint::Length).into_iter().chain([Constraint::Fill(1)]);
         let [line, state, columns, head, list, _, below] = Layout::vertical(rows).areas(inner);
         if let Some(found) = self.found() {
-            let rows = found.gains(app.settings.units).lines();
+            let rows =
+                found.gains(app.settings.units, usize::from(inner.width.saturating_sub(2))).lines();
             let legend: Text<'_> = legend.into_iter().map(Words::from).collect();
             legend.style(theme.faint).render(columns, buffer);
             Span::raw(format!("  {}", rows[0])).render(head, buffer);
