@@ -6,7 +6,7 @@ use super::table::{
     Cell, Column, Json, Named, Results, Table, item, json, measured, object, reason, sorted,
     write_line,
 };
-use super::{common_unit, name_of, number, shown, shown_with, svg};
+use super::{common_unit, name_of, number, shown, shown_with, svg, tolerance::ToleranceReport};
 use crate::case::changes::label;
 use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::sanitize;
@@ -15,7 +15,6 @@ use crate::model::explanation::tidy;
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::{Quantity, Stage};
 use crate::numeric::decimal::{shortest, significant};
-use crate::report::tolerance::ToleranceReport;
 use crate::study::axis::{AxisRange, Grid};
 use crate::study::batch::{PointOutcome, Points, Refusals, Row, with_unit};
 use crate::study::excitation::{self, Excitation, STIFFNESS, VALUES};
@@ -25,7 +24,6 @@ use crate::study::stiffness::{
     FIELD, FieldPoint, Flanks, GearComparison, PathComparison, PathPoint, Point,
 };
 use crate::study::tolerance::Samples;
-use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 /// A search and its result.
@@ -475,7 +473,7 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<SweepChart, String> {
         _ => (common, common.to_owned()),
     };
     let is_gap = |row: &&csv::StringRecord| known.iter().all(|&(at, _)| row[at].is_empty());
-    let gaps: BTreeSet<String> = rows
+    let gaps: std::collections::BTreeSet<String> = rows
         .iter()
         .filter(is_gap)
         .filter_map(|row| Some(row[outcome?].replace('-', " ")))
