@@ -504,9 +504,9 @@ fn through<'a>(
 ) -> Vec<Vec<Point>> {
     const ROUNDING: f64 = 1e-6;
     let mut run: Vec<Option<&AtSpeed>> = run.collect();
-    let factor = |point: &Option<&AtSpeed>| point.map_or(0.0, |point| point.tooth_factor);
+    let factor = |point: Option<&AtSpeed>| point.map_or(0.0, |point| point.tooth_factor);
     let greatest =
-        (0..run.len()).max_by(|one, other| factor(&run[*one]).total_cmp(&factor(&run[*other])));
+        (0..run.len()).max_by(|one, other| factor(run[*one]).total_cmp(&factor(run[*other])));
     let greatest = greatest.and_then(|at| Some((at, run[at]?.speed)));
     if let (Some(peak), Some((at, speed))) = (peak, greatest) {
         let by = (peak.speed - speed) / step;
@@ -514,10 +514,10 @@ fn through<'a>(
             run.insert(at + usize::from(by > 0.0), Some(peak));
         }
     }
-    let place = |point: &Option<&AtSpeed>| {
+    let place = |point: Option<&AtSpeed>| {
         point.map_or((0.0, None), |point| (rpm(point.speed), Some(point.tooth_factor)))
     };
-    pieces(run.iter().map(place), f64::INFINITY)
+    pieces(run.into_iter().map(place), f64::INFINITY)
 }
 
 /// The keys of the charts of the driver and of the driven gear.

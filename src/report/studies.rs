@@ -356,6 +356,7 @@ pub fn map_chart(
 ///
 /// # Errors
 /// The reason if the text is no sweep or has no values.
+#[expect(clippy::too_many_lines, reason = "one table, read once")]
 pub fn drawn(text: &str, only: &[&Quantity]) -> Result<SweepChart, String> {
     let invalid = |error: csv::Error| format!("this is no CSV of `tipstrike sweep`: {error}");
     let mut reader = csv::Reader::from_reader(text.as_bytes());
@@ -375,6 +376,7 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<SweepChart, String> {
     let &(_, first) = known.first().ok_or(none)?;
     let (known, omitted): (Vec<_>, Vec<_>) =
         known.into_iter().partition(|(_, quantity)| quantity.unit == first.unit);
+    let omitted = omitted.into_iter().map(|(_, quantity)| quantity).collect();
     let distinct = |columns: &[usize]| {
         let mut found: Vec<Vec<&str>> = Vec::new();
         for row in &rows {
@@ -434,7 +436,6 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<SweepChart, String> {
             let axis = |at: usize| Axis::new(label(names[fields[at]].0), names[fields[at]].1);
             let axes = [(axis(0), texts), (axis(1), other_texts)];
             let chart = map_chart(quantity, axes, cells, unit);
-            let omitted = omitted.into_iter().map(|(_, quantity)| quantity).collect();
             return Ok(SweepChart { chart, omitted, gaps: String::new() });
         }
     }
@@ -486,7 +487,6 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<SweepChart, String> {
         series,
         ..Chart::default()
     };
-    let omitted = omitted.into_iter().map(|(_, quantity)| quantity).collect();
     Ok(SweepChart { chart, omitted, gaps: gaps.into_iter().collect::<Vec<_>>().join(", ") })
 }
 
@@ -881,16 +881,16 @@ mod tests {
 
     #[test]
     fn a_sweep_of_two_fields_with_several_numbers_each_is_a_map_with_the_later_field_across() {
-        let mut text =
-            "driven.tip_relief [um],driver.tip_relief [um],impact_force [N],outcome\n".to_owned();
+        let head = "driven.tip_relief [um],driver.tip_relief [um],impact_force [N],outcome\n";
+        let mut text = head.to_owned();
         for (up, across) in (0..5).flat_map(|up| (0..6).map(move |across| (up, across))) {
-            text += &match up {
+            text.push_str(&match up {
                 4 => format!("{up},{across},,no-corner-contact\n"),
                 _ => format!("{up},{across},{}.0,corner-contact\n", 10 * up + across),
-            };
+            });
         }
         let SweepChart { chart: found, gaps, .. } = drawn(&text, &[]).unwrap();
-        let map = found.map.as_ref().unwrap();
+        let map = found.map.unwrap();
         assert_eq!((map.places[0].len(), map.places[1].len(), gaps.as_str()), (6, 5, ""));
         assert_eq!((found.across.unit.as_str(), found.across.labels[1].1.as_str()), ("um", "2"));
         assert_eq!(map.cells[7], chart::Cell::Value(11.0));

@@ -377,8 +377,8 @@ impl<'a> Charts<'a> {
             matches!(series.kind, Kind::Marks(_))
                 && points.any(|point| point.0.total_cmp(&place).is_eq())
         };
-        let peaks = chart.series.iter().filter(is_here);
-        let peak = peaks.filter_map(|series| series.name.split_once(": peak")).next();
+        let mut peaks = chart.series.iter().filter(is_here);
+        let peak = peaks.find_map(|series| series.name.split_once(": peak"));
         let name = mark.map(|(_, name)| *name).or(peak.map(|(name, _)| name));
         let mark = name.map_or_else(String::new, |name| format!(" ({name})"));
         let mut points = chart.series.iter().flat_map(|series| series.pieces.iter().flatten());

@@ -640,6 +640,7 @@ fn fitting(app: &App, answer: &Answer, listed: &[&'static Quantity], rows: usize
     }
 }
 
+#[expect(clippy::too_many_lines, reason = "one arm per kind of row")]
 fn columns(
     app: &App,
     answer: &Answer,
