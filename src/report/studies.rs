@@ -352,7 +352,7 @@ pub fn map_chart(
 
 /// The chart of a sweep from its CSV: the quantities, or the selected ones, with the unit of the first,
 /// over the varied field with the most values, with a curve for each combination of the other fields. A
-/// single quantity over two fields with at least [`MAP_POINTS`] numbers each is a map.
+/// single quantity over two fields with at least five numbers each is a map.
 ///
 /// # Errors
 /// The reason if the text is no sweep or has no values.
