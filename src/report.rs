@@ -13,6 +13,7 @@ pub mod solve;
 pub mod stations;
 pub mod studies;
 pub mod svg;
+pub mod swept;
 pub mod table;
 pub mod teeth;
 pub mod tolerance;

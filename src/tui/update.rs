@@ -133,7 +133,9 @@ fn step_page(app: &mut App, by: isize) {
 fn close(app: &mut App) -> bool {
     let prompt = app.prompts.pop();
     if let Some(Prompt::Relief(dialog)) = &prompt {
-        app.tab.demand = Some(dialog.input.value().to_owned());
+        if let Ok(demand) = dialog.demand() {
+            app.tab.demand = Some(demand);
+        }
         app.cancel(Slot::Relief);
     }
     prompt.is_some()

@@ -26,7 +26,7 @@ use crate::report::page::render as render_report;
 use crate::report::solve::{self, compared, comparison};
 use crate::report::table::{Named, item};
 use crate::report::verdict::{self, Standing, refused, stages, verdicts};
-use crate::report::{self, Selection, data, fields, page, studies};
+use crate::report::{self, Selection, data, fields, page, swept};
 use crate::study::shard::Format;
 use crate::study::tolerance::MOST_SAMPLES;
 use clap::builder::{PossibleValuesParser, Resettable, TypedValueParser};
@@ -330,7 +330,7 @@ impl Plot {
             let only: Vec<&Quantity> = self.only.iter().flatten().copied().collect();
             let name = source.display().to_string();
             let caption = Named { name: &name, title: "" }.caption();
-            let drawn = studies::drawn(&String::from_utf8_lossy(&bytes), &only);
+            let drawn = swept::drawn(&String::from_utf8_lossy(&bytes), &only);
             let drawn = drawn.map_err(|reason| Failure::of_case(&name, &reason))?;
             if let Some(remark) = drawn.remark() {
                 streams.say(&format!("{name}: {remark}"));

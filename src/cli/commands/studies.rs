@@ -12,6 +12,7 @@ use crate::model::inputs::Method;
 use crate::report::page::is_picture;
 use crate::report::studies::{self, Take};
 use crate::report::svg::draw;
+use crate::report::swept;
 use crate::report::table::Named;
 use crate::report::verdict::Absence;
 use crate::study::axis::{ADDED, Axis, Grid, add_by_sign};
@@ -267,7 +268,7 @@ fn write_study(
         refusals = studies::write(study, rows, &mut text)?;
         if is_drawn {
             let name = study.request.name.as_str();
-            let drawn = studies::drawn(&String::from_utf8_lossy(&text), &study.quantities);
+            let drawn = swept::drawn(&String::from_utf8_lossy(&text), &study.quantities);
             let drawn = drawn.map_err(|reason| Failure::of_case(name, &reason))?;
             let caption = Named { name, title: study.case.title() }.caption();
             if let Some(remark) = drawn.remark() {

@@ -603,19 +603,17 @@ impl<'a> Passage<'a> {
         let (face, length) = (self.face, self.face.mesh.length);
         let (from, to) = face.mesh.ends();
         let looks = self.places(from - face.reach, to + face.reach, LOOKS);
-        let carries = |at: usize| Ok(face.touch(&*self.loads(looks[at])?).0 > 0.0);
-        let find = |places: &mut dyn Iterator<Item = usize>| -> Result<_, Refusal> {
-            for at in places {
-                if carries(at)? {
-                    return Ok(Some(at));
-                }
-            }
-            Ok(None)
+        let carries = |at: usize| -> Result<Option<usize>, Refusal> {
+            let (lead, _) = face.touch(&*self.loads(looks[at])?);
+            Ok(Some(at).filter(|_| lead > 0.0))
         };
-        let Some(first) = find(&mut (0..looks.len()))? else {
+        let mut places = 0..looks.len();
+        let found = places.find_map(|at| carries(at).transpose()).transpose()?;
+        let Some(first) = found else {
             return Ok(None);
         };
-        let last = find(&mut (first..looks.len()).rev())?.unwrap_or(first);
+        let last = places.rev().find_map(|at| carries(at).transpose()).transpose()?;
+        let last = last.unwrap_or(first);
         if first == 0 || last + 1 == looks.len() {
             return Err(Refusal::BeyondReach);
         }

@@ -14,6 +14,7 @@ use crate::case::{Case, Document, FIELDS, Limit, Problem, Spread, Variant, field
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Refusal, Solution, Stage};
 use crate::report::verdict::{Standing, Verdict};
+use crate::study::relief::Demand;
 use crate::tui::rows;
 use crate::tui::session::{Access, OpenCase};
 use crate::tui::settings::Theme;
@@ -72,7 +73,7 @@ pub struct Tab {
     /// The benchmark.
     pub traded: Option<Traded>,
     /// The last typed demand on a relief.
-    pub(crate) demand: Option<String>,
+    pub(crate) demand: Option<Demand>,
     /// The solved variants.
     pub(crate) variants: Option<Variants>,
     /// The study of the case.

@@ -382,22 +382,16 @@ pub(super) fn ask_relief(app: &mut App) {
         return app.complain("no search: fix the fields marked with ! first");
     };
     let units = app.settings.units;
-    let other = units.other();
-    let is_other = |text: &String| ["um", "mm"].iter().any(|unit| text.contains(other.unit(unit)));
-    let typed = app.tab.demand.clone().map(|text| match Demand::parse(&text, other) {
-        Ok(demand) if is_other(&text) => demand.text(units),
-        _ => text,
-    });
-    let demand = typed.unwrap_or_else(|| {
+    let demand = app.tab.demand.clone().unwrap_or_else(|| {
         let [driver, driven, from, to] = relief::tolerances(&app.tab.case);
         let given = |off: f64| Some(off).filter(|off| *off > 0.0);
         let usual = Demand::usual(units);
         let tolerance = given(driver.max(driven)).unwrap_or(usual.tolerance);
         let written = rows::written_system(&app.tab.case, "driven.tip_relief").unwrap_or(units);
         let tolerance_length = given(from.max(to));
-        Demand { tolerance, tolerance_length, units: written, ..usual }.text(units)
+        Demand { tolerance, tolerance_length, units: written, ..usual }
     });
-    let mut dialog = ReliefDialog::new(inputs, (demand, units), take_relief);
+    let mut dialog = ReliefDialog::new(inputs, (demand.text(units), units), take_relief);
     app.start_all(dialog.search());
     app.prompts.push(Prompt::Relief(Box::new(dialog)));
 }

@@ -122,7 +122,7 @@ impl ReliefDialog {
         self.answer = Some(found);
     }
 
-    fn demand(&self) -> Result<Demand, String> {
+    pub(crate) fn demand(&self) -> Result<Demand, String> {
         Demand::parse(self.input.value(), self.units)
     }
 

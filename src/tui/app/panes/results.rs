@@ -640,7 +640,28 @@ fn fitting(app: &App, answer: &Answer, listed: &[&'static Quantity], rows: usize
     }
 }
 
-#[expect(clippy::too_many_lines, reason = "one arm per kind of row")]
+/// Numbers beside variants, each with its own mark of an exceeded limit.
+fn marked(
+    (app, active): (&App, Method),
+    (case, solution): (&Case, Option<&Solution>),
+    [all, known]: [&[&'static Quantity]; 2],
+    numbers: Vec<String>,
+) -> Vec<String> {
+    let Some(solution) = solution else { return numbers };
+    let is_above = |quantity: &Quantity| {
+        let mut limits = case.limits.iter();
+        limits.any(|limit| {
+            let is_own = limit.quantity.row_in(active) == quantity;
+            is_own && verdict(limit, solution).standing == Standing::Exceeded
+        })
+    };
+    if app.tab.is_stale() || !all.iter().any(|of| is_above(of)) {
+        return numbers;
+    }
+    let mark = |of: &Quantity| if is_above(of) { EXCEEDED } else { " " };
+    known.iter().zip(numbers).map(|(of, number)| number + mark(of)).collect()
+}
+
 fn columns(
     app: &App,
     answer: &Answer,
@@ -664,24 +685,7 @@ fn columns(
         report::common_unit(quantity, of_methods.chain(of_variants), app.settings.units)
     };
     let own = |quantity| value(answer, active, quantity);
-    let is_above = |case: &Case, solution: &Solution, quantity: &Quantity| {
-        let mut limits = case.limits.iter();
-        limits.any(|limit| {
-            let is_own = limit.quantity.row_in(active) == quantity;
-            is_own && verdict(limit, solution).standing == Standing::Exceeded
-        })
-    };
-    // Beside variants each number has its own mark.
-    let marked = |case: &Case, solution: Option<&Solution>, numbers: Vec<String>| {
-        let Some(solution) = solution else { return numbers };
-        let is_above = |of: &Quantity| is_above(case, solution, of);
-        if app.tab.is_stale() || !all.iter().any(|of| is_above(of)) {
-            return numbers;
-        }
-        let mark = |of: &Quantity| if is_above(of) { EXCEEDED } else { " " };
-        let numbers = known.iter().zip(numbers);
-        numbers.map(|(of, number)| number + mark(of)).collect::<Vec<_>>()
-    };
+    let (shown, rows) = ((app, active), [all, known]);
     let number = |quantity: &'static Quantity, value: Option<f64>| {
         let shown = |value| report::shown_with(quantity, value, unit(quantity)).number;
         value.map_or_else(|| NONE.to_owned(), shown)
@@ -711,7 +715,7 @@ fn columns(
             None => (50 - at, method.name().to_owned(), [theme.other, Style::new()]),
         };
         let numbers = match variants {
-            Some(_) => marked(&app.tab.case, answer.of(method), numbers),
+            Some(_) => marked(shown, (&app.tab.case, answer.of(method)), rows, numbers),
             None => numbers,
         };
         columns.push(Column::numbers(rank, heading, numbers, styles));
@@ -739,7 +743,7 @@ fn columns(
         });
         let case = app.tab.case.variant(name).map(|variant| app.tab.case.with(variant));
         let values = match case {
-            Ok(case) => marked(&case, found.as_ref().ok(), values),
+            Ok(case) => marked(shown, (&case, found.as_ref().ok()), rows, values),
             Err(_) => values,
         };
         let differences = cells(&|of| match (now(of), own(of)) {

@@ -19,7 +19,7 @@ use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity};
 use crate::report::chart::{Axis, Cell as MapCell, Chart, Kind, Labels, Point, Series, Span};
 use crate::report::charts::pieces;
-use crate::report::studies::{map_chart, with_marks};
+use crate::report::swept::{map_chart, with_marks};
 use crate::report::table::{Cell, Column, Table};
 use crate::report::verdict::Absence;
 use crate::report::{self, common_unit, name_of, shown_in, shown_with};
