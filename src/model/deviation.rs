@@ -194,26 +194,15 @@ pub(super) fn deflected<'t>(
     let loaded = std::iter::once(geometry.start).chain(ahead.take_while(is_in_contact));
     let place = |along| teeth.under(&ContactPlace::on_line_of_action(geometry, along), mesh_force);
     let places: Places = loaded.map(place).collect();
-    let coupling =
-        if method == Method::Paper { 0.0 } else { teeth.coupling(&places[0], &places[1], 1)? };
-    if coupling != 0.0 && places.len() > 2 {
-        return shared(teeth, &places, mesh_force);
-    }
-    let stiffnesses =
-        places[1..].iter().map(|place| Ok(1.0 / teeth.pair_at_load(place, mesh_force)?));
-    let stiffness: f64 = stiffnesses.sum::<Result<_, Refusal>>()?;
-    Ok(Deflected {
-        pairs_ahead: mesh_force / (teeth.width() * stiffness),
-        incoming_pair: coupling * (mesh_force / teeth.width()),
-    })
+    in_plane(teeth, &places, (mesh_force, method != Method::Paper))
 }
 
 /// The two parts of the combined deflection of a pair in slices when the leading end of the incoming
-/// tooth is at E, in m: the other pairs as independent springs in each plane.
+/// tooth is at E, in m: the planes across the axis are independent and have one displacement.
 ///
 /// # Formula
 /// ```text
-/// δ = x (1 − Q_01/Q_11),   x = F0/Σ_k ∫ dz/Q_kk  over the pairs on the path of contact
+/// x = F0/∫ F_z/x_z dz/b,   x_z the displacement of a plane under F_z, as of a spur pair
 /// ```
 ///
 /// # Errors
@@ -228,22 +217,27 @@ pub(super) fn deflected_over_face(
 ) -> Result<Deflected, Refusal> {
     const SLICES: u32 = 64;
     let (start, pitch) = (geometry.start, geometry.base_pitch);
-    let place = |path: f64| {
-        let place = ContactPlace::on_line_of_action(geometry, start + path);
-        teeth.under(&place, mesh_force)
-    };
     // Past N2 there is no involute.
     let is_on_path = |path: &f64| {
         *path > 0.0 && start + path <= geometry.end && start + path < geometry.tangent_length
     };
+    // The plane in which the next pair is at a place of its path.
+    let plane = |next: f64| {
+        let ahead = std::iter::successors(Some(next), |path| Some(path + pitch));
+        let ahead = ahead.take_while(|path| start + path <= geometry.end).filter(is_on_path);
+        let places = std::iter::once(0.0).chain(ahead).map(|path| {
+            let place = ContactPlace::on_line_of_action(geometry, start + path);
+            teeth.under(&place, mesh_force)
+        });
+        let places: Places = places.collect();
+        let is_loaded = places.len() > 1;
+        is_loaded.then(|| in_plane(teeth, &places, (mesh_force, true))).transpose()
+    };
     let mut stiffness = 0.0;
     for slice in 0..SLICES {
         let part = (f64::from(slice) + 0.5) / f64::from(SLICES);
-        let first = pitch - part * face.width * face.lead.abs();
-        let ahead = std::iter::successors(Some(first), |path| Some(path + pitch));
-        let ahead = ahead.take_while(|path| start + path <= geometry.end).filter(is_on_path);
-        for path in ahead {
-            stiffness += 1.0 / teeth.pair_at_load(&place(path), mesh_force)? / f64::from(SLICES);
+        if let Some(plane) = plane(pitch - part * face.width * face.lead.abs())? {
+            stiffness += 1.0 / plane.pairs_ahead / f64::from(SLICES);
         }
     }
     if stiffness <= 0.0 && geometry.end >= geometry.tangent_length {
@@ -253,20 +247,27 @@ pub(super) fn deflected_over_face(
         let ratio = face.total_contact_ratio(geometry);
         return Err(Refusal::TotalContactRatioBelowOne { ratio });
     }
-    let pairs_ahead = mesh_force / (face.width * stiffness);
-    let next = Some(place(pitch)).filter(|_| is_on_path(&pitch) && teeth.is_coupled());
-    let incoming_pair = match next {
-        Some(next) => {
-            let own = teeth.pair_at_load(&next, mesh_force)?;
-            pairs_ahead * teeth.coupling(&place(0.0), &next, 1)? / own
-        }
-        None => 0.0,
-    };
-    Ok(Deflected { pairs_ahead, incoming_pair })
+    let leading = if is_on_path(&pitch) { plane(pitch)? } else { None };
+    let pushed = leading.map_or(0.0, |plane| plane.incoming_pair / plane.pairs_ahead);
+    Ok(Deflected { pairs_ahead: 1.0 / stiffness, incoming_pair: pushed / stiffness })
 }
 
-/// The displacements if several coupled pairs, all places except the first, carry the force.
-fn shared(teeth: &Teeth, places: &[ContactPlace], mesh_force: f64) -> Result<Deflected, Refusal> {
+/// The displacements of a plane across the axis if all places except the first carry the force.
+fn in_plane(
+    teeth: &Teeth,
+    places: &[ContactPlace],
+    (mesh_force, is_coupled): (f64, bool),
+) -> Result<Deflected, Refusal> {
+    let coupling = if is_coupled { teeth.coupling(&places[0], &places[1], 1)? } else { 0.0 };
+    if coupling == 0.0 || places.len() == 2 {
+        let stiffnesses =
+            places[1..].iter().map(|place| Ok(1.0 / teeth.pair_at_load(place, mesh_force)?));
+        let stiffness: f64 = stiffnesses.sum::<Result<_, Refusal>>()?;
+        return Ok(Deflected {
+            pairs_ahead: mesh_force / (teeth.width() * stiffness),
+            incoming_pair: coupling * (mesh_force / teeth.width()),
+        });
+    }
     let pairs = teeth.pair_set(0, places, mesh_force)?;
     let pairs = pairs.widened(|ahead| if ahead == 0 { f64::INFINITY } else { 0.0 });
     let (pairs_ahead, forces) = pairs.shared(mesh_force / teeth.width());

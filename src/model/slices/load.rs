@@ -9,8 +9,8 @@ use crate::model::Refusal;
 use crate::model::budget::STATIONS;
 use crate::model::static_load::{HARMONICS, Spectrum, StaticLoad, StaticSpectrum};
 use crate::model::stations::{Own, Spacing, Station};
-use crate::numeric;
 use crate::numeric::root::{self, greatest_within};
+use crate::numeric::{self, quadrature};
 use smallvec::SmallVec;
 use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
@@ -294,19 +294,12 @@ impl Face {
     /// # Errors
     /// Those of [`Face::loads`].
     pub fn cycle(&self) -> Result<(FaceCycle, StaticSpectrum), Refusal> {
-        /// Places without an overlap, and the overlap ratio from which the usual number is enough: the
-        /// bends of the displacement are spread over the overlap.
-        const MOST: f64 = 256.0;
-        const ENOUGH: f64 = 0.25;
-        let pitch = self.mesh.base_pitch;
-        let overlap = 2.0 * self.reach / pitch;
-        let steps = (STEPS as f64 * ENOUGH / overlap).clamp(STEPS as f64, MOST) as usize;
         let passage = Passage::new(self, None, Incoming::Alike);
-        let places: Vec<f64> = numeric::steps(0.0, pitch, steps).collect();
+        let (places, shares): (Vec<f64>, Vec<f64>) = self.shares(&passage)?.into_iter().unzip();
         let period = passage.samples(&places)?;
-        let all = &period[..steps];
+        let all = || period.iter().zip(&shares);
         let mean = |of: &dyn Fn(&Loads) -> f64| {
-            all.iter().map(|loads| of(loads)).sum::<f64>() / steps as f64
+            all().filter(|(_, share)| **share > 0.0).map(|(loads, share)| of(loads) * share).sum()
         };
         let slices = 0..self.slices.len();
         let line_loads: Vec<f64> =
@@ -326,12 +319,64 @@ impl Face {
             swing: extreme(&middle) + extreme(&|loads| -middle(loads)),
         };
         let spectrum = Spectrum {
-            amplitudes: harmonics(all),
+            amplitudes: harmonics(all(), self.mesh.base_pitch),
             peak_to_peak: extreme(&|loads| loads.displacement)
                 + extreme(&|loads| -loads.displacement),
         };
         let tooth_force = extreme(&|loads| self.tooth_force(loads));
         Ok((cycle, StaticSpectrum { spectrum, tooth_force }))
+    }
+
+    /// Places of a base pitch in their order, each with its part of a mean. The displacement has bends
+    /// where pairs pass into another zone, gain or lose contact, which the overlap spreads: with a small one
+    /// they divide the base pitch, and each piece has the nodes of the Gauss-Legendre rule.
+    fn shares(&self, passage: &Passage<'_>) -> Result<Vec<(f64, f64)>, Refusal> {
+        /// Overlap ratio from which even places are enough.
+        const ENOUGH: f64 = 0.25;
+        /// Looks between two borders for a change of contact, and rules in a base pitch.
+        const LOOKS: usize = 4;
+        const RULES: f64 = 8.0;
+        let (pitch, length) = (self.mesh.base_pitch, self.mesh.length);
+        if 2.0 * self.reach >= ENOUGH * pitch {
+            let share = |step: usize| if step < STEPS { 1.0 / STEPS as f64 } else { 0.0 };
+            let places = numeric::steps(0.0, pitch, STEPS).enumerate();
+            return Ok(places.map(|(step, s)| (s, share(step))).collect());
+        }
+        let distinct = |cuts: Vec<f64>| numeric::distinct(cuts, 1e-12 * pitch);
+        let borders = self.mesh.borders(-self.reach, pitch + self.reach).into_iter();
+        let borders = borders.flat_map(|border| [border - self.reach, border + self.reach]);
+        let inside = borders.filter(|border| *border > 0.0 && *border < pitch);
+        let borders = distinct(inside.chain([0.0, pitch]).collect());
+        let mut cuts = borders.clone();
+        for ends in borders.windows(2) {
+            let looks = numeric::steps(ends[0], ends[1], LOOKS).map(|s| passage.loads(s));
+            let looks = looks.collect::<Result<Vec<_>, _>>()?;
+            for near in looks.windows(2) {
+                let pairs = near[0].pairs();
+                let ends = pairs.flat_map(|ahead| [(ahead, 0), (ahead, self.slices.len() - 1)]);
+                for (ahead, slice) in ends {
+                    let lead = |loads: &Loads| loads.lead_at(ahead, slice).clamp(-length, length);
+                    if (lead(&near[0]) > 0.0) != (lead(&near[1]) > 0.0) {
+                        let lead = |s: f64| passage.loads(s).map_or(f64::NAN, |loads| lead(&loads));
+                        cuts.push(root::between(near[0].s, near[1].s, lead));
+                    }
+                }
+            }
+        }
+        let mut places = Vec::new();
+        for ends in distinct(cuts).windows(2) {
+            let rules = ((ends[1] - ends[0]) / pitch * RULES).ceil();
+            let way = (ends[1] - ends[0]) / rules;
+            places.push((ends[0], 0.0));
+            for rule in 0..rules as u32 {
+                let from = ends[0] + f64::from(rule) * way;
+                let nodes = quadrature::nodes();
+                places.extend(nodes.map(|(node, weight)| (from + node * way, weight * way / pitch)));
+            }
+        }
+        places.push((pitch, 0.0));
+        places.sort_by(|one, other| one.0.total_cmp(&other.0));
+        Ok(places)
     }
 
     /// The greatest lead of the incoming tooth in a part of the path over the face, in m; infinitely
@@ -481,17 +526,18 @@ impl Face {
     }
 }
 
-/// The harmonics of the displacement at even places of a base pitch, in m.
-fn harmonics(period: &[Rc<Loads>]) -> [f64; HARMONICS] {
-    let steps = period.len() as f64;
+/// The harmonics of the displacement at places of a base pitch with their parts of it, in m.
+fn harmonics<'a>(
+    period: impl Iterator<Item = (&'a Rc<Loads>, &'a f64)> + Clone,
+    pitch: f64,
+) -> [f64; HARMONICS] {
     std::array::from_fn(|order| {
-        let turn = TAU * (order + 1) as f64 / steps;
-        let parts = period.iter().enumerate().map(|(place, loads)| {
-            let (sine, cosine) = (turn * place as f64).sin_cos();
-            [loads.displacement * cosine, loads.displacement * sine]
+        let parts = period.clone().map(|(loads, share)| {
+            let (sine, cosine) = (TAU * (order + 1) as f64 * loads.s / pitch).sin_cos();
+            [loads.displacement * share * cosine, loads.displacement * share * sine]
         });
         let [cosine, sine] = parts.fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
-        2.0 * cosine.hypot(sine) / steps
+        2.0 * cosine.hypot(sine)
     })
 }
 
