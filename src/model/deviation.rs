@@ -12,7 +12,7 @@ use super::compliance::{ContactPlace, Teeth};
 use super::face::FaceInputs;
 use super::geometry::Geometry;
 use super::inputs::{Combination, Gear, Inputs, Method};
-use crate::numeric::Real;
+use crate::numeric::{Real, distinct, quadrature};
 
 /// Deviation along the line of action, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -215,8 +215,9 @@ pub(super) fn deflected_over_face(
     teeth: &Teeth,
     mesh_force: f64,
 ) -> Result<Deflected, Refusal> {
-    const SLICES: u32 = 64;
     let (start, pitch) = (geometry.start, geometry.base_pitch);
+    let length = geometry.end.min(geometry.tangent_length) - start;
+    let advance = face.width * face.lead.abs();
     // Past N2 there is no involute.
     let is_on_path = |path: &f64| {
         *path > 0.0 && start + path <= geometry.end && start + path < geometry.tangent_length
@@ -234,10 +235,16 @@ pub(super) fn deflected_over_face(
         is_loaded.then(|| in_plane(teeth, &places, (mesh_force, true))).transpose()
     };
     let mut stiffness = 0.0;
-    for slice in 0..SLICES {
-        let part = (f64::from(slice) + 0.5) / f64::from(SLICES);
-        if let Some(plane) = plane(pitch - part * face.width * face.lead.abs())? {
-            stiffness += 1.0 / plane.pairs_ahead / f64::from(SLICES);
+    // Parts of the face at which pairs come to the ends of the path.
+    let pairs = (1..=((advance + length) / pitch) as u32).map(|pair| f64::from(pair) * pitch);
+    let cuts = pairs.flat_map(|path| [path / advance, (path - length) / advance]);
+    let inside = cuts.filter(|part| *part > 0.0 && *part < 1.0);
+    for ends in distinct(inside.chain([0.0, 1.0]).collect(), 0.0).windows(2) {
+        for (node, weight) in quadrature::nodes() {
+            let part = ends[0] + node * (ends[1] - ends[0]);
+            if let Some(plane) = plane(pitch - part * advance)? {
+                stiffness += weight * (ends[1] - ends[0]) / plane.pairs_ahead;
+            }
         }
     }
     if stiffness <= 0.0 && geometry.end >= geometry.tangent_length {

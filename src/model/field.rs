@@ -31,8 +31,8 @@ pub const PITCHES: usize = 3;
 pub struct FieldInput {
     /// Profile of its teeth.
     pub profile: Profile,
-    /// Number of teeth z.
-    pub teeth: u32,
+    /// Number of teeth z; of a virtual gear any number.
+    pub teeth: f64,
     /// Module m, in m.
     pub module: f64,
     /// Bore radius r_h at which the body is clamped, in m; 0 for a gear without a bore.
@@ -283,7 +283,7 @@ impl ElasticGear {
     ///
     /// # Formula
     /// ```text
-    /// q = q_n/cos β_b,   z_n = z/(cos² β_b cos β), rounded
+    /// q = q_n/cos β_b,   z_n = z/(cos² β_b cos β)
     /// ```
     /// q_n is the compliance of the gear with z_n teeth, the normal module and pressure angle, the
     /// same heights and the same rim, under a load at the same height. The force on the transverse
@@ -307,11 +307,11 @@ impl ElasticGear {
             return spur;
         }
         let (teeth, cosine) = (f64::from(gear.teeth), inputs.base_helix_angle().cos());
-        let virtual_teeth = inputs.virtual_teeth(gear).round();
+        let virtual_teeth = inputs.virtual_teeth(gear);
         let rise = 0.5 * (inputs.module * virtual_teeth - inputs.transverse_module() * teeth);
         let tip_chamfer = gear.tip_chamfer;
         let (addendum, dedendum) = (inputs.addendum_of(gear), inputs.dedendum_of(gear));
-        let (teeth, profile_shift) = (virtual_teeth as u32, gear.profile_shift);
+        let (teeth, profile_shift) = (virtual_teeth, gear.profile_shift);
         ElasticGear {
             rack: Rack {
                 module: inputs.module,
@@ -537,7 +537,7 @@ fn add_shift(values: &mut Displacements, loads: &[Load], input: &FieldInput, log
         *value += shift;
     }
     for (pitches, cross) in (1..).zip(&mut values.cross) {
-        let turn = 2.0 * PI * f64::from(pitches) / f64::from(input.teeth);
+        let turn = 2.0 * PI * f64::from(pitches) / input.teeth;
         let pairs = loads.iter().flat_map(|load| loads.iter().map(move |other| (load, other)));
         for (value, (load, measured)) in cross.iter_mut().zip(pairs) {
             *value += shift * (turn + load.angle - measured.angle).cos();

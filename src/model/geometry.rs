@@ -113,7 +113,7 @@ pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
         return Err(Refusal::RoundingBreaksContact { cut, ratio: contact_ratio.rounded() });
     }
     Ok(Geometry {
-        ratio: T::count(shape.driven.teeth).over(T::count(shape.driver.teeth)),
+        ratio: T::from(shape.driven.teeth).over(shape.driver.teeth.into()),
         driver,
         driven,
         centre_distance,
@@ -185,7 +185,7 @@ fn working_angle_rise<T: Real>(shape: &PairShape, alpha: T) -> Result<T, Refusal
     let two: T = 2.0.into();
     let tangent = tangent_of(alpha);
     let shifts = <T as From<f64>>::from(driver.profile_shift) + driven.profile_shift.into();
-    let rise = (two * shifts * tangent).over(T::count(driver.teeth + driven.teeth));
+    let rise = (two * shifts * tangent).over(T::from(driver.teeth + driven.teeth));
     if tangent - alpha + rise <= T::zero() {
         return Err(Refusal::ShiftsLeaveNoMesh { sum: shifts.rounded() });
     }
@@ -259,7 +259,7 @@ impl Geometry {
         let alpha = shape.pressure_angle;
         let shifts = shape.driver.profile_shift + shape.driven.profile_shift;
         let without = involute(alpha)
-            + 2.0 * shifts * alpha.tan() / f64::from(shape.driver.teeth + shape.driven.teeth);
+            + 2.0 * shifts * alpha.tan() / (shape.driver.teeth + shape.driven.teeth);
         2.0 * (self.driver.base + self.driven.base)
             * (involute(self.working_pressure_angle) - without)
     }
@@ -310,8 +310,8 @@ pub struct PairShape {
 /// Shape of one gear in the transverse section. Coefficients are times the transverse module.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearShape {
-    /// Number of teeth z.
-    pub teeth: u32,
+    /// Number of teeth z; of a virtual gear any number.
+    pub teeth: f64,
     /// Profile shift coefficient x.
     pub profile_shift: f64,
     /// Addendum coefficient h_a*.
@@ -352,7 +352,7 @@ impl Inputs {
     pub fn gear_shape(&self, gear: &Gear) -> GearShape {
         let cosine = self.helix_cosine();
         GearShape {
-            teeth: gear.teeth,
+            teeth: gear.teeth.into(),
             profile_shift: gear.profile_shift * cosine,
             addendum: self.addendum_of(gear) * cosine,
             tip_diameter: gear.tip_diameter,
@@ -416,7 +416,7 @@ pub fn circles<T: Real>(
     let (module, alpha): (T, T) = (module.into(), pressure_angle.into());
     let (half, two): (T, T) = (0.5.into(), 2.0.into());
     let shift: T = gear.profile_shift.into();
-    let reference = module * T::count(gear.teeth) * half;
+    let reference = module * gear.teeth.into() * half;
     let base = reference * alpha.sine_cosine().1;
     let above_reference = |diameter: f64| <T as From<f64>>::from(diameter) * half - reference;
     let height =
@@ -481,10 +481,9 @@ fn check_room(
     [base, centre_curvature, radius]: [f64; 3],
 ) -> Result<(), Refusal> {
     let tangent = pressure_angle.tan();
-    let half_angle = (std::f64::consts::FRAC_PI_2 + 2.0 * gear.profile_shift * tangent)
-        / f64::from(gear.teeth)
-        + tangent
-        - pressure_angle;
+    let half_angle =
+        (std::f64::consts::FRAC_PI_2 + 2.0 * gear.profile_shift * tangent) / gear.teeth + tangent
+            - pressure_angle;
     let roll = centre_curvature / base;
     let room = half_angle - (roll - roll.atan()) - radius / base;
     if room < 0.0 {

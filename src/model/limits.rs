@@ -4,6 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
+use super::explanation::tidy;
 use super::inputs::{GearSide, Method};
 use crate::numeric::decimal::significant;
 
@@ -169,7 +170,7 @@ pub enum Refusal {
     /// Eq. 56 does not cover the tooth number.
     TeethOutsideFit {
         /// z.
-        teeth: u32,
+        teeth: f64,
         /// Least and greatest z of the fit.
         range: (u32, u32),
     },
@@ -211,7 +212,7 @@ pub enum Refusal {
     /// The gear has no finite elements.
     NoField {
         /// z.
-        teeth: u32,
+        teeth: f64,
         /// The reason.
         reason: FieldRefusal,
     },
@@ -581,8 +582,9 @@ impl Refusal {
                 "teeth-outside-fit",
                 pair("tooth_compliance"),
                 format!(
-                    "tooth number outside the Kuang-Yang fit: z is {teeth} and must be \
-                        {least}..{most}"
+                    "tooth number outside the Kuang-Yang fit: z is {} and must be \
+                        {least}..{most}",
+                    tidy(teeth, 4)
                 ),
                 BEAM,
             ),
@@ -637,7 +639,8 @@ impl Refusal {
             Refusal::NoField { teeth, reason } => (
                 "no-field",
                 pair("tooth_compliance"),
-                format!("no finite elements for the gear with {teeth} teeth: {reason}"),
+                format!("no finite elements for the gear with {} teeth: {reason}",
+                    tidy(teeth, 4)),
                 BEAM,
             ),
             Refusal::InterferenceAtEnd { start } => (

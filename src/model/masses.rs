@@ -156,14 +156,14 @@ fn whole(circles: &Circles, rack: &Rack, addendum: f64) -> Circles {
 ///
 /// # Source
 /// The profile cut by the rack, see [`Profile`].
-pub fn polar_moment(profile: &Profile, teeth: u32, bore_radius: f64) -> Option<f64> {
+pub fn polar_moment(profile: &Profile, teeth: f64, bore_radius: f64) -> Option<f64> {
     let root = profile.circles().root;
     let ring = PI / 2.0
         * (root - bore_radius)
         * (root + bore_radius)
         * (root * root + bore_radius * bore_radius);
     let fillet = fillet_moment(profile)?;
-    Some(ring + 2.0 * f64::from(teeth) * (flank_moment(profile)? + fillet))
+    Some(ring + 2.0 * teeth * (flank_moment(profile)? + fillet))
 }
 
 /// ∫ θ r³ dr over the involute in closed form. `None` if the involute begins beyond its end.

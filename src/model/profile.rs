@@ -65,14 +65,14 @@ impl Profile {
 
     fn without_junction(rack: &Rack, circles: &Circles, rounding: f64) -> Profile {
         let (module, alpha, shift) = (rack.module, rack.pressure_angle, rack.profile_shift);
-        let half_pitch = PI / f64::from(rack.teeth);
+        let half_pitch = PI / rack.teeth;
         let (sine, cosine) = alpha.sin_cos();
         let flank_room = PI / 4.0 - rack.dedendum * sine / cosine;
         let rounding = rack.fitting(rounding);
         Profile {
             circles: circles.sharp(),
             base_half_angle: half_pitch / 2.0
-                + 2.0 * shift * alpha.tan() / f64::from(rack.teeth)
+                + 2.0 * shift * alpha.tan() / rack.teeth
                 + involute(alpha),
             half_pitch,
             rounding: rounding * module,
@@ -261,7 +261,7 @@ pub struct Rack {
     /// Pressure angle α, in rad.
     pub pressure_angle: f64,
     /// Number of teeth z of the gear.
-    pub teeth: u32,
+    pub teeth: f64,
     /// Profile shift coefficient x.
     pub profile_shift: f64,
     /// Dedendum coefficient h_fP*.
@@ -282,7 +282,7 @@ impl Rack {
         Rack {
             module: inputs.transverse_module(),
             pressure_angle: transverse,
-            teeth: gear.teeth,
+            teeth: gear.teeth.into(),
             profile_shift: shape.profile_shift,
             dedendum: shape.dedendum,
             rounding: RACK_ROUNDING * inputs.helix_cosine() * steeper,
@@ -304,7 +304,7 @@ impl Rack {
     /// Least profile shift without undercut, h_fP* − ρ_fP* (1 − sin α) − z sin²α/2.
     pub fn least_shift(&self) -> f64 {
         let sine = self.pressure_angle.sin();
-        self.dedendum - self.rounding() * (1.0 - sine) - f64::from(self.teeth) * sine * sine / 2.0
+        self.dedendum - self.rounding() * (1.0 - sine) - self.teeth * sine * sine / 2.0
     }
 }
 

@@ -44,11 +44,6 @@ pub trait Real:
     fn rounded(self) -> f64 {
         self.into()
     }
-
-    /// Converts a whole number.
-    fn count(count: u32) -> Self {
-        f64::from(count).into()
-    }
 }
 
 impl Real for f64 {

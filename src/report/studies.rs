@@ -9,6 +9,7 @@ use super::tolerance::ToleranceReport;
 use super::{number, shown};
 use crate::case::fields::FIELDS;
 use crate::case::sanitize::sanitize;
+use crate::model::explanation::tidy;
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::{Quantity, Stage};
 use crate::numeric::decimal::{shortest, significant};
@@ -593,6 +594,7 @@ fn remarks(gear: &GearComparison) -> Vec<String> {
     let gaps =
         gear.gaps.iter().map(|gap| format!("no value by {}: {}", gap.model.name(), gap.reason));
     let section = gear.virtual_teeth.map(|teeth| {
+        let teeth = tidy(teeth, 4);
         format!(
             "the compliances are those of the virtual gear with {teeth} teeth at the same height"
         )

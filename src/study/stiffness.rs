@@ -43,7 +43,7 @@ pub struct GearComparison {
     /// Number of teeth z.
     pub teeth: u32,
     /// Number of teeth of the virtual spur gear whose compliances these are; `None` for a spur gear.
-    pub virtual_teeth: Option<u32>,
+    pub virtual_teeth: Option<f64>,
     /// Radius of the form circle, in m; of a helical gear, at the height of that of its virtual gear.
     pub form_radius: f64,
     /// Active tip radius, in m.

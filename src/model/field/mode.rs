@@ -240,7 +240,7 @@ pub(super) fn displacements(
     symmetric: &Condensed,
     antisymmetric: &Condensed,
     loads: &[Load],
-    teeth: u32,
+    teeth: f64,
 ) -> Option<Displacements> {
     let count = loads.len();
     let held = |of: fn(&CondensedLoad) -> f64| {
@@ -253,32 +253,36 @@ pub(super) fn displacements(
         cross: [(); PITCHES].map(|()| vec![0.0; count * count]),
     };
     for (harmonic, weight) in harmonics(teeth) {
-        let phase = TAU * harmonic / f64::from(teeth);
+        let phase = TAU * harmonic / teeth;
         let matrix = eliminated([symmetric, antisymmetric], phase)?;
-        let share = weight / f64::from(teeth);
+        let share = weight / teeth;
         add_harmonic(&mut sums, &matrix, 2 * symmetric.nodes, count, phase, share);
     }
     Some(sums)
 }
 
-/// Harmonics of the sum over the teeth with their weights.
+/// Harmonics of the sum over the teeth with their weights. Their terms are even about z/2. Of a virtual gear
+/// with another than a whole number of teeth, what the whole harmonics leave to z is at z/2 and half a harmonic
+/// beside it, so that the sum has no jumps over z.
 ///
 /// With many teeth the terms of high harmonics vary smoothly. An integral replaces their sum, from
 /// half a harmonic before the first one, with the Euler-Maclaurin correction of 1/12 of the slope
 /// at this end.
-fn harmonics(teeth: u32) -> Vec<(f64, f64)> {
+fn harmonics(teeth: f64) -> Vec<(f64, f64)> {
     const SUMMED: u32 = 20;
-    const FEW_TEETH: u32 = 4 * SUMMED;
+    const FEW_TEETH: f64 = 4.0 * SUMMED as f64;
     const WIDE: f64 = 8.0;
-    let weight = |harmonic: u32| {
-        if harmonic == 0 || 2 * harmonic == teeth { 1.0 } else { 2.0 }
+    let single = |last: u32| {
+        (0..=last).map(|harmonic| (f64::from(harmonic), if harmonic == 0 { 1.0 } else { 2.0 }))
     };
-    let single =
-        |last: u32| (0..=last).map(move |harmonic| (f64::from(harmonic), weight(harmonic)));
     if teeth <= FEW_TEETH {
-        return single(teeth / 2).collect();
+        let last = ((teeth - 1.0) / 2.0).floor();
+        let rest = teeth - 1.0 - 2.0 * last;
+        let middle = 1.0 - (rest - 1.0).abs();
+        let ends = [(teeth / 2.0, middle), (teeth / 2.0 - 0.5, rest - middle)];
+        return single(last as u32).chain(ends.into_iter().filter(|end| end.1 > 0.0)).collect();
     }
-    let (from, to) = (f64::from(SUMMED) + 0.5, f64::from(teeth) / 2.0);
+    let (from, to) = (f64::from(SUMMED) + 0.5, teeth / 2.0);
     let middle = if to < WIDE * from { to } else { (from * to).sqrt() };
     let smooth = [(from, middle), (middle, to)]
         .into_iter()

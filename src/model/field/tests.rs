@@ -11,14 +11,14 @@ fn gear(teeth: u32, shift: f64, degrees: f64, heights: [f64; 2], rounding: f64) 
     let rack = Rack {
         module: 1.0,
         pressure_angle: degrees.to_radians(),
-        teeth,
+        teeth: teeth.into(),
         profile_shift: shift,
         dedendum: heights[1],
         rounding,
     };
     FieldInput {
         profile: Profile::cut_by(&rack, &circles(&rack, heights[0]), rounding),
-        teeth,
+        teeth: teeth.into(),
         module: 1.0,
         bore_radius: 0.0,
         poisson: 0.3,

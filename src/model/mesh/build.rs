@@ -306,8 +306,8 @@ impl Mesh {
 pub(super) fn back_place(shape: &PairShape, geometry: &Geometry) -> f64 {
     let alpha = shape.pressure_angle;
     let common = involute(alpha) - involute(geometry.working_pressure_angle);
-    let half_tooth = |teeth: u32, shift: f64| {
-        (std::f64::consts::FRAC_PI_2 + 2.0 * shift * alpha.tan()) / f64::from(teeth) + common
+    let half_tooth = |teeth: f64, shift: f64| {
+        (std::f64::consts::FRAC_PI_2 + 2.0 * shift * alpha.tan()) / teeth + common
     };
     let (driver, driven) = (&shape.driver, &shape.driven);
     let start = 2.0 * geometry.approach_length

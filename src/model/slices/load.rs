@@ -371,7 +371,8 @@ impl Face {
             for rule in 0..rules as u32 {
                 let from = ends[0] + f64::from(rule) * way;
                 let nodes = quadrature::nodes();
-                places.extend(nodes.map(|(node, weight)| (from + node * way, weight * way / pitch)));
+                places
+                    .extend(nodes.map(|(node, weight)| (from + node * way, weight * way / pitch)));
             }
         }
         places.push((pitch, 0.0));

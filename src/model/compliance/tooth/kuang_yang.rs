@@ -177,7 +177,7 @@ fn outside(inputs: &Inputs, _: &Geometry) -> Option<(&'static str, String)> {
 /// stiffness that is not above 0.
 pub fn tooth(gear: &ElasticGear, circles: &Circles) -> Result<StiffnessLine, Refusal> {
     let (gear, (least, most)) = (&gear.rack, TEETH);
-    if !(least..=most).contains(&gear.teeth) {
+    if !(f64::from(least)..=f64::from(most)).contains(&gear.teeth) {
         return Err(Refusal::TeethOutsideFit { teeth: gear.teeth, range: TEETH });
     }
     let shift = gear.profile_shift;
@@ -195,24 +195,23 @@ pub fn tooth(gear: &ElasticGear, circles: &Circles) -> Result<StiffnessLine, Ref
 
 /// Offset and slope of the fit over the height, in Pa.
 fn fit(gear: &Gear) -> [f64; 2] {
-    line(gear.teeth, gear.profile_shift).map(|part| NEWTON_PER_MICRON_MILLIMETRE * part)
+    line(gear.teeth.into(), gear.profile_shift).map(|part| NEWTON_PER_MICRON_MILLIMETRE * part)
 }
 
 /// Offset and slope of the fit over the height, in N/(µm mm).
-fn line(teeth: u32, shift: f64) -> [f64; 2] {
+fn line(teeth: f64, shift: f64) -> [f64; 2] {
     let [a0, a1, a2, a3] = coefficients(teeth);
     [a0 + a1 * shift, a2 + a3 * shift]
 }
 
 /// The coefficients A_0 to A_3 of the fit, in N/(µm mm).
-fn coefficients(teeth: u32) -> [f64; 4] {
+fn coefficients(teeth: f64) -> [f64; 4] {
     const A: [[f64; 4]; 4] = [
         [3.867, 1.612, -0.02916, 0.0001553],
         [17.060, 0.7289, -0.01728, 0.0000999],
         [2.637, -1.222, 0.02217, -0.0001179],
         [-6.330, -1.033, 0.02068, -0.0001130],
     ];
-    let teeth = f64::from(teeth);
     A.map(|[c0, c1, c2, c3]| c0 + teeth * (c1 + teeth * (c2 + teeth * c3)))
 }
 
