@@ -136,7 +136,7 @@ fn helical() -> Inputs {
     inputs
 }
 
-fn values(solution: &Solution) -> [f64; 5] {
+fn values(solution: &Solution) -> [f64; 8] {
     let load = solution.static_load.as_ref().expect("a load");
     let spectrum = solution.static_spectrum.expect("a spectrum").expect("a spectrum").spectrum;
     [
@@ -145,6 +145,9 @@ fn values(solution: &Solution) -> [f64; 5] {
         load.peak_force,
         load.transmission_error,
         spectrum.peak_to_peak,
+        spectrum.amplitudes[0],
+        spectrum.amplitudes[1],
+        spectrum.amplitudes[3],
     ]
 }
 
@@ -162,7 +165,7 @@ fn a_small_helix_angle_or_misalignment_changes_nothing() {
         assert!(solution.face_load.is_some(), "{name} has no slices");
         // At E the stiffness steps from that of the tip to that of the flank: the spur pair has the force
         // on the flank, the slices have the force before E.
-        let tolerances = [1e-6, 1e-5, 1e-6, 1e-6, 1e-6];
+        let tolerances = [1e-6, 1e-5, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6];
         let found = values(&solution).into_iter().zip(expected).zip(tolerances);
         for ((found, expected), tolerance) in found {
             let off = (found / expected - 1.0).abs();
@@ -191,8 +194,7 @@ fn the_other_hand_and_misalignment_mirror_the_load() {
     }
 }
 
-/// Nothing jumps: a step changes a value by about as much as the steps beside it. Virtual teeth are
-/// rounded, so that the compliance has steps of less than a hundredth.
+/// Nothing jumps: a step changes a value by about as much as the steps beside it.
 #[test]
 fn first_contact_and_forces_are_continuous_over_helix_angle_and_misalignment() {
     let at = |degrees: f64, misalignment: f64| {
@@ -210,7 +212,7 @@ fn first_contact_and_forces_are_continuous_over_helix_angle_and_misalignment() {
             for four in rows.windows(4) {
                 let [before, change, after] =
                     [0, 1, 2].map(|at| (four[at + 1][value] - four[at][value]).abs());
-                let most = 2.0 * before.max(after) + 0.01 * size;
+                let most = 2.0 * before.max(after) + 1e-3 * size;
                 assert!(change <= most, "{name}, value {value}: {change:e} at {four:?}");
             }
         }

@@ -291,7 +291,8 @@ fn harmonics(teeth: f64) -> Vec<(f64, f64)> {
             quadrature::nodes()
                 .map(move |(part, weight)| (from + part * (to - from), 2.0 * weight * (to - from)))
         });
-    single(SUMMED).chain(smooth).collect()
+    let slope = [(from - 0.5, -1.0 / 12.0), (from + 0.5, 1.0 / 12.0)];
+    single(SUMMED).chain(slope).chain(smooth).collect()
 }
 
 /// The eliminated matrix of a harmonic, bordered by the vectors of both modes.

@@ -349,3 +349,25 @@ fn the_series_of_the_surface_is_within_1e_4_of_the_loads_of_its_mesh() {
     }
     assert!(seen >= 10, "{seen}");
 }
+
+/// A whole number of virtual teeth is that of a spur gear, and no value jumps beside it.
+#[test]
+fn the_field_is_continuous_over_virtual_teeth() {
+    for teeth in [11, 20, 33, 80] {
+        let input = gear(teeth, 0.1, 20.0, [1.0, 1.25], 0.3);
+        let [before, here, after] = [-1e-6, 0.0, 1e-6].map(|more| {
+            let field = Field::build(&FieldInput { teeth: input.teeth + more, ..input }).unwrap();
+            let radius = f64::midpoint(field.radii()[0], field.radii()[1]);
+            [
+                field.depth(radius, 0.0),
+                field.cross(radius, radius, 1),
+                field.cross(radius, radius, -2),
+            ]
+        });
+        for beside in [before, after] {
+            for (one, other) in beside.into_iter().zip(here) {
+                assert!((one - other).abs() <= 2e-6 * here[0], "z {teeth}: {one:e} for {other:e}");
+            }
+        }
+    }
+}
