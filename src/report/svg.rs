@@ -350,11 +350,12 @@ fn cut(name: &str) -> String {
     name.chars().take(MOST_LETTERS - 1).chain(['…']).collect()
 }
 
-/// The class of the curve of a series. A colour that returns has the dashes of another colour.
+/// The class of the curve of a series. A colour that returns has the dashes of another colour and a
+/// wider line, so that no two curves look alike in grey.
 fn curve(at: usize) -> String {
     let (look, round) = (at % LOOKS.len(), at / LOOKS.len());
     let dashes = DASHES[(look + round) % LOOKS.len()];
-    let style = format!(" style=\"stroke-dasharray:{dashes}\"");
+    let style = format!(" style=\"stroke-dasharray:{dashes};stroke-width:{}\"", 2 + 2 * round);
     format!("\"curve s{look}\"{}", if round > 0 { &style } else { "" })
 }
 
@@ -526,6 +527,16 @@ mod tests {
             let text = drawn(points, Kind::Marks(Some(0)));
             assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
         }
+    }
+
+    #[test]
+    fn nine_curves_differ_without_colour() {
+        let look = |at: usize| match curve(at).split_once("stroke-dasharray:") {
+            Some((_, style)) => style.trim_end_matches('"').to_owned(),
+            None => format!("{};stroke-width:2", DASHES[at]),
+        };
+        let looks: std::collections::HashSet<String> = (0..9).map(look).collect();
+        assert_eq!(looks.len(), 9, "{looks:?}");
     }
 
     #[test]
