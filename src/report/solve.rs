@@ -16,7 +16,7 @@ use crate::study::shard::Format;
 use crate::study::stiffness::{
     FLANK_POINTS, Flanks, PATH_POINTS, PathComparison, compare_flanks, compare_path,
 };
-use crate::study::tolerance::{Samples, Size, Tolerance, USUAL_SAMPLES};
+use crate::study::tolerance::{Samples, Size, Tolerance, usual_samples};
 
 impl Selection {
     /// Solves a case as far as the selection and the outcome of the method need it. Returns the inputs
@@ -112,11 +112,6 @@ pub fn digest(
     Some(Digest::of(case, inputs, found.as_ref(), system))
 }
 
-/// Default samples of a page if a method shares the load: a solve takes a hundred times as long as
-/// that of a closed form.
-const FEW_SAMPLES: usize = 1000;
-/// Default samples of a page with a load over the face width: a solve can take a second.
-const FEWEST_SAMPLES: usize = 100;
 /// Seed of the command `tolerance`.
 const SEED: u64 = 1;
 /// Quantities of variants in addition to the headline quantities.
@@ -330,12 +325,7 @@ impl Unsolved<'_> {
         samples: Option<usize>,
         go_on: GoOn,
     ) -> Result<Option<(Tolerance, Samples)>, Refusal> {
-        let is_slow = self.inputs.method.shares_load() || self.inputs.method == Method::Auto;
-        let samples = samples.unwrap_or(match self.inputs.face() {
-            Some(_) if is_slow => FEWEST_SAMPLES,
-            _ if is_slow => FEW_SAMPLES,
-            _ => USUAL_SAMPLES,
-        });
+        let samples = samples.unwrap_or_else(|| usual_samples(self.inputs));
         let size = Size { samples, seed: SEED, ranked: Some(0) };
         let Ok(study) = Tolerance::of(self.case, self.inputs, &[], size) else { return Ok(None) };
         let samples = study.run(self.inputs, &Control { jobs: None, go_on })?;

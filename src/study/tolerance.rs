@@ -4,7 +4,7 @@ use crate::case::fields::{FIELDS, Kind, Value, index_of, keeps_gears};
 use crate::case::spread::Shape;
 use crate::case::{Case, Limit, Problem, Spread, field_range, units};
 use crate::model::deviation::Origin;
-use crate::model::inputs::{Combination, Gear};
+use crate::model::inputs::{Combination, Gear, Method};
 use crate::model::{Inputs, Outcome, Quantity, Refusal};
 use crate::numeric::decimal::{shortest, significant};
 use crate::study::batch::{
@@ -19,6 +19,11 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Default number of samples.
 pub const USUAL_SAMPLES: usize = 10_000;
+/// The default in a pane or on a page if a method shares the load: a solve takes a hundred times as
+/// long as that of a closed form.
+const FEW_SAMPLES: usize = 1000;
+/// The same with a load over the face width: a solve can take a second.
+const FEWEST_SAMPLES: usize = 100;
 
 /// Greatest number of samples of a study.
 pub const MOST_SAMPLES: usize = 100_000_000;
@@ -50,6 +55,16 @@ pub struct Size {
     /// Number of samples of the ranking; by default [`USUAL_RANKED`], or all samples if there are
     /// fewer.
     pub ranked: Option<usize>,
+}
+
+/// The default number of samples in a pane or on a page for a case with these inputs.
+pub fn usual_samples(inputs: &Inputs) -> usize {
+    let is_slow = inputs.method.shares_load() || inputs.method == Method::Auto;
+    match inputs.face() {
+        Some(_) if is_slow => FEWEST_SAMPLES,
+        _ if is_slow => FEW_SAMPLES,
+        _ => USUAL_SAMPLES,
+    }
 }
 
 impl Tolerance {

@@ -111,7 +111,7 @@ fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
     let inputs = app.tab.inputs().cloned().ok_or("a field has an error")?;
     let (name, document, units) = (app.tab.name(), app.tab.as_edited(), app.settings.units);
     let subject = picture.map_or_else(String::new, |picture| format!(": {picture}"));
-    let samples = app.tab.study.state.shown_samples();
+    let samples = app.tab.study.state.samples;
     let content = move |running: &Running<'_>| {
         let source = Unsolved { name: &name, case: &document.case, inputs: &inputs };
         let go_on = |_, _| running.is_wanted();

@@ -44,9 +44,9 @@ use crate::tui::text::Line;
 
 /// The title and the instruction of the dialog for a range.
 const RANGE: &str = "Range of the study";
-const HOW: &str = "A range such as 50..200 N m, or a list such as 20, 30, 40 mm; then, if wanted, \
-    `, 31 points` and `, log`. KEY = before it chooses the field. A second range after a semicolon \
-    makes a map.";
+const HOW: &str = "A range such as 1000..3000 rpm, or a list such as 500, 1000, 2000 rpm; then, if \
+    wanted, `, 31 points` and `, log`. KEY = before it chooses the field. A second range after a \
+    semicolon makes a map.";
 
 /// The title and the instruction of the dialog for the samples.
 const SAMPLES: &str = "Samples of the tolerance";
@@ -120,8 +120,8 @@ fn parameters(app: &App) -> Result<StudyParameters, String> {
         // The samples have the quantities of the limits beside that of the study.
         let is_limited = case.limits.iter().flat_map(Limit::quantities).any(|own| own == quantity);
         let before = app.tab.study.sampled().filter(|_| is_limited);
-        let (quantity, samples, units) =
-            (before.unwrap_or(quantity.key), app.tab.study.state.samples(), app.settings.units);
+        let samples = app.tab.study.state.samples(&inputs);
+        let (quantity, units) = (before.unwrap_or(quantity.key), app.settings.units);
         let parameters = ToleranceParameters { case, inputs, quantity, samples, units };
         return Ok(StudyParameters::Tolerance(Box::new(parameters)));
     }
@@ -296,7 +296,7 @@ pub(super) fn set_range(app: &mut App, text: &str) {
 
 /// Asks for the number of samples of the tolerance.
 pub(super) fn ask_samples(app: &mut App) {
-    let input = Line::whole(app.tab.study.state.samples().to_string());
+    let input = Line::whole(app.tab.study.state.samples(&app.tab.inputs_so_far).to_string());
     let done = |app: &mut App, text: &str, _| set_samples(app, text);
     app.prompts.push(Prompt::Path(PathDialog::new(SAMPLES, HOW_MANY, input, done)));
 }

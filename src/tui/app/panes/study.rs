@@ -25,7 +25,7 @@ use crate::report::verdict::Absence;
 use crate::report::{self, common_unit, name_of, shown_in, shown_with};
 use crate::study::axis::{ADDED, Axis as StudyAxis, AxisPoint, add_by_sign};
 use crate::study::batch::{self, PointOutcome, Refusals, Refused, Row};
-use crate::study::tolerance::USUAL_SAMPLES;
+use crate::study::tolerance::usual_samples;
 use crate::tui::app::App;
 use crate::tui::layout::Pane;
 use crate::tui::text::{self, symbol};
@@ -68,14 +68,8 @@ pub(crate) struct StudyState {
 
 impl StudyState {
     /// The number of samples of the tolerance.
-    pub(crate) fn samples(&self) -> usize {
-        self.samples.unwrap_or(USUAL_SAMPLES)
-    }
-
-    /// The number of samples of a report: that of the pane if it shows the tolerance or if the
-    /// number was typed.
-    pub(crate) fn shown_samples(&self) -> Option<usize> {
-        self.samples.or(self.is_tolerance.then_some(USUAL_SAMPLES))
+    pub(crate) fn samples(&self, inputs: &Inputs) -> usize {
+        self.samples.unwrap_or_else(|| usual_samples(inputs))
     }
 }
 
@@ -385,7 +379,7 @@ pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
 pub(crate) fn hint(app: &App) -> String {
     let Study { shown, obstacle, .. } = &app.tab.study;
     if app.tab.study.state.is_tolerance {
-        let count = app.tab.study.state.samples();
+        let count = app.tab.study.state.samples(&app.tab.inputs_so_far);
         format!("{count} samples draw every field of [spread] from its distribution.")
     } else if let (Some(shown), None) = (shown, obstacle) {
         refused(shown).unwrap_or_else(|| {
