@@ -28,6 +28,19 @@ impl Field {
         units::converted(typed, dimension, self.usual_unit(), system)
     }
 
+    /// An example in a unit; in another than the usual unit it has one digit.
+    pub(crate) fn example_in(&self, unit: &str) -> String {
+        let example = self.example();
+        let Kind::Number(dimension, ..) = self.kind else { return example.to_owned() };
+        match units::parse(example, dimension, "") {
+            Ok(value) if unit != self.usual_unit() => {
+                let round = format!("{:.0e}", units::per(value, unit)).parse::<f64>();
+                format!("{} {unit}", round.unwrap_or(value))
+            }
+            _ => example.to_owned(),
+        }
+    }
+
     /// The least and the greatest value as in [`Field::range_text`]; in another unit they are
     /// rounded.
     pub(crate) fn range_in(&self, unit: &str) -> String {
@@ -244,6 +257,8 @@ mod tests {
         assert_eq!(field("pair.module").range_in("mm"), "0.05 to 50 mm");
         assert_eq!(field("pair.module").range_in("in"), "about 0.00197 to 1.97 in");
         assert_eq!(field("driven.tip_relief").text_in("0 um", "thou"), "0 thou");
+        assert_eq!(field("driver.face_width").example_in("in"), "0.3 in");
+        assert_eq!(field("operation.torque").example_in("lbf ft"), "50 lbf ft");
         assert_eq!(field("driver.teeth").range_in(""), "5 to 1000");
         assert_eq!(field("operation.speed").range_in("rpm"), "0.001 to 1000000 rpm");
     }

@@ -141,7 +141,7 @@ fn focused(app: &App) -> String {
 fn typed(app: &App) -> Option<String> {
     let (case, row) = (&app.tab.case, app.tab.form.focus);
     if rows::lacks(case, row) {
-        let example = |field: &Field| field.text_in(field.example(), app.bare_unit(row));
+        let example = |field: &Field| field.example_in(app.bare_unit(row));
         let example = rows::field(case, row).map(example).unwrap_or_default();
         return Some(format!("Required, such as {example}."));
     }
@@ -211,14 +211,15 @@ fn about_limit(app: &App, limit: &Limit) -> String {
 fn about_spread(app: &App, spread: &Spread) -> String {
     let (case, inputs) = (&app.tab.case, &app.tab.inputs_so_far);
     let (_, name) = rows::names_of(case, app.tab.form.focus);
-    let unit = app.bare_unit(app.tab.form.focus);
+    let unit = rows::displayed_unit(case, app.tab.form.focus, app.settings.units);
+    let one = if unit == "thou" { "0.1" } else { "1" };
     let value = index_of(spread.field).and_then(|field| centre(field, case, inputs));
     let value = value.map(|value| in_unit(value, unit));
     let value = value.map_or(", which has no value".to_owned(), |value| format!(" around {value}"));
     let grade = if spread.field.ends_with("base_pitch") { ", grade 7" } else { "" };
     format!(
-        "Distribution of {name}{value}: normal 1 {unit} (standard deviation), uniform, \
-            triangular or truncated 1 {unit} (half-width){grade}; empty: none."
+        "Distribution of {name}{value}: normal {one} {unit} (standard deviation), uniform, \
+            triangular or truncated {one} {unit} (half-width){grade}; empty: none."
     )
 }
 

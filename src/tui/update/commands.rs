@@ -467,7 +467,7 @@ pub static BINDINGS: &[Binding] = &[
     row(Place::STUDY, "0", "usual range", |app| studies::zoom(app, -app.tab.study.state.zoom),
         "Show the usual range of the study again."),
     row(Place::STUDY, "r", "range", studies::ask_range,
-        "Type the range of the study, such as 50..200 N m, or two ranges for a map.").shown(),
+        "Type the range of the study, such as 1000..3000 rpm, or two ranges for a map.").shown(),
     row(Place::STUDY, "v", "table", |app| app.tab.study.state.is_table = !app.tab.study.state.is_table,
         "Switch between the curve or map and the table of its points.").shown(),
     row(Place::STUDY.or(Place::TOLERANCE), "y", "copy command", export::copy_value,

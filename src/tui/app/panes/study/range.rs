@@ -29,6 +29,8 @@ const REACH_OF_NUMBER: f64 = 0.5;
 const REACH_OF_LIMITS: f64 = 0.01;
 /// Digits of the ends of a range.
 const DIGITS: usize = 6;
+/// Digits of a number that needs no rounding.
+const SHORT: usize = 4;
 /// Digits of round numbers; further digits are rounding errors.
 const ROUND_DIGITS: usize = 14;
 
@@ -105,7 +107,19 @@ impl RangeOf<'_> {
         };
         let reach = usual * 2f64.powi(-self.zoom.clamp(-MOST_ZOOM, MOST_ZOOM));
         let (least, most) = field_range(field);
-        let rounded = |si: f64| significant(si / factor, DIGITS).parse().unwrap_or(si / factor);
+        // A metric value is rarely round in inch units: the ends get two digits of the distance.
+        let scale = 10f64.powi(1 - (reach / factor).log10().floor() as i32);
+        let digits = |number: f64, count| significant(number, count).parse().unwrap_or(number);
+        let greatest = (value + reach) / factor;
+        let is_short = (digits(greatest, SHORT) / greatest - 1.0).abs() < SAME;
+        let is_rounded = self.units == System::Inch && reach > 0.0 && !is_short;
+        let rounded = |si: f64| {
+            let is_limit = si <= least || si >= most;
+            let number = si / factor;
+            let number =
+                if is_rounded && !is_limit { (number * scale).round() / scale } else { number };
+            digits(number, DIGITS)
+        };
         let end = |si: f64| {
             let number: f64 = rounded(si);
             // Rounding must not exceed the limits of the field.
@@ -262,7 +276,7 @@ const MOST_POINTS: usize = 20_000;
 /// Number of points of each of two typed ranges.
 const POINTS_OF_MAP: usize = 31;
 
-/// The axes of a typed text such as `50..200 N m, 31 points`, or of two such ranges separated by a
+/// The axes of a typed text such as `1000..3000 rpm, 31 points`, or of two such ranges separated by a
 /// semicolon: that of the curve, then the second one. `KEY =` names another field than `fields`.
 /// Numbers without a unit get that of the study.
 ///
@@ -275,7 +289,7 @@ pub(crate) fn typed_axes(
 ) -> Result<Vec<Axis>, String> {
     let parts: Vec<&str> = text.split(';').map(str::trim).filter(|part| !part.is_empty()).collect();
     if parts.is_empty() || parts.len() > 2 {
-        return Err("type a range such as 50..200 N m, or two with a semicolon between".to_owned());
+        return Err("type a range such as 50..200 rpm, or two with a semicolon between".to_owned());
     }
     let usual = (parts.len() == 2).then_some(POINTS_OF_MAP);
     let axis = |(part, field): (&&str, Option<usize>)| {
@@ -470,7 +484,11 @@ mod tests {
     #[test]
     fn the_range_of_a_curve_is_typed_as_its_ends_and_points() {
         for (key, text, units, expected) in [
-            ("driver.face_width", "30 mm", System::Inch, "0.590551..1.77165 in, 101 points"),
+            ("driver.face_width", "30 mm", System::Inch, "0.59..1.77 in, 101 points"),
+            ("operation.torque", "885.075 lbf in", System::Inch, "440..1330 lbf in, 101 points"),
+            ("operation.torque", "100 N m", System::Inch, "37..111 lbf ft, 101 points"),
+            ("pair.module", "0.125 in", System::Inch, "0.0625..0.1875 in, 101 points"),
+            ("pair.pressure_angle", "20 deg", System::Inch, "14.5..30 deg, 101 points"),
             ("pair.pressure_angle", "20 deg", System::Metric, "14.5..30 deg, 101 points"),
         ] {
             let mut case = Case::table_1();
