@@ -68,8 +68,9 @@ pub struct Demand {
     /// '50%:0.2, 100%:0.7, 130%:0.1'
     #[cfg_attr(feature = "cli", arg(long, value_name = "LOAD:SHARE,...", default_value = "", hide_default_value = true, value_parser = spectrum, conflicts_with = "loads", allow_hyphen_values = true))]
     pub spectrum: Spectrum,
-    /// Manufacturing tolerance of each amount, plus and minus, such as '5 um'
-    #[cfg_attr(feature = "cli", arg(long, value_name = "LENGTH", default_value = "5 um", value_parser = tolerance, allow_hyphen_values = true))]
+    /// Manufacturing tolerance of each amount, plus and minus, such as '5 um'; '0.2 thou' by default
+    /// with --units inch
+    #[cfg_attr(feature = "cli", arg(long, value_name = "LENGTH", default_value = "5 um", default_value_if("units", "inch", "0.2 thou"), value_parser = tolerance, allow_hyphen_values = true))]
     pub tolerance: f64,
     /// Manufacturing tolerance of each length along the path of contact, plus and minus, such as
     /// '0.2 mm' (default: one step of a length)
