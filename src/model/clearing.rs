@@ -32,6 +32,8 @@ pub struct Clearing {
     /// Given and required additional tip relief of the driver, in m, with which its tip does not touch
     /// after B at rest. `None` without contact there, or if the relief is unknown.
     pub at_exit: Option<(f64, f64)>,
+    /// Whether a tooth without contact before E has contact there with that relief of the driver.
+    pub closes_gap: bool,
     /// Number of balances or motions solved.
     pub runs: u32,
     /// Work of the search, in units of the [budget](super::budget).
@@ -73,19 +75,26 @@ pub fn clearing(
     let (entry, exit) = (Search::new(false, &meter), Search::new(true, &meter));
     let (given, of_driver) = (inputs.driven.tip_relief, inputs.driver.tip_relief);
     let touches_after = |load: &StaticLoad| load.last_contact_angle.is_some();
-    let mut at_exit = None;
+    let is_moving = inputs.method == Method::Dynamic;
+    let motion = is_moving.then(|| Settings::approach(inputs, solution.reduced_mass));
+    let (mut at_exit, mut closes_gap) = (None, false);
     if solution.static_load.as_ref().is_some_and(touches_after) {
         let found = exit.least(&inputs.mesh(), None, inputs.face(), solution, go_on);
         let relief = Refusal::unless_stopped(found)?.ok().filter(|relief| *relief > 0.0);
         at_exit = relief.map(|relief| (of_driver, enough(relief, of_driver)));
+    }
+    if let (Outcome::NoCornerContact, Some((_, more))) = (solution.outcome, at_exit) {
+        let mut mesh = inputs.mesh();
+        mesh.reliefs.driver.tip += more;
+        let pair = (&mesh, motion.as_ref(), inputs.face());
+        let found = Refusal::unless_stopped(entry.relieved(0.0, pair, solution, go_on))?;
+        closes_gap = found.is_ok_and(|tried| tried.lead > 0.0);
     }
     let found = match (solution.outcome, inputs.method) {
         (Outcome::NoCornerContact, _) => Ok(None),
         (_, Method::Exact | Method::Auto) => Ok(Some(solution.deviation.total)),
         (_, Method::Paper) => printed_relief_to_clear(&inputs.shape(), &solution.kept.deviation),
         (_, Method::Static | Method::Dynamic) => {
-            let is_moving = inputs.method == Method::Dynamic;
-            let motion = is_moving.then(|| Settings::approach(inputs, solution.reduced_mass));
             entry.least(&inputs.mesh(), motion.as_ref(), inputs.face(), solution, go_on).map(Some)
         }
     };
@@ -94,7 +103,7 @@ pub fn clearing(
         Err(refusal) => (None, Some(refusal)),
     };
     let runs = entry.runs() + exit.runs();
-    Ok(Clearing { given, relief, withheld, at_exit, runs, work: meter.spent() })
+    Ok(Clearing { given, relief, withheld, at_exit, closes_gap, runs, work: meter.spent() })
 }
 
 /// The relief, rounded up so far that the sum with the given relief is enough after its conversion
