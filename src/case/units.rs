@@ -80,6 +80,11 @@ pub fn symbol(unit: &str) -> Option<&'static str> {
     known(unit).map(|(_, unit)| unit.symbol)
 }
 
+/// Whether the unit is a power of ten of the SI unit.
+pub fn is_metric(unit: &str) -> bool {
+    known(unit).is_some_and(|(_, unit)| matches!(unit.scale, Scale::Ten(_)))
+}
+
 /// The SI value of one unit. `None` for an unknown unit. "1" and "" have the factor 1.
 pub fn factor(unit: &str) -> Option<f64> {
     if matches!(unit, "" | "1") {

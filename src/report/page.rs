@@ -3,7 +3,7 @@
 
 use super::data::{self, subject, verdict};
 use super::{Report, common_unit, grouped, is_default, numbers, shown_with, value};
-use crate::case::fields::{Absent, index_of};
+use crate::case::fields::{Absent, Field, Kind, index_of};
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::{self, System};
@@ -451,19 +451,20 @@ fn inputs(cases: &[PageCase], units: System) -> Table {
     Table::new("", columns("input", titles(cases))).with(rows.chain(places))
 }
 
+/// Significant digits of an input.
+const DIGITS: usize = 6;
+
 /// The text of a field, given, computed from other fields or by default, and whether the case does
 /// not change it.
 fn input(at: usize, report: &Report, units: System) -> (Option<String>, bool) {
-    const DIGITS: usize = 6;
     const TOLERANCE_DIGITS: usize = 4;
     let (case, field) = (&report.case, &FIELDS[at]);
     let unit = units.unit(field.usual_unit());
     let shown = |value| System::Metric.text(value, unit, DIGITS);
     let derived = case.derived(at, &report.inputs).map(shown);
     let words = matches!(field.absent, Absent::Without(_)) && case.text(at).is_none();
-    // A given value keeps its unit.
     let usual = || Some(field.text_in(case.effective(at)?, unit)).filter(|_| !words);
-    let text = derived.or_else(|| case.text(at).map(sanitize)).or_else(usual);
+    let text = derived.or_else(|| Some(given(case.text(at)?, field, units))).or_else(usual);
     let off = Some(tolerance(case, field.key)).filter(|off| *off > 0.0);
     let with_tolerance = |text: String| match (off, units::split(&text, "")) {
         (Some(off), Ok((_, unit))) => {
@@ -472,6 +473,20 @@ fn input(at: usize, report: &Report, units: System) -> (Option<String>, bool) {
         _ => text,
     };
     (text.map(with_tolerance), is_default(at, case))
+}
+
+/// A given value as written, or in the unit of a system if its unit belongs to the other system.
+fn given(text: &str, field: &Field, units: System) -> String {
+    let metric = field.usual_unit();
+    let has_both = System::Inch.unit(metric) != metric;
+    let converted = || {
+        let Kind::Number(dimension, ..) = field.kind else { return None };
+        let is_metric = units::is_metric(units::written_unit(text, dimension)?);
+        let is_other = has_both && is_metric == (units == System::Inch);
+        let value = units::parse(text, dimension, metric).ok().filter(|_| is_other)?;
+        Some(units.text(value, metric, DIGITS))
+    };
+    converted().unwrap_or_else(|| sanitize(text))
 }
 
 /// The main results, and all results in groups, in the order of the method of the first case.
@@ -617,6 +632,22 @@ pub fn render(format: Format, subjects: &[Subject], settings: &Settings) -> io::
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_given_value_is_in_the_units_of_the_page() {
+        for (key, text, units, expected) in [
+            ("deviations.base_pitch", "16 um", System::Inch, "0.629921 thou"),
+            ("operation.torque", "70 Nm", System::Inch, "51.6294 lbf ft"),
+            ("operation.speed", "2000 rpm", System::Inch, "2000 rpm"),
+            ("pair.module", "0.20 in", System::Inch, "0.20 in"),
+            ("pair.module", "0.2 in", System::Metric, "5.08 mm"),
+            ("pair.module", "5.0 mm", System::Metric, "5.0 mm"),
+            ("pair.diametral_pitch", "8 1/in", System::Metric, "8 1/in"),
+            ("driver.teeth", "20", System::Inch, "20"),
+        ] {
+            assert_eq!(given(text, &FIELDS[index_of(key).unwrap()], units), expected);
+        }
+    }
 
     #[test]
     fn days_are_counted_with_leap_years() {
