@@ -7,7 +7,7 @@ use crate::case::units::System;
 use crate::case::{FIELDS, Field};
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity, Solution, Stage};
-use crate::report::digest::{differing, free_impact, lacks_relief, sentence, whine};
+use crate::report::digest::{by_exact, differing, sentence, whine};
 use crate::report::stations::columns;
 pub use crate::report::table::write_line;
 use crate::report::table::{Cell, Column, Table, WIDTH, flow, item, json, measured, object, text};
@@ -59,16 +59,12 @@ fn beside(quantity: &Quantity, solution: &Solution) -> Option<&'static str> {
 pub(super) fn verdict(report: &Report, system: System) -> Vec<String> {
     let solution = &report.solution;
     let mut sentences = vec![sentence(solution, system, false)];
-    if !report.selection.is_whole() && lacks_relief(solution) {
-        sentences.push("Tip relief that prevents it: add clearing_relief to --only.".to_owned());
-    }
     if report.selection.is_whole() {
         let all: Vec<&Solution> = report.others.iter().collect();
         let exact = all.iter().find(|other| other.method == Method::Exact);
-        let is_given = report.inputs.deflection.is_some();
         let others = [
             differing(solution, &all),
-            exact.and_then(|exact| free_impact(solution, exact, is_given, system)),
+            exact.and_then(|exact| by_exact(solution, exact, system)),
             whine(solution),
         ];
         sentences.extend(others.into_iter().flatten().map(|words| words + "."));

@@ -171,9 +171,11 @@ fn at_exit(solution: &Solution, system: System) -> Option<String> {
     let required =
         required("tip relief on the driver").map(|required| format!("at least {required}"));
     let required = required.unwrap_or("a larger tip relief of the driver".to_owned());
+    let closes_gap = clearing.is_some_and(|clearing| clearing.closes_gap);
+    let but = if closes_gap { ", but would cause contact at the entry" } else { "" };
     Some(format!(
         "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's tip; \
-            {required} prevents it"
+            {required} prevents it{but}"
     ))
 }
 
@@ -210,20 +212,11 @@ pub fn differing(governing: &Solution, others: &[&Solution]) -> Option<String> {
     Some(format!("{names} {find} {found}; {own} governs: {chosen}{why}"))
 }
 
-/// The result of method `exact` beside a method that shares the load, as an estimate of the free
-/// impact, or beside `paper`.
-pub fn free_impact(
-    governing: &Solution,
-    exact: &Solution,
-    is_deflection_given: bool,
-    system: System,
-) -> Option<String> {
-    let what = match governing.method.shares_load() {
-        true if is_deflection_given => "Free-impact estimate with the given deflection",
-        true => "Free-impact estimate, without the load on the other pairs",
-        false => "Method exact",
-    };
+/// The result of method `exact` beside `paper`. A method that shares the load supersedes the free
+/// impact.
+pub fn by_exact(governing: &Solution, exact: &Solution, system: System) -> Option<String> {
     let found = match exact.outcome {
+        _ if governing.method.shares_load() => return None,
         Outcome::NoCornerContact => {
             format!("no corner contact, Δ = {}", printed("total_deviation", exact, system)?)
         }
@@ -233,7 +226,7 @@ pub fn free_impact(
             printed("approach_angle_driver", exact, system)?
         ),
     };
-    Some(format!("{what}: {found}"))
+    Some(format!("Method exact: {found}"))
 }
 
 /// Significant digits of the additional relief.
@@ -254,7 +247,7 @@ pub fn relief(solution: &Solution, system: System, is_pending: bool) -> Option<S
 }
 
 /// Whether a sentence lacks the tip relief because its stage did not run.
-pub(super) fn lacks_relief(solution: &Solution) -> bool {
+fn lacks_relief(solution: &Solution) -> bool {
     solution.outcome == Outcome::CornerContact && !solution.stages.has(Stage::Clearing)
 }
 
@@ -402,6 +395,15 @@ mod tests {
                 .contains(" um tip relief on the driver prevents it. None at the entry: the tip"),
             "{at_exit}"
         );
+        let closes_gap = |relief| {
+            let mut case = Case::table_1();
+            case.set("driven.tip_relief", relief).unwrap();
+            let inputs = Inputs { method: Method::Dynamic, ..case.inputs().unwrap() };
+            let solution = model::solve(&inputs, STAGES.and(Stages::of(Stage::Clearing))).unwrap();
+            let verdict = sentence(&solution, System::Metric, false);
+            verdict.contains(" prevents it, but would cause contact at the entry. None ")
+        };
+        assert!(closes_gap("39 um") && !closes_gap("43 um"));
         let relieved = of("80 um");
         assert!(relieved.starts_with("No corner contact: "), "{relieved}");
         assert!(!relieved.contains("exit"), "{relieved}");

@@ -108,7 +108,7 @@ pub fn explain(
         missing: value.is_none().then(|| format!("No value: {}", Absence::of(quantity, solution))),
         meaning: quantity.meaning_in(&used),
         beside: Beside::of(quantity, solution)
-            .map(|beside| format!("This is {}.", beside.sentence(System::Metric))),
+            .map(|beside| format!("This is the free impact. {}.", beside.sentence(System::Metric))),
         derivation,
         leaves,
         source: quantity.source,

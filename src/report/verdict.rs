@@ -83,13 +83,17 @@ impl Beside {
     /// The counterpart as a sentence, with the value in metric or inch units.
     pub fn sentence(&self, system: System) -> String {
         let method = self.method.name();
-        match self.own {
-            Some((own, Some(value))) => {
+        let Some((own, value)) = self.own else {
+            return format!("Method {method} has no such quantity");
+        };
+        // The label can begin with the method.
+        let label = own.label.trim_start().trim_start_matches(&format!("{method}: "));
+        match value {
+            Some(value) => {
                 let value = shown_in(own, value, system);
-                format!("the free impact; {} {value}", name_of(own))
+                format!("Method {method} computes {} ({label}) = {value}", own.symbol)
             }
-            Some((own, None)) => format!("the free impact; {} has no value", name_of(own)),
-            None => format!("the free impact; {method} has no such quantity"),
+            None => format!("Method {method} has no value of {} ({label})", own.symbol),
         }
     }
 }
@@ -161,9 +165,10 @@ impl Verdict<'_> {
         let Some(beside) = self.beside else { return statement };
         let limit = self.limit.shown();
         let above = if self.is_exceeded_beside() { format!(" > {limit}") } else { String::new() };
-        let is_unlimited = beside.own.is_some() && !beside.is_limited;
-        let also = if is_unlimited { "; this quantity has no limit" } else { "" };
-        format!("{statement} for {}{above}{also}", beside.sentence(system))
+        let own = beside.own.filter(|_| !beside.is_limited);
+        let also = own.map(|(own, _)| format!(". {} has no limit", own.symbol));
+        let also = also.unwrap_or_default();
+        format!("{statement} for the free impact. {}{above}{also}", beside.sentence(system))
     }
 
     /// Whether the counterpart in the method exceeds the limit on the free impact.
@@ -476,8 +481,8 @@ mod tests {
         assert_eq!(*standing, Standing::Within);
         assert!(
             sentence.ends_with(
-                " for the free impact; dynamic: peak before E F_d,DE 1410.8 N; this \
-                    quantity has no limit"
+                " for the free impact. Method dynamic computes F_d,DE (peak before E) = 1410.8 N. \
+                    F_d,DE has no limit"
             ),
             "{sentence}"
         );
@@ -485,8 +490,8 @@ mod tests {
         assert_eq!(*standing, Standing::Exceeded);
         assert!(
             sentence.ends_with(
-                " for the free impact; static: force before E F_st,E 1466.2 N > 1 kN; this \
-                    quantity has no limit"
+                " for the free impact. Method static computes F_st,E (force before E) = 1466.2 N > \
+                    1 kN. F_st,E has no limit"
             ),
             "{sentence}"
         );
@@ -535,7 +540,7 @@ mod tests {
         case.set_limit("static_force_at_start", "1 kN").unwrap();
         let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
         let sentence = verdicts(&case, &solution)[0].to_string();
-        assert!(sentence.ends_with("static: force before E F_st,E 1466.2 N"), "{sentence}");
+        assert!(sentence.ends_with("F_st,E (force before E) = 1466.2 N"), "{sentence}");
     }
 
     #[test]

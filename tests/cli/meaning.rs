@@ -90,8 +90,8 @@ fn a_limit_on_an_absent_value_is_not_met_and_has_a_reason() {
 fn a_verdict_names_what_to_limit_for_the_force_of_the_method() {
     let limit = "check TABLE_1 --method dynamic --set 'limits.impact_force=2.1 kN'";
     let (_, page, _) = ran(limit);
-    let own = " for the free impact; dynamic: peak before E F_d,DE 1410.8 N; this quantity \
-            has no limit\n";
+    let own = " for the free impact. Method dynamic computes F_d,DE (peak before E) = 1410.8 N. \
+            F_d,DE has no limit\n";
     assert!(page.ends_with(own), "{page}");
     let line = json(&format!("{limit} --format json"));
     assert_eq!((&line["standing"], &line["of"]), (&"within".into(), &"free-impact".into()));
