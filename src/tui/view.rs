@@ -212,7 +212,7 @@ fn about_spread(app: &App, spread: &Spread) -> String {
     let (case, inputs) = (&app.tab.case, &app.tab.inputs_so_far);
     let (_, name) = rows::names_of(case, app.tab.form.focus);
     let unit = rows::displayed_unit(case, app.tab.form.focus, app.settings.units);
-    let one = if unit == "thou" { "0.1" } else { "1" };
+    let one = if matches!(unit, "in" | "thou") { "0.1" } else { "1" };
     let value = index_of(spread.field).and_then(|field| centre(field, case, inputs));
     let value = value.map(|value| in_unit(value, unit));
     let value = value.map_or(", which has no value".to_owned(), |value| format!(" around {value}"));
