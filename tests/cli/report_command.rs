@@ -192,8 +192,7 @@ fn a_case_with_variants_and_spread_has_a_table_of_each_on_its_pages() {
     for ending in ["html", "md"] {
         let page = report(&[case, "--samples=500", "--set=driven.tip_relief=1 thou"], ending);
         let variants = ["Variants, with the differences from the case", "relieved: Corner contact"];
-        let spread =
-            ["Tolerance, 500 samples", "base pitch deviation 16 um", "1 thou ±0.1969 thou"];
+        let spread = ["Tolerance, 500 samples", "base pitch deviation 16 um", "25.4 um ±5 um"];
         let rest =
             ["Probability of corner contact", "impact_force", "P95", "refused", "jammed: Refused"];
         has(&page, &[&variants[..], &spread, &rest].concat());
