@@ -86,6 +86,9 @@ impl App {
     /// The first visible line such that the selected quantity is visible.
     pub(crate) fn top_of_results(&self) -> usize {
         let row = inputs(self).len() + self.result_row();
+        if row == 0 {
+            return 0;
+        }
         let rows = self.results_page().max(1);
         let least = (row + 1).saturating_sub(rows);
         if self.result_row() == 0 {
@@ -130,7 +133,8 @@ impl App {
 pub(crate) fn draw(app: &App, buffer: &mut Buffer) {
     let (head, rows) = parts(app);
     let listed = app.listed_results();
-    let inner = app.draw_title(Pane::Results, &title(app, app.table_lines(), rows), buffer);
+    let count = inputs(app).len() + listed.len();
+    let inner = app.draw_title(Pane::Results, &title(app, count, rows), buffer);
     let [above, body] = text::split(inner, head.len() as u16);
     // The first column has the mark of the selected row.
     let [_, above] = above.layout(&Layout::horizontal([Length(1), Fill(1)]));
@@ -678,11 +682,16 @@ fn columns(
     let methods = answer.methods.iter().map(|(method, _)| *method);
     let methods: Vec<Method> = methods.filter(|method| is_shown(*method)).collect();
     let solved = || variants.iter().flat_map(|(variants, _)| &variants.columns);
-    let unit = |quantity: &'static Quantity| {
+    let common = |&quantity: &&'static Quantity| {
         let of_methods = methods.iter().filter_map(|&method| value(answer, method, quantity));
         let of_variants =
             solved().filter_map(|(_, found)| value_as_in(quantity, found.as_ref().ok()?, active));
         report::common_unit(quantity, of_methods.chain(of_variants), app.settings.units)
+    };
+    let units: Vec<_> = all.iter().map(common).collect();
+    let unit = |quantity: &'static Quantity| {
+        let at = all.iter().position(|known| std::ptr::eq(*known, quantity));
+        at.map_or(quantity.shown, |at| units[at])
     };
     let own = |quantity| value(answer, active, quantity);
     let (shown, rows) = ((app, active), [all, known]);
