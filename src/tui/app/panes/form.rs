@@ -1,8 +1,7 @@
 //! The form: every field of the case in its group; below an invalid field the reason.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::layout::{Layout, Position, Rect};
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
@@ -235,8 +234,13 @@ fn draw_line(app: &App, index: usize, line: Rect, buffer: &mut Buffer) -> Option
     let of_value = if is_typed && field.is_some() { VALUE } else { least.max(width(&value)) };
     let rest = line.width.saturating_sub(MARKS + of_symbol + end);
     let of_label = of_label.min(rest.saturating_sub(of_value));
-    let widths = [Length(MARKS), Length(of_symbol), Length(of_label), Fill(1), Length(end)];
-    let [marks, of_symbol, of_label, area, end] = line.layout(&Layout::horizontal(widths));
+    let mut left = line;
+    let widths = [MARKS, of_symbol, of_label, rest.saturating_sub(of_label), end];
+    let [marks, of_symbol, of_label, area, end] = widths.map(|width| {
+        let part = Rect { width: width.min(left.width), ..left };
+        left = Rect { x: part.right(), width: left.width - part.width, ..left };
+        part
+    });
     let unsaved = if rows::differs(case, app.tab.document.loaded(), index) { "*" } else { "" };
     let marked = Line::from_iter([Span::styled(mark, of_mark), Span::styled(unsaved, theme.note)]);
     text::draw_lines([marked], marks, buffer);
