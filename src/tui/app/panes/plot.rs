@@ -352,14 +352,13 @@ impl Plot {
         for cell in layer.content.iter_mut().filter(|cell| cell.symbol() != " ") {
             let curve = |color| if let Color::Indexed(at) = color { Some(at) } else { None };
             // A half block has two colours, for its upper and its lower half.
-            let symbol = match marker {
-                Marker::Custom(_) => sample(marker),
-                _ if curve(cell.bg).is_some() => "█".to_owned(),
-                _ => cell.symbol().to_owned(),
+            match marker {
+                Marker::Custom(sign) => cell.set_char(sign),
+                _ if curve(cell.bg).is_some() => cell.set_char('█'),
+                _ => cell,
             };
             let top = curve(cell.fg).max(curve(cell.bg)).map_or(0, usize::from);
-            *cell = Cell::default();
-            cell.set_symbol(&symbol).set_style(curves[top].1);
+            cell.set_style(Style::reset()).set_style(curves[top].1);
         }
         layer
     }
