@@ -12,7 +12,7 @@ use std::thread;
 use std::time::Duration;
 
 use crossterm::clipboard::CopyToClipboard;
-use crossterm::cursor::{Hide, Show};
+use crossterm::cursor::{Hide, MoveTo, Show};
 use crossterm::event::{
     DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture,
 };
@@ -22,8 +22,8 @@ use crossterm::terminal::{
     EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
 };
 use ratatui::backend::CrosstermBackend;
-use ratatui::layout::{Rect, Size};
-use ratatui::{Frame, Terminal, TerminalOptions, Viewport};
+use ratatui::layout::{Position, Rect, Size};
+use ratatui::{Terminal, TerminalOptions, Viewport};
 
 use super::app::App;
 use super::input::Event;
@@ -119,12 +119,15 @@ impl Screen {
         if self.terminal.get_frame().area().as_size() != app.layout.size {
             self.clear(app.layout.size)?;
         }
-        let draw = |frame: &mut Frame<'_>| {
-            if let Some(cursor) = view::draw(app, frame.buffer_mut()) {
-                frame.set_cursor_position(cursor);
-            }
-        };
-        self.terminal.draw(draw).map(drop)
+        let cursor = view::draw(app, self.terminal.current_buffer_mut());
+        self.terminal.flush()?;
+        // With the cursor in one write: after a write, the terminal may take the processor.
+        match cursor {
+            Some(Position { x, y }) => execute!(self.output(), Show, MoveTo(x, y))?,
+            None => execute!(self.output(), Hide)?,
+        }
+        self.terminal.swap_buffers();
+        Ok(())
     }
 
     /// Makes the next frame of a size draw every cell.
