@@ -414,22 +414,22 @@ impl App {
 
     /// Whether every requested result is present.
     pub(super) fn has_results(&self) -> bool {
+        self.has_stages(self.tab.requested.stages)
+    }
+
+    /// Whether every requested result is present, except the run over the speed, which takes many
+    /// frames.
+    pub(super) fn has_quick_results(&self) -> bool {
+        self.has_stages(self.tab.requested.stages.without(Stage::SpeedRun))
+    }
+
+    fn has_stages(&self, stages: Stages) -> bool {
         let Tab { answer, serial, requested, .. } = &self.tab;
         answer.as_ref().is_some_and(|answer| {
             let has_stiffness = answer.stiffness.is_some() >= requested.stiffness;
             let is_present = answer.serial == *serial && answer.pending.is_none();
-            is_present && answer.stages == requested.stages && has_stiffness
+            is_present && answer.stages.covers(stages) && has_stiffness
         })
-    }
-
-    /// Whether every requested result is present, or only the search in motion for the required relief
-    /// and the run over the speed lack, which take longer than a frame.
-    pub(super) fn has_quick_results(&self) -> bool {
-        let answer = self.tab.answer.as_ref().filter(|answer| answer.serial == self.tab.serial);
-        let is_moved = |answer: &Answer| {
-            answer.pending.is_none() && answer.active.stages().has(Stage::SpeedRun)
-        };
-        self.has_results() || answer.is_some_and(is_moved)
     }
 
     /// Solves the stages that became visible after the last request.

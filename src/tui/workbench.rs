@@ -32,8 +32,9 @@ use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
 /// Time between two frames of the animation.
 const TICK: Duration = Duration::from_millis(83);
 
-/// The results of a fast solve arrive within this time and are drawn with the edit, in one frame.
-const QUICK: Duration = Duration::from_millis(3);
+/// Results that arrive within this time, half of the time between two pictures of a usual screen, are
+/// drawn with the edit, in one frame.
+const QUICK: Duration = Duration::from_millis(8);
 
 /// How the workbench ended.
 pub(super) enum End {
@@ -163,11 +164,6 @@ impl Workbench {
             batch = if waits { self.events.batch(None, Some(quick)) } else { Vec::new() };
         }
         if self.keep()? || has_changed {
-            // A terminal that is resized while the workbench is suspended sends no signal later.
-            let size = self.screen.size()?;
-            if size != self.app.layout.size {
-                self.act(Action::Resize(size))?;
-            }
             self.screen.draw(&self.app)?;
         }
         self.autosave.keep_if_due(Instant::now());
@@ -187,10 +183,15 @@ impl Workbench {
                     has_changed = true;
                     match signal {
                         SIGTSTP => self.suspend()?,
-                        SIGCONT => self.screen.resume()?,
-                        SIGWINCH => {
+                        SIGCONT | SIGWINCH => {
+                            if signal == SIGCONT {
+                                self.screen.resume()?;
+                            }
+                            // A terminal that is resized during a stop sends no signal later.
                             let size = self.screen.size()?;
-                            self.act(Action::Resize(size))?;
+                            if signal == SIGWINCH || size != self.app.layout.size {
+                                self.act(Action::Resize(size))?;
+                            }
                         }
                         _ => return Ok(Err(End::Signal(signal))),
                     }
