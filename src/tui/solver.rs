@@ -172,7 +172,7 @@ pub fn answer(request: &Request) -> Answer {
     let evaluator = &mut Evaluator::default();
     let mut last = None;
     solve(evaluator, request, &mut |answer| last = Some(answer.clone()), &|_| true);
-    last.unwrap_or_else(|| at_once(evaluator, request, Instant::now()))
+    last.unwrap_or_else(|| at_once(evaluator, request, Instant::now()).with_notes())
 }
 
 /// Shows the results of the closed forms, of the method of the case and, for `dynamic`, of the load
@@ -187,11 +187,10 @@ pub(super) fn solve(
     let (begun, wanted) = (Instant::now(), request.wanted);
     let mut answer = at_once(evaluator, request, begun);
     if let Some(method) = answer.pending {
-        let (first, waits) = (answer.clone(), Cell::new(true));
-        let show = RefCell::new(&mut *show);
+        let (show, waits) = (RefCell::new(&mut *show), Cell::new(true));
         let go_on = |part| {
             if begun.elapsed() > PATIENCE && waits.replace(false) {
-                (*show.borrow_mut())(&first);
+                (*show.borrow_mut())(&answer.clone().with_notes());
             }
             go_on(part)
         };
@@ -207,19 +206,21 @@ pub(super) fn solve(
             solution.stages.and(wanted.stages.except(active.stages()))
         });
         let stages = stages.and(present.within(wanted.stages));
-        answer = Answer { active, pending: None, stages, ..answer };
-        answer.methods.retain(|(known, _)| *known != active);
+        let mut solved = Vec::new();
         if active == Method::Dynamic {
             // The required relief of the load at rest is fast to compute and is compared with that
             // of the motion.
             let stages = wanted.stages.without(Stage::StaticSpectrum);
             let rest = evaluator.solve(&request.inputs, Method::Static, stages, &|_| go_on(1.0));
-            answer.methods.push((Method::Static, Refusal::unless_stopped(rest).ok()?));
+            solved.push((Method::Static, Refusal::unless_stopped(rest).ok()?));
         }
-        answer.methods.push((active, found));
+        solved.push((active, found));
+        answer = Answer { active, pending: None, stages, ..answer };
+        answer.methods.retain(|(known, _)| *known != active);
+        answer.methods.extend(solved);
         answer.cost = Cost { stages: stages_run(&answer.methods), micros: micros(begun) };
-        answer = answer.with_notes();
     }
+    answer = answer.with_notes();
     if wanted.stiffness {
         // The finite elements of new gears are slow.
         show(&answer);
@@ -249,7 +250,7 @@ pub(super) fn solve(
     Some(())
 }
 
-/// The answer of the closed forms.
+/// The answer of the closed forms, without notes.
 fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answer {
     let asked = request.inputs.method;
     let stages = request.wanted.stages;
@@ -261,7 +262,7 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
         .map(|method| (method, evaluator.solve(&request.inputs, method, stages, &|_| true)))
         .collect();
     let pending = Some(asked).filter(|method| !Method::CLOSED_FORM.contains(method));
-    let answer = Answer {
+    Answer {
         serial: request.serial,
         stages,
         inputs: request.inputs.clone(),
@@ -271,8 +272,7 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
         methods,
         notes: Vec::new(),
         stiffness: None,
-    };
-    answer.with_notes()
+    }
 }
 
 fn stages_run(methods: &[(Method, Result<Solution, Refusal>)]) -> usize {

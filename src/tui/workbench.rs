@@ -32,8 +32,7 @@ use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
 /// Time between two frames of the animation.
 const TICK: Duration = Duration::from_millis(83);
 
-/// Results that arrive within this time, half of the time between two pictures of a usual screen, are
-/// drawn with the edit, in one frame.
+/// Results that arrive within this time are drawn with the edit, in one frame.
 const QUICK: Duration = Duration::from_millis(8);
 
 /// How the workbench ended.
