@@ -362,7 +362,7 @@ fn over_face(face: &Face, mesh: &Mesh, s: f64) -> Result<[f64; VALUES], Refusal>
     let mut values = [0.0; VALUES];
     values[STIFFNESS] = loads.stiffness;
     values[ERROR] = x;
-    values[FORCE] = loads.pairs().map(|ahead| face.pair_force(&loads, ahead)).sum();
+    values[FORCE] = loads.pairs.all().map(|ahead| face.pair_force(&loads, ahead)).sum();
     values[TOOTH_STIFFNESS] = (face.pair_force(&further, 0) - tooth) / (x * STEP);
     values[TOOTH_FORCE] = tooth;
     Ok(values)

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use self::equations::System;
 use super::carried::Carried;
-use super::loads::Loads;
+use super::loads::{Loads, Pairs};
 use super::{Face, Slice};
 use crate::model::Refusal;
 use crate::model::budget::PAIRS;
@@ -48,14 +48,14 @@ impl Incoming {
         else {
             return;
         };
-        let Some(pair) = position.index(ahead) else {
+        let Some(pair) = position.pairs.index(ahead) else {
             return;
         };
         let path = position.s + f64::from(ahead) * position.face.mesh.base_pitch;
         position.error = error;
         let length = position.face.mesh.length;
-        let contacts = position.contacts[pair..].iter_mut().step_by(position.pairs);
-        for (slice, contact) in position.face.slices.iter().zip(contacts) {
+        for (slice, at) in position.pairs.of(pair) {
+            let (slice, contact) = (&position.face.slices[slice], &mut position.contacts[at]);
             (contact.gap, contact.mean) = (contact.gap - error, contact.mean - error);
             let path = path + slice.ahead;
             contact.can_carry &= match self {
@@ -96,9 +96,11 @@ fn bend(ends: [f64; 2], mean: f64) -> f64 {
 /// A pair at a slice.
 #[derive(Debug, Clone, Copy)]
 struct Contact {
+    /// The number of the pair.
+    pair: usize,
     /// Width of the slice.
     width: f64,
-    /// Gap, infinite beyond the computed range.
+    /// Gap, infinite beyond the computed pairs.
     gap: f64,
     /// Its mean over the slice, and its rise and its bend from one border to the other.
     mean: f64,
@@ -120,8 +122,9 @@ struct Contact {
 }
 
 impl Contact {
-    /// A pair beyond the computed range.
+    /// A pair beyond the computed pairs.
     const NONE: Contact = Contact {
+        pair: 0,
         width: 0.0,
         gap: f64::INFINITY,
         mean: f64::INFINITY,
@@ -159,8 +162,7 @@ impl Contact {
 pub(super) struct Position<'a> {
     face: &'a Face,
     s: f64,
-    first: i32,
-    pairs: usize,
+    pairs: Rc<Pairs>,
     /// Deviation of the pair that deviates, in m.
     error: f64,
     /// The pairs slice by slice.
@@ -189,20 +191,35 @@ impl Face {
         let (from, to) = mesh.ends();
         let first = ((from - s - self.reach) / mesh.base_pitch).ceil() as i32;
         let last = ((to - s + self.reach) / mesh.base_pitch).floor() as i32;
-        let pairs = (last - first + 1).max(0) as usize;
+        let path = |ahead: i32| s + f64::from(ahead) * mesh.base_pitch;
+        let slices = |ahead: i32| {
+            let place = |slice: &Slice| path(ahead) + slice.ahead;
+            let is_before = |slice: &Slice| match self.inputs.lead {
+                lead if lead < 0.0 => place(slice) > to,
+                _ => place(slice) < from,
+            };
+            let is_beyond = |slice: &Slice| !(from..=to).contains(&place(slice));
+            let begin = self.slices.partition_point(is_before);
+            begin..begin + self.slices[begin..].partition_point(|slice| !is_beyond(slice))
+        };
+        // Two pairs in the same slot are a base pitch apart from each other's pairs.
+        let most = ((to - from) / mesh.base_pitch) as usize + 2;
+        let slices: Vec<_> = (first..=last).map(slices).collect();
+        let pairs = Pairs { first, slots: slices.len().min(most), slices };
         let (mut contacts, mut sides) =
-            (vec![Contact::NONE; self.slices.len() * pairs], Vec::new());
-        for (pair, ahead) in (first..).take(pairs).enumerate() {
-            let path = s + f64::from(ahead) * mesh.base_pitch;
-            let of_pair = contacts[pair..].iter_mut().step_by(pairs);
+            (vec![Contact::NONE; self.slices.len() * pairs.slots], Vec::new());
+        for (pair, ahead) in (first..=last).enumerate() {
             let mut before = None;
-            for (slice, contact) in self.slices.iter().zip(of_pair) {
-                (*contact, before) = self.contact(slice, path, before, &mut sides);
+            for (slice, at) in pairs.of(pair) {
+                let of = self.contact(&self.slices[slice], path(ahead), before, &mut sides);
+                (contacts[at], before) = (Contact { pair, ..of.0 }, Some(of.1));
             }
-            self.deflect(&mut contacts, (pair, pairs));
         }
-        let kappa = self.kappa(s, first, pairs);
-        Position { face: self, s, first, pairs, error: 0.0, contacts, sides, kappa }
+        for slot in 0..pairs.slots {
+            self.deflect(&mut contacts, (slot, pairs.slots));
+        }
+        let kappa = self.kappa(s, first, pairs.slices.len());
+        Position { face: self, s, pairs: Rc::new(pairs), error: 0.0, contacts, sides, kappa }
     }
 
     /// A pair without deviation in a slice, with the middle of the face at a place of its path, and the
@@ -215,14 +232,11 @@ impl Face {
         path: f64,
         before: Option<[f64; 6]>,
         sides: &mut Vec<Sides>,
-    ) -> (Contact, Option<[f64; 6]>) {
+    ) -> (Contact, [f64; 6]) {
         /// Of a base pitch: below it, a difference of integrals has too few digits.
         const NARROW: f64 = 1e-6;
         let (mesh, place) = (&self.mesh, path + slice.ahead);
         let (from, to) = mesh.ends();
-        if place < from || place > to {
-            return (Contact::NONE, None);
-        }
         let borders = slice.borders.map(|z| (path + z * self.inputs.lead).clamp(from, to));
         let one: [f64; 6] = before.unwrap_or_else(|| self.sections.at(borders[0]));
         let other: [f64; 6] = self.sections.at(borders[1]);
@@ -234,6 +248,7 @@ impl Face {
         let (ends, gaps) = ([one, other], slice.border_gaps);
         let found = self.sides(slice, borders, ends, (here, means));
         let contact = Contact {
+            pair: 0,
             width: slice.width,
             gap: self.sections.one(0, place) + slice.gap,
             mean: mean + slice.mean_gap,
@@ -247,14 +262,14 @@ impl Face {
             weight: 1.0 - mesh.friction() * self.inputs.oblique * means[4],
         };
         sides.extend(found);
-        (contact, Some(other))
+        (contact, other)
     }
 
-    /// The compliance of the teeth of a pair in each slice, where it changes along the path and towards the
-    /// ends of the face at once.
-    fn deflect(&self, contacts: &mut [Contact], (pair, pairs): (usize, usize)) {
+    /// The compliance of the teeth of the pairs in a slot in each slice, where it changes along the path and
+    /// towards the ends of the face at once.
+    fn deflect(&self, contacts: &mut [Contact], (slot, slots): (usize, usize)) {
         let known = |contacts: &[Contact], at: usize| {
-            let contact = contacts.get(at * pairs + pair)?;
+            let contact = contacts.get(at * slots + slot)?;
             contact.can_carry.then_some((contact.teeth, contact.width))
         };
         let mut before = None;
@@ -267,7 +282,7 @@ impl Face {
                 let way = width + 0.5 * (first.1 + last.1);
                 let part = if way > 0.0 { width / way } else { 0.0 };
                 let changes = [0, 1].map(|gear| (last.0[gear] - first.0[gear]) * part);
-                contacts[at * pairs + pair].root = self.root(slice.teeth(teeth, changes));
+                contacts[at * slots + slot].root = self.root(slice.teeth(teeth, changes));
             }
             before = own;
         }
@@ -343,7 +358,7 @@ impl Face {
         ahead: i32,
         (z, path): (f64, f64),
     ) -> Option<(f64, f64)> {
-        let pair = loads.index(ahead)?;
+        let pair = loads.pairs.index(ahead)?;
         let after = self.slices.partition_point(|slice| slice.z < z);
         // An end of the face counts as on it, whatever the rounding; without a lead z is no number.
         let (from, to) = self.mesh.ends();
@@ -352,8 +367,7 @@ impl Face {
         }
         let before = after.clamp(1, self.slices.len() - 1) - 1;
         let ahead_of = loads.displacement + if ahead == 0 { loads.error } else { 0.0 };
-        let [one, other] =
-            [before, before + 1].map(|slice| loads.teeth[slice * loads.pairs + pair]);
+        let [one, other] = [before, before + 1].map(|slice| loads.teeth_at(pair, slice));
         let step = self.slices[before].step;
         let part = (z - self.slices[before].z) / step;
         let rest = 1.0 - part;
@@ -440,11 +454,6 @@ impl Position<'_> {
         self.contacts.len()
     }
 
-    /// The index of a pair within the computed range.
-    pub(super) fn index(&self, ahead: i32) -> Option<usize> {
-        usize::try_from(ahead - self.first).ok().filter(|index| *index < self.pairs)
-    }
-
     /// The loads of all pairs, to a part of the displacement. The search for the touching slices begins with
     /// those of the loads `near`, or on the line through two of them.
     ///
@@ -529,7 +538,7 @@ impl Position<'_> {
         }
         let known = self.contacts.iter().enumerate().filter(|(_, of)| of.gap < f64::INFINITY);
         for (at, of) in known {
-            let (own, slice) = (self.face.own(of.root), &self.face.slices[at / self.pairs]);
+            let (own, slice) = (self.face.own(of.root), &self.face.slices[at / self.pairs.slots]);
             // The middle of a slice alone deflects under its own load, not under the mean.
             let moved = displacement - of.mean - means[at] - own * mean_loads[at];
             let bend = self.face.stiffening * (moved - self.source(at, &mean_loads));
@@ -537,12 +546,12 @@ impl Position<'_> {
             if of.root > 0.0 {
                 teeth[at] = [middle / of.root, bend / of.root];
             }
-            let is_inner = (self.pairs..count - self.pairs).contains(&at);
+            let is_inner = (self.pairs.slots..count - self.pairs.slots).contains(&at);
             // An end of the face is not in the middle of its slice.
             let (local, root) = if is_inner {
                 (of.local, of.root)
             } else {
-                let ahead = f64::from(self.first) + (at % self.pairs) as f64;
+                let ahead = f64::from(self.pairs.first) + of.pair as f64;
                 let path = self.s + ahead * self.face.mesh.base_pitch + slice.ahead;
                 self.face.compliances(slice.z, path)
             };
@@ -561,8 +570,7 @@ impl Position<'_> {
         self.face.mesh.check_reach(most)?;
         Ok(Loads {
             s: self.s,
-            first: self.first,
-            pairs: self.pairs,
+            pairs: Rc::clone(&self.pairs),
             displacement,
             error: self.error,
             line_loads,
@@ -598,7 +606,7 @@ impl Position<'_> {
             if beside.into_iter().chain([of]).any(|of| of.root <= 0.0) {
                 continue;
             }
-            let is_end = ends[1] - ends[0] == self.pairs;
+            let is_end = ends[1] - ends[0] == self.pairs.slots;
             let half = |[one, other]: [f64; 2]| (other - one) / if is_end { 3.0 } else { 4.0 };
             let of_end = |values: &[f64]| half(ends.map(|end| values[end]));
             let moved = |at: usize| {
@@ -623,17 +631,17 @@ impl Position<'_> {
 
     /// The indices of a pair at the slices before and after, or at this slice if there is none.
     fn beside(&self, at: usize) -> [usize; 2] {
-        let after = at + self.pairs;
+        let after = at + self.pairs.slots;
         let after = if after < self.contacts.len() { after } else { at };
-        [at.checked_sub(self.pairs).unwrap_or(at), after]
+        [at.checked_sub(self.pairs.slots).unwrap_or(at), after]
     }
 
     /// The displacement of the teeth of a pair at a slice by the mean loads there if they were even.
     fn source(&self, at: usize, mean_loads: &[f64]) -> f64 {
-        let (first, own) = (at - at % self.pairs, at % self.pairs);
-        let here = self.contacts[first..][..self.pairs].iter().zip(&mean_loads[first..]);
-        let pushes = here.zip(&self.kappa[own * self.pairs..]);
-        let parts = pushes.map(|((of, load), kappa)| kappa * of.root * load);
+        let (first, pairs) = (at - at % self.pairs.slots, self.pairs.slices.len());
+        let here = self.contacts[first..][..self.pairs.slots].iter().zip(&mean_loads[first..]);
+        let kappa = &self.kappa[self.contacts[at].pair * pairs..];
+        let parts = here.map(|(of, load)| kappa[of.pair] * of.root * load);
         self.contacts[at].root * parts.sum::<f64>() / (1.0 + self.face.excess)
     }
 
@@ -712,16 +720,16 @@ impl Position<'_> {
         let (whole, part) = (moved.floor() as isize, moved - moved.floor());
         let last = self.face.slices.len() - 1;
         let mut teeth = vec![0.0; self.contacts.len()];
-        for (pair, ahead) in (self.first..).take(self.pairs).enumerate() {
-            let Some(known) = near.index(ahead) else { continue };
+        for (pair, ahead) in self.pairs.all().enumerate() {
+            let Some(known) = near.pairs.index(ahead) else { continue };
             let of = |slice: usize| {
                 let slice = slice.min(last);
-                let [middle, bend] = near.teeth[slice * near.pairs + known];
+                let [middle, bend] = near.teeth_at(known, slice);
                 middle + bend * self.face.slices[slice].spread
             };
-            for (slice, new) in teeth[pair..].iter_mut().step_by(self.pairs).enumerate() {
+            for (slice, at) in self.pairs.of(pair) {
                 let before = slice.saturating_add_signed(whole);
-                *new = of(before) + part * (of(before + 1) - of(before));
+                teeth[at] = of(before) + part * (of(before + 1) - of(before));
             }
         }
         teeth
@@ -731,9 +739,8 @@ impl Position<'_> {
     /// `carried` carries: its change with the displacement, and what is taken from that. `None` if
     /// the compliances are not positive definite.
     fn lines(&self, carried: &[Carried]) -> Option<Vec<[f64; 2]>> {
-        let has_load =
-            |pair: &usize| carried[*pair..].iter().step_by(self.pairs).any(|of| of.touches());
-        let active: Vec<usize> = (0..self.pairs).filter(has_load).collect();
+        let has_load = |pair: &usize| self.pairs.of(*pair).any(|(_, at)| carried[at].touches());
+        let active: Vec<usize> = (0..self.pairs.slices.len()).filter(has_load).collect();
         if active.is_empty() {
             return Some(self.contacts.iter().map(|contact| [1.0, contact.mean]).collect());
         }

@@ -438,13 +438,14 @@ impl Face {
 
     /// The force of a pair in a balance, in N.
     pub fn pair_force(&self, loads: &Loads, ahead: i32) -> f64 {
-        let slices = self.slices.iter().enumerate();
-        slices.map(|(number, slice)| loads.mean_at(ahead, number) * slice.width).sum()
+        let of_pair = loads.pairs.index(ahead).into_iter().flat_map(|pair| loads.pairs.of(pair));
+        let force = |(slice, at): (usize, usize)| loads.mean_loads[at] * self.slices[slice].width;
+        of_pair.map(force).fold(0.0, |sum, force| sum + force)
     }
 
     /// The greatest force of a tooth, in N.
     pub(super) fn tooth_force(&self, loads: &Loads) -> f64 {
-        loads.pairs().map(|ahead| self.pair_force(loads, ahead)).fold(0.0, f64::max)
+        loads.pairs.all().map(|ahead| self.pair_force(loads, ahead)).fold(0.0, f64::max)
     }
 
     /// The station of the incoming tooth. Gap, compliance and velocities are those at the z with the least

@@ -1,6 +1,7 @@
 //! The equations of the touching slices.
 
 use super::{Contact, Position};
+use crate::model::pair_forces::PITCHES;
 use crate::model::slices::carried::Carried;
 use crate::numeric::banded::{Banded, Rows};
 use smallvec::smallvec;
@@ -29,9 +30,9 @@ impl<'a> System<'a> {
         let (count, factors) = (active.len(), factors(at, active)?);
         let mut spans = vec![(usize::MAX, 0); count];
         for &pair in active {
-            let touches = |slice: &usize| carried[slice * at.pairs + pair].touches();
-            let slices = 0..at.face.slices.len();
-            let (first, last) = (slices.clone().find(touches)?, slices.rev().find(touches)?);
+            let touches = |of: &(usize, usize)| carried[of.1].touches();
+            let first = at.pairs.of(pair).find(touches)?.0;
+            let last = at.pairs.of(pair).rev().find(touches)?.0;
             let of_factor = spans.iter_mut().zip(&factors[pair * count..]);
             for (span, _) in of_factor.filter(|(_, factor)| **factor != 0.0) {
                 *span = (span.0.min(first), span.1.max(last));
@@ -62,18 +63,14 @@ impl<'a> System<'a> {
     fn loads<const SLOTS: usize>(
         &self,
         number: usize,
-        active: &[(usize, [f64; SLOTS])],
+        in_slots: &[[f64; SLOTS]],
     ) -> ([[f64; SLOTS]; SLOTS], [[f64; 2]; SLOTS]) {
         let (mut loads, mut without) = ([[0.0; SLOTS]; SLOTS], [[0.0; 2]; SLOTS]);
-        for (pair, factors) in active {
-            let at = number * self.at.pairs + pair;
-            let Carried { part, rest, .. } = self.carried[at];
-            if part == 0.0 {
-                continue;
-            }
-            let of = &self.at.contacts[at];
+        let slots = self.at.pairs.slots;
+        let here = self.at.contacts.iter().zip(self.carried).skip(number * slots).take(slots);
+        for (of, &Carried { part, rest, .. }) in here.filter(|(_, carried)| carried.touches()) {
             let (mut all, mut lead) =
-                (factors.map(|factor| factor * of.root), [1.0, of.mean - rest / part]);
+                (in_slots[of.pair].map(|factor| factor * of.root), [1.0, of.mean - rest / part]);
             let (own, mut compliance) = (all, of.local / part);
             for slot in 0..SLOTS {
                 let taken = self.taken() * own[slot];
@@ -102,26 +99,22 @@ impl<'a> System<'a> {
 
     /// See [`Position::lines`]. `ROW` is `SLOTS` + 1.
     pub(super) fn lines<const SLOTS: usize, const ROW: usize>(&self) -> Option<Vec<[f64; 2]>> {
-        let (slices, pairs, count) = (&self.at.face.slices, self.at.pairs, self.spans.len());
-        let factors = |pair: usize| &self.factors[pair * count..][..count];
-        let in_slots = |pair: &usize| {
+        let (slices, count) = (&self.at.face.slices, self.spans.len());
+        let in_slots = |factors: &[f64]| {
             let mut slots = [0.0; SLOTS];
-            let known = factors(*pair).iter().enumerate().filter(|(_, factor)| **factor != 0.0);
+            let known = factors.iter().enumerate().filter(|(_, factor)| **factor != 0.0);
             known.for_each(|(coordinate, factor)| slots[coordinate % SLOTS] = *factor);
             slots
         };
-        let active: Vec<_> = self.active.iter().map(|pair| (*pair, in_slots(pair))).collect();
-        let mut rows: Rows<f64, ROW> = smallvec![[0.0; ROW]; slices.len() * SLOTS];
+        let in_slots: Vec<_> = self.factors.chunks(count).map(in_slots).collect();
+        let mut empty = [0.0; ROW];
+        empty[0] = 1.0;
+        let mut rows: Rows<f64, ROW> = smallvec![empty; slices.len() * SLOTS];
         let mut sides = vec![[0.0; 2]; slices.len() * SLOTS];
-        let blocks = rows.as_chunks_mut().0.iter_mut().zip(sides.as_chunks_mut().0);
-        for ((number, slice), (block, sides)) in slices.iter().enumerate().zip(blocks) {
-            let (block, sides): (&mut [[f64; ROW]; SLOTS], &mut [[f64; 2]; SLOTS]) = (block, sides);
-            let [before, after] = slice.exchange;
-            for (coordinate, &(first, last)) in self.spans.iter().enumerate() {
-                if number < first || number > last {
-                    continue;
-                }
-                let row = &mut block[coordinate % SLOTS];
+        for (coordinate, &(first, last)) in self.spans.iter().enumerate() {
+            for (number, slice) in slices.iter().enumerate().take(last + 1).skip(first) {
+                let row = &mut rows[number * SLOTS + coordinate % SLOTS];
+                let [before, after] = slice.exchange;
                 row[0] = slice.width + before + after;
                 if number == first {
                     row[0] -= before * slice.tail[0];
@@ -132,10 +125,11 @@ impl<'a> System<'a> {
                     row[0] -= after * slice.tail[1];
                 }
             }
-            for row in block.iter_mut().filter(|row| row[0] == 0.0) {
-                row[0] = 1.0;
-            }
-            let (loads, without) = self.loads(number, &active);
+        }
+        let blocks = rows.as_chunks_mut().0.iter_mut().zip(sides.as_chunks_mut().0);
+        for ((number, slice), (block, sides)) in slices.iter().enumerate().zip(blocks) {
+            let (block, sides): (&mut [[f64; ROW]; SLOTS], &mut [[f64; 2]; SLOTS]) = (block, sides);
+            let (loads, without) = self.loads(number, &in_slots);
             for slot in 0..SLOTS {
                 sides[slot] = without[slot].map(|load| slice.width * load);
                 for other in 0..=slot {
@@ -144,27 +138,36 @@ impl<'a> System<'a> {
             }
         }
         Banded::<ROW>::of(rows)?.solve(&mut sides);
-        let mut all = vec![[0.0; 2]; slices.len() * count];
+        let line = |contact: &Contact| [1.0, contact.mean];
+        let mut lines: Vec<[f64; 2]> = self.at.contacts.iter().map(line).collect();
+        let mut all = vec![[0.0; 2]; slices.len()];
         for (coordinate, &(first, last)) in self.spans.iter().enumerate() {
-            let place = |number: usize| number * count + coordinate;
+            let factor = |pair: usize| self.factors[pair * count + coordinate];
+            let moved = (0..self.at.pairs.slices.len()).filter(|&pair| factor(pair) != 0.0);
+            let ranges = moved.clone().map(|pair| &self.at.pairs.slices[pair]);
+            let ends = ranges.filter(|range| !range.is_empty());
+            let beside = (last + 2).min(slices.len());
+            let (from, to) = ends.fold((first, beside), |(from, to), range| {
+                (from.min(range.start), to.max(range.end))
+            });
             for number in first..=last {
-                all[place(number)] = sides[number * SLOTS + coordinate % SLOTS];
+                all[number] = sides[number * SLOTS + coordinate % SLOTS];
             }
-            for number in (1..=first).rev() {
+            for number in (from.max(1)..=first).rev() {
                 let decay = slices[number].tail[0];
-                all[place(number - 1)] = all[place(number)].map(|value| decay * value);
+                all[number - 1] = all[number].map(|value| decay * value);
             }
-            for number in last + 1..slices.len() {
+            for number in last + 1..to {
                 let decay = slices[number - 1].tail[1];
-                all[place(number)] = all[place(number - 1)].map(|value| decay * value);
+                all[number] = all[number - 1].map(|value| decay * value);
             }
             // From v to u, f by the equation of v.
-            let mut before = all[place(first.saturating_sub(1))];
+            let mut before = all[first.saturating_sub(1)];
             for number in first..=last {
-                let (slice, here) = (&slices[number], all[place(number)]);
-                let after = all[place((number + 1).min(slices.len() - 1))];
+                let (slice, here) = (&slices[number], all[number]);
+                let after = all[(number + 1).min(slices.len() - 1)];
                 let [one, other] = slice.exchange.map(|exchange| exchange / slice.width);
-                all[place(number)] = std::array::from_fn(|column| {
+                all[number] = std::array::from_fn(|column| {
                     let here = here[column];
                     let load =
                         here + one * (here - before[column]) + other * (here - after[column]);
@@ -172,19 +175,12 @@ impl<'a> System<'a> {
                 });
                 before = here;
             }
-        }
-        let mut lines = Vec::with_capacity(self.at.contacts.len());
-        for (contacts, here) in self.at.contacts.chunks(pairs).zip(all.chunks(count)) {
-            for (pair, Contact { root, mean, .. }) in contacts.iter().enumerate() {
-                if *mean == f64::INFINITY {
-                    lines.push([1.0, f64::INFINITY]);
-                    continue;
+            for pair in moved {
+                for (slice, at) in self.at.pairs.of(pair) {
+                    let push = self.at.contacts[at].root * factor(pair);
+                    lines[at] =
+                        std::array::from_fn(|column| lines[at][column] - push * all[slice][column]);
                 }
-                let [mut moved, mut kept] = [0.0; 2];
-                for (factor, side) in factors(pair).iter().zip(here) {
-                    (moved, kept) = (moved + factor * side[0], kept + factor * side[1]);
-                }
-                lines.push([1.0 - root * moved, mean - root * kept]);
             }
         }
         Some(lines)
@@ -194,12 +190,13 @@ impl<'a> System<'a> {
 /// Row by row the factor C of κ = C Cᵀ of the active pairs, and the rows that the other pairs have
 /// with it. `None` if κ is not positive definite.
 fn factors(at: &Position<'_>, active: &[usize]) -> Option<Vec<f64>> {
-    let (pairs, count) = (at.pairs, active.len());
+    let (pairs, count) = (at.pairs.slices.len(), active.len());
     let mut factors = vec![0.0; pairs * count];
     for (column, &own) in active.iter().enumerate() {
         let rest = |factors: &[f64], pair: usize| {
             let known = factors[pair * count..].iter().zip(&factors[own * count..]);
-            let known = known.take(column).map(|(one, other)| one * other);
+            let known = known.take(column).skip(column.saturating_sub(PITCHES));
+            let known = known.map(|(one, other)| one * other);
             at.kappa[pair * pairs + own] - known.sum::<f64>()
         };
         let square = rest(&factors, own);
