@@ -21,6 +21,7 @@ use crate::report::table::Named;
 use crate::study::stiffness::{FIELD, Flanks, GearComparison, Point as FlankPoint};
 use std::f64::consts::PI;
 use std::fmt;
+use std::ops::RangeInclusive;
 
 /// The pictures that are not charts of [`GRAPHS`]; they follow those charts.
 const OTHERS: [Picture; 7] = [
@@ -591,8 +592,8 @@ pub const PATTERN: &str = "contact_pattern";
 
 /// Places of the map along the path of contact.
 const COLUMNS: usize = 120;
-/// The names of the parts of the contact lines.
-const LINES: [&str; 2] = ["contact lines", "outside E to B"];
+/// Greatest number of pairs with a contact line: more of them hide the map.
+const PAIRS: i32 = 8;
 
 /// The line load of the incoming tooth over the plane of action.
 #[derive(Debug, Clone)]
@@ -717,8 +718,12 @@ impl<'a> Pattern<'a> {
         let lines = |is_outside: bool| {
             let lines = self.lines(angle * self.radius, is_outside);
             let line = |line: [Point; 2]| line.map(|(path, z)| (degrees(path), height(z))).to_vec();
-            let (name, kind) = (LINES[usize::from(is_outside)].to_owned(), Kind::Curve);
-            Series { name, pieces: lines.into_iter().map(line).collect(), kind }
+            let name = match self.pairs(angle * self.radius).1 {
+                _ if is_outside => "outside E to B".to_owned(),
+                1 => "contact lines".to_owned(),
+                every => format!("1 in {every} contact lines"),
+            };
+            Series { name, pieces: lines.into_iter().map(line).collect(), kind: Kind::Curve }
         };
         // No line joins the peaks.
         let pieces = peaks.into_iter().map(|peak| vec![peak]).collect();
@@ -744,12 +749,7 @@ impl<'a> Pattern<'a> {
     /// The contact lines with the incoming pair at a path s in the middle of the face: the parts from
     /// E to B, or those outside as far as the tooth touches anywhere, as paths and z, in m.
     fn lines(&self, s: f64, is_outside: bool) -> Vec<[Point; 2]> {
-        let half = 0.5 * self.face.width;
-        let span = self.span().scaled(self.radius);
-        let reach = half * self.face.lead.abs();
-        let [first, last] =
-            [span.from - reach, span.to + reach].map(|to| (to - s) / self.base_pitch);
-        let pairs = (first.ceil() as i32)..=(last.floor() as i32);
+        let (half, span) = (0.5 * self.face.width, self.span().scaled(self.radius));
         let of_pair = |pair: i32| {
             let path = move |z: f64| s + f64::from(pair) * self.base_pitch + self.face.lead * z;
             let z = |to: f64| (to - path(0.0)) / self.face.lead;
@@ -765,7 +765,18 @@ impl<'a> Pattern<'a> {
             };
             parts.into_iter().filter(is_drawn).map(move |part| part.map(|z| (path(z), z)))
         };
-        pairs.flat_map(of_pair).collect()
+        let (pairs, every) = self.pairs(s);
+        pairs.filter(|pair| pair.rem_euclid(every) == 0).flat_map(of_pair).collect()
+    }
+
+    /// The pairs with a contact line, and every how many of them it is drawn.
+    fn pairs(&self, s: f64) -> (RangeInclusive<i32>, i32) {
+        let span = self.span().scaled(self.radius);
+        let reach = 0.5 * self.face.width * self.face.lead.abs();
+        let [first, last] =
+            [span.from - reach, span.to + reach].map(|to| (to - s) / self.base_pitch);
+        let (first, last) = (first.ceil() as i32, last.floor() as i32);
+        (first..=last, ((last - first) / PAIRS + 1).max(1))
     }
 }
 

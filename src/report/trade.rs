@@ -7,7 +7,9 @@ use super::table::item;
 use super::table::{Json, json, sorted};
 use super::table::{Named, Results};
 use crate::model::impact::StiffnessModels;
+use crate::model::inputs::ToothCompliance;
 use crate::numeric::decimal::significant;
+use crate::study::seek::distinct;
 use crate::study::trade::{
     Differences, Finest, METHODS, MeasuredSetting, Setting, Subject, Trade, greatest,
 };
@@ -20,11 +22,20 @@ impl Results for Trade {
                 let method = if self.is_over_face { "static" } else { "dynamic" };
                 format!("No reference: method {method} refuses the case: {refusal}.")
             }
-            Ok(reference) => format!("Reference: {}. {}", reference.setting, build(self)),
+            Ok(Finest { setting, .. }) => {
+                let is_given =
+                    |models: StiffnessModels| models.tooth == ToothCompliance::FROM_TABLE;
+                // The settings over the face width have the compliance of the reference.
+                let has_build = !self.is_over_face || !setting.models.is_some_and(is_given);
+                let build = if has_build { build(self) } else { String::new() };
+                format!("Reference: {setting}. {build}")
+            }
         };
         let mut lines = case.headings("accuracy against run time on this machine");
         let tables = if self.is_over_face { by_slices(self) } else { by_compliance(self) };
-        for section in [item("", &reference), tables, item("", &conclusion(self))] {
+        let refusals = refusals(self);
+        let sections = [item("", &reference), tables, refusals, item("", &conclusion(self))];
+        for section in sections.into_iter().filter(|section| !section.is_empty()) {
             lines.push(String::new());
             lines.extend(section);
         }
@@ -237,9 +248,7 @@ fn by_slices(trade: &Trade) -> Vec<String> {
     let title = "Time of a solve and difference from the reference in %, by number of slices and \
         their coupling. >: the setting of the case.";
     let head = ["  slices", "coupling", "time"].into_iter().chain(SUBJECTS.map(|(_, name)| name));
-    let usual = trade.reference().ok().and_then(|reference| reference.setting.models);
-    let measured = trade.settings.iter().filter(|one| one.setting.models == usual);
-    let rows = measured.map(|measured| {
+    let rows = shown(trade).map(|measured| {
         let Setting { coupled, .. } = measured.setting;
         let mark = if measured.is_current { '>' } else { ' ' };
         let slices = format!("{mark} {}", measured.setting.slices_text());
@@ -254,6 +263,20 @@ fn by_slices(trade: &Trade) -> Vec<String> {
     });
     let table = Table::of_texts(head.map(str::to_owned).collect(), rows);
     [item("", title), table.lines()].concat()
+}
+
+/// The settings of the tables: over the face width, those with the compliance of the reference.
+fn shown(trade: &Trade) -> impl Iterator<Item = &MeasuredSetting> {
+    let usual = trade.reference().ok().and_then(|reference| reference.setting.models);
+    let is_shown = move |one: &&MeasuredSetting| !trade.is_over_face || one.setting.models == usual;
+    trade.settings.iter().filter(is_shown)
+}
+
+/// The reasons of the refusals in the tables.
+fn refusals(trade: &Trade) -> Vec<String> {
+    let reason = |measured: &MeasuredSetting| Some(measured.found.as_ref().err()?.to_string());
+    let reasons = distinct(shown(trade).filter_map(reason));
+    reasons.iter().flat_map(|reason| item("", &format!("Refused: {reason}."))).collect()
 }
 
 /// The models of tooth and contact in at most 22 characters.

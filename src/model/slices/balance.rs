@@ -751,7 +751,9 @@ impl Position<'_> {
             2 => system.lines::<2, 3>(),
             3 => system.lines::<3, 4>(),
             4 => system.lines::<4, 5>(),
-            5..=8 => system.lines::<8, 9>(),
+            5 => system.lines::<5, 6>(),
+            6 => system.lines::<6, 7>(),
+            7..=8 => system.lines::<8, 9>(),
             9..=16 => system.lines::<16, 17>(),
             _ => system.lines::<PAIRS, { PAIRS + 1 }>(),
         }

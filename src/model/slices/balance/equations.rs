@@ -11,7 +11,6 @@ use smallvec::smallvec;
 /// beyond. Each slice has a block of slots, which coordinates far apart along the face share.
 pub(super) struct System<'a> {
     at: &'a Position<'a>,
-    active: &'a [usize],
     carried: &'a [Carried],
     factors: Vec<f64>,
     /// The first and the last slice of each coordinate.
@@ -24,7 +23,7 @@ impl<'a> System<'a> {
     /// `None` if κ is not positive definite.
     pub(super) fn new(
         at: &'a Position<'a>,
-        active: &'a [usize],
+        active: &[usize],
         carried: &'a [Carried],
     ) -> Option<System<'a>> {
         let (count, factors) = (active.len(), factors(at, active)?);
@@ -43,7 +42,7 @@ impl<'a> System<'a> {
             spans[one..].iter().rposition(|other| meets(&other)).map_or(1, |last| last + 1)
         };
         let slots = spans.iter().enumerate().map(reach).max().unwrap_or(1);
-        Some(System { at, active, carried, factors, spans, slots })
+        Some(System { at, carried, factors, spans, slots })
     }
 
     /// ε/(1 + ε).
