@@ -153,7 +153,14 @@ impl Face {
                 include(line_load, FacePlace { z, path });
             }
         }
-        best
+        // The contact under a light load can be between the middles of two slices.
+        let between = || {
+            let (_, place) = self.touch(loads);
+            let (lead, compliance) = self.lead_at(loads, 0, (place.z, place.path))?;
+            (lead > 0.0).then(|| LinePeak { line_load: lead / compliance, place })
+        };
+        let is_between = part == Part::All && best.line_load <= 0.0;
+        Some(best).filter(|_| !is_between).or_else(between).unwrap_or(best)
     }
 
     /// The line load at a slice, and above two smaller neighbours that of the parabola through them: the
