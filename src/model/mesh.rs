@@ -278,7 +278,7 @@ impl Inputs {
 
 impl MeshInputs {
     fn driven_speed(&self) -> f64 {
-        self.speed / (f64::from(self.shape.driven.teeth) / f64::from(self.shape.driver.teeth))
+        self.speed / (self.shape.driven.teeth / self.shape.driver.teeth)
     }
 
     /// The inputs at another speed of the driver, in rad/s.

@@ -27,7 +27,7 @@ pub(crate) fn standard_pair(driver_teeth: u32, driven_teeth: u32, module: f64) -
 
 /// The circles of a gear that a rack cuts, with an addendum coefficient.
 pub(crate) fn circles(rack: &Rack, addendum: f64) -> Circles {
-    let reference = rack.module * f64::from(rack.teeth) / 2.0;
+    let reference = rack.module * rack.teeth / 2.0;
     let base = reference * rack.pressure_angle.cos();
     let tip = reference + rack.module * (rack.profile_shift + addendum);
     Circles {

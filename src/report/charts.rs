@@ -21,7 +21,6 @@ use crate::report::table::Named;
 use crate::study::stiffness::{FIELD, Flanks, GearComparison, Point as FlankPoint};
 use std::f64::consts::PI;
 use std::fmt;
-use std::ops::RangeInclusive;
 
 /// The pictures that are not charts of [`GRAPHS`]; they follow those charts.
 const OTHERS: [Picture; 7] = [
@@ -765,18 +764,18 @@ impl<'a> Pattern<'a> {
             };
             parts.into_iter().filter(is_drawn).map(move |part| part.map(|z| (path(z), z)))
         };
-        let (pairs, every) = self.pairs(s);
-        pairs.filter(|pair| pair.rem_euclid(every) == 0).flat_map(of_pair).collect()
+        self.pairs(s).0.into_iter().flat_map(of_pair).collect()
     }
 
-    /// The pairs with a contact line, and every how many of them it is drawn.
-    fn pairs(&self, s: f64) -> (RangeInclusive<i32>, i32) {
+    /// The pairs whose contact line is drawn, one in how many of them.
+    fn pairs(&self, s: f64) -> (Vec<i32>, i32) {
         let span = self.span().scaled(self.radius);
         let reach = 0.5 * self.face.width * self.face.lead.abs();
         let [first, last] =
             [span.from - reach, span.to + reach].map(|to| (to - s) / self.base_pitch);
         let (first, last) = (first.ceil() as i32, last.floor() as i32);
-        (first..=last, ((last - first) / PAIRS + 1).max(1))
+        let every = ((last - first) / PAIRS + 1).max(1);
+        ((first..=last).filter(|pair| pair.rem_euclid(every) == 0).collect(), every)
     }
 }
 

@@ -7,7 +7,6 @@ use super::table::item;
 use super::table::{Json, json, sorted};
 use super::table::{Named, Results};
 use crate::model::impact::StiffnessModels;
-use crate::model::inputs::ToothCompliance;
 use crate::numeric::decimal::significant;
 use crate::study::seek::distinct;
 use crate::study::trade::{
@@ -23,10 +22,9 @@ impl Results for Trade {
                 format!("No reference: method {method} refuses the case: {refusal}.")
             }
             Ok(Finest { setting, .. }) => {
-                let is_given =
-                    |models: StiffnessModels| models.tooth == ToothCompliance::FROM_TABLE;
                 // The settings over the face width have the compliance of the reference.
-                let has_build = !self.is_over_face || !setting.models.is_some_and(is_given);
+                let is_given = setting.models.is_some_and(|models| models.tooth.reads_table());
+                let has_build = !self.is_over_face || !is_given;
                 let build = if has_build { build(self) } else { String::new() };
                 format!("Reference: {setting}. {build}")
             }

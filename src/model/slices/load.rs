@@ -304,10 +304,9 @@ impl Face {
         let passage = Passage::new(self, None, Incoming::Alike);
         let (places, shares): (Vec<f64>, Vec<f64>) = self.shares(&passage)?.into_iter().unzip();
         let period = passage.samples(&places)?;
-        let all = || period.iter().zip(&shares);
-        let mean = |of: &dyn Fn(&Loads) -> f64| {
-            all().filter(|(_, share)| **share > 0.0).map(|(loads, share)| of(loads) * share).sum()
-        };
+        let all: Vec<_> = period.iter().zip(&shares).filter(|(_, share)| **share > 0.0).collect();
+        let mean =
+            |of: &dyn Fn(&Loads) -> f64| all.iter().map(|(loads, share)| of(loads) * *share).sum();
         let slices = 0..self.slices.len();
         let line_loads: Vec<f64> =
             slices.clone().map(|slice| mean(&|loads| loads.of_all_at(slice))).collect();
@@ -326,7 +325,7 @@ impl Face {
             swing: extreme(&middle) + extreme(&|loads| -middle(loads)),
         };
         let spectrum = Spectrum {
-            amplitudes: harmonics(all(), self.mesh.base_pitch),
+            amplitudes: harmonics(&period, &shares, self.mesh.base_pitch),
             peak_to_peak: extreme(&|loads| loads.displacement)
                 + extreme(&|loads| -loads.displacement),
         };
@@ -359,7 +358,7 @@ impl Face {
             let looks = numeric::steps(ends[0], ends[1], LOOKS).map(|s| passage.loads(s));
             let looks = looks.collect::<Result<Vec<_>, _>>()?;
             for near in looks.windows(2) {
-                let pairs = near[0].pairs();
+                let pairs = near[0].pairs.all();
                 let ends = pairs.flat_map(|ahead| [(ahead, 0), (ahead, self.slices.len() - 1)]);
                 for (ahead, slice) in ends {
                     let lead = |loads: &Loads| loads.lead_at(ahead, slice).clamp(-length, length);
@@ -536,12 +535,9 @@ impl Face {
 }
 
 /// The harmonics of the displacement at places of a base pitch with their parts of it, in m.
-fn harmonics<'a>(
-    period: impl Iterator<Item = (&'a Rc<Loads>, &'a f64)> + Clone,
-    pitch: f64,
-) -> [f64; HARMONICS] {
+fn harmonics(period: &[Rc<Loads>], shares: &[f64], pitch: f64) -> [f64; HARMONICS] {
     std::array::from_fn(|order| {
-        let parts = period.clone().map(|(loads, share)| {
+        let parts = period.iter().zip(shares).map(|(loads, share)| {
             let (sine, cosine) = (TAU * (order + 1) as f64 * loads.s / pitch).sin_cos();
             [loads.displacement * share * cosine, loads.displacement * share * sine]
         });

@@ -666,6 +666,23 @@ fn marked(
     known.iter().zip(numbers).map(|(of, number)| number + mark(of)).collect()
 }
 
+/// The unit of each result, common to the methods and the variants.
+fn common_units(
+    (app, answer): (&App, &Answer),
+    all: &[&'static Quantity],
+    methods: &[Method],
+) -> Vec<&'static str> {
+    let variants = app.shown_variants();
+    let solved = || variants.iter().flat_map(|(variants, _)| &variants.columns);
+    let common = |&quantity: &&'static Quantity| {
+        let of_methods = methods.iter().filter_map(|&method| value(answer, method, quantity));
+        let of_variants = solved()
+            .filter_map(|(_, found)| value_as_in(quantity, found.as_ref().ok()?, answer.active));
+        report::common_unit(quantity, of_methods.chain(of_variants), app.settings.units)
+    };
+    all.iter().map(common).collect()
+}
+
 fn columns(
     app: &App,
     answer: &Answer,
@@ -682,13 +699,7 @@ fn columns(
     let methods = answer.methods.iter().map(|(method, _)| *method);
     let methods: Vec<Method> = methods.filter(|method| is_shown(*method)).collect();
     let solved = || variants.iter().flat_map(|(variants, _)| &variants.columns);
-    let common = |&quantity: &&'static Quantity| {
-        let of_methods = methods.iter().filter_map(|&method| value(answer, method, quantity));
-        let of_variants =
-            solved().filter_map(|(_, found)| value_as_in(quantity, found.as_ref().ok()?, active));
-        report::common_unit(quantity, of_methods.chain(of_variants), app.settings.units)
-    };
-    let units: Vec<_> = all.iter().map(common).collect();
+    let units = common_units((app, answer), all, &methods);
     let unit = |quantity: &'static Quantity| {
         let at = all.iter().position(|known| std::ptr::eq(*known, quantity));
         at.map_or(quantity.shown, |at| units[at])
