@@ -317,8 +317,13 @@ impl Face {
         };
         let cycle = FaceCycle {
             mean_displacement: mean(&|loads| loads.displacement),
+            // The contact under a light load can be between the middles of two slices.
             peak_line_load: slices
-                .map(|slice| self.top(slice, |at| line_loads[at]))
+                .map(|slice| {
+                    let top = self.top(slice, |at| line_loads[at]);
+                    let is_empty = top <= 0.0;
+                    if is_empty { mean(&|loads| loads.mean_of_all_at(slice)) } else { top }
+                })
                 .fold(0.0, f64::max),
             mean_line_load: mean(&|loads| self.over_face(&loads.of_all(), |_| 1.0))
                 / self.inputs.width,
@@ -407,6 +412,13 @@ impl Face {
         leads.chain(near).fold(f64::NEG_INFINITY, f64::max)
     }
 
+    /// Step between the samples of a way of the incoming tooth, in m. On a way over many base pitches the
+    /// slices pass the same states one after the other.
+    fn step(&self, way: f64) -> f64 {
+        const MOST: f64 = 256.0;
+        (self.mesh.base_pitch / (STEPS / 2) as f64).max(way / MOST)
+    }
+
     /// The greatest lead of the incoming tooth before E over the face, or after B, in m, at rest or in a
     /// motion: the displacement under the loads on the rest of its path and of the other pairs less its
     /// gap. Above 0 the tip touches there.
@@ -418,7 +430,7 @@ impl Face {
         course: Option<&Course>,
         at_exit: bool,
     ) -> Result<f64, Refusal> {
-        let (mesh, step) = (&self.mesh, self.mesh.base_pitch / (STEPS / 2) as f64);
+        let mesh = &self.mesh;
         let (from, to, part, incoming) = if at_exit {
             let from = mesh.length - self.reach;
             (from, mesh.ends().1 + self.reach, Part::AfterEnd, Incoming::BeforeEnd(mesh.error))
@@ -426,7 +438,7 @@ impl Face {
             let from = mesh.ends().0 - self.reach;
             (from, self.reach, Part::BeforeStart, Incoming::AfterStart(mesh.error))
         };
-        let count = ((to - from) / step).ceil() as usize;
+        let count = ((to - from) / self.step(to - from)).ceil() as usize;
         let places = (0..=count).map(|number| from + (to - from) * number as f64 / count as f64);
         let passage = Passage::new(self, course, incoming);
         let samples = passage.samples(&places.collect::<Vec<_>>())?;
@@ -624,7 +636,7 @@ impl<'a> Passage<'a> {
         const MOST: usize = 400_000;
         /// Of the steps of a motion, which are many more than an oscillation needs to be seen.
         const EVERY: usize = 2;
-        let step = self.face.mesh.base_pitch / (STEPS / 2) as f64 * part as f64;
+        let step = self.face.step(to - from) * part as f64;
         // Stations are at the same halvings of the ways to E and from E.
         let even = |from: f64, to: f64| {
             let halvings = ((to - from) / step).log2().round().max(1.0);

@@ -84,6 +84,11 @@ impl Loads {
         self.line_loads[slice * self.pairs.slots..][..self.pairs.slots].iter().sum()
     }
 
+    /// Its mean over the slice, in N/m.
+    pub fn mean_of_all_at(&self, slice: usize) -> f64 {
+        self.mean_loads[slice * self.pairs.slots..][..self.pairs.slots].iter().sum()
+    }
+
     /// Mean line load of all pairs over each slice, in N/m.
     pub fn of_all(&self) -> Vec<f64> {
         let slots = self.pairs.slots.max(1);
