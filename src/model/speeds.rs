@@ -86,9 +86,10 @@ impl SpeedCurve {
         self.peaks[1].as_ref().or_else(|| greatest(&self.down))
     }
 
-    /// The greatest peak of the run-up whose N differs from `ratio` by less than a quarter.
+    /// The greatest peak of the run-up whose N differs from `ratio` by less than 0.18: 1/2 and 1/3 have no
+    /// common peak.
     pub fn peak_near(&self, ratio: f64) -> Option<&AtSpeed> {
-        const NEAR: f64 = 0.25;
+        const NEAR: f64 = 0.18;
         let points: Vec<&AtSpeed> = self.up.iter().flatten().collect();
         let is_peak = |of: &[&AtSpeed]| {
             let around = of[0].tooth_factor.max(of[2].tooth_factor);

@@ -9,6 +9,7 @@ use super::inputs::Inputs;
 use super::masses::Masses;
 use super::mesh::Mesh;
 use super::position::{Position, gap_without, tip_at, velocity};
+use crate::numeric::{distinct, steps};
 
 /// Greatest loss of precision of the closed-form gap, as a factor. Beyond it the quadrature
 /// computes the gap.
@@ -260,14 +261,15 @@ pub fn station(
 pub enum Spacing {
     /// This many equal intervals.
     Even(usize),
-    /// Greatest distance of the curve from the straight lines between stations, relative to the
-    /// peak.
+    /// At least [`Spacing::LEAST`] intervals, and more where the curve is farther from the straight lines
+    /// between stations than this part of the peak.
     AsNeeded(f64),
 }
 
 impl Spacing {
-    /// Number of initial intervals if the case gives no number.
-    pub const LOOKS: usize = 8;
+    /// Least number of intervals if the case gives no number. Other curves of the stations can bend
+    /// where the force does not.
+    pub const LEAST: usize = 64;
 
     /// The spacing of the case.
     pub fn of(inputs: &Inputs) -> Spacing {
@@ -277,7 +279,7 @@ impl Spacing {
     /// The values of `at` at the stations from the first to the last of `ends`, including both.
     /// `at` also gives the height of the curve. The curve should have at most one turning point
     /// between two of the ends. Samples the inner ends as well, at most `most` places in total.
-    /// Inner ends become stations only if the curve needs them.
+    /// Inner ends become stations only if they are needed.
     pub fn stations<T>(
         self,
         ends: &[f64],
@@ -313,8 +315,14 @@ impl Spacing {
         match self {
             Spacing::AsNeeded(part) => {
                 let allowed = part * peak;
-                let (samples, rough) = Sampler::along(ends, allowed, most, at);
-                let needed = needed(&samples, LEFT_OUT * allowed);
+                let even = steps(from, to, Spacing::LEAST / PLACES);
+                let mut pieces = distinct(even.chain(ends.iter().copied()).collect(), 0.0);
+                if to < from {
+                    pieces.reverse();
+                }
+                let (samples, rough) = Sampler::along(&pieces, allowed, most, at);
+                let longest = (to - from).abs() / Spacing::LEAST as f64;
+                let needed = filled(&samples, &needed(&samples, LEFT_OUT * allowed), longest);
                 let values = samples.into_iter().enumerate();
                 values
                     .filter(|(at, _)| needed.binary_search(at).is_ok())
@@ -372,9 +380,6 @@ impl<T, F: FnMut(f64) -> (f64, T)> Sampler<T, F> {
     /// whether they are dense enough everywhere.
     fn along(ends: &[f64], allowed: f64, most: usize, at: F) -> (Vec<Sample<T>>, Option<Refusal>) {
         let last = ends[ends.len() - 1];
-        // Begins with two halves, because a symmetric part could hide its bends.
-        let halves = [ends[0], f64::midpoint(ends[0], last), last];
-        let ends = if ends.len() == 2 { &halves } else { ends };
         let fewer = fewer(ends, most / PLACES - 1);
         let is_cut = fewer.is_some();
         let ends = fewer.as_deref().unwrap_or(ends);
@@ -460,6 +465,20 @@ fn needed<T>(samples: &[Sample<T>], allowed: f64) -> Vec<usize> {
     kept
 }
 
+/// The needed samples, with others between them so that no interval is longer than the longest one.
+fn filled<T>(samples: &[Sample<T>], needed: &[usize], longest: f64) -> Vec<usize> {
+    const ROUNDING: f64 = 1e-9;
+    let mut kept = vec![0];
+    for at in 1..samples.len() {
+        let from = samples[kept[kept.len() - 1]].place;
+        let is_far = |next: &Sample<T>| (next.place - from).abs() > longest * (1.0 + ROUNDING);
+        if needed.binary_search(&at).is_ok() || samples.get(at + 1).is_some_and(is_far) {
+            kept.push(at);
+        }
+    }
+    kept
+}
+
 /// The farthest sample, up to `most`, for which a straight line represents all samples between.
 fn furthest<T>(samples: &[Sample<T>], from: usize, most: usize, allowed: f64) -> usize {
     let start = &samples[from];
@@ -523,8 +542,9 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_curve_needs_only_its_ends() {
-        assert_eq!(places(Spacing::AsNeeded(1e-3), &[2.0, 0.0], |x| 3.0 * x), [2.0, 0.0]);
+    fn a_straight_curve_has_the_least_number_of_even_intervals() {
+        let found = places(Spacing::AsNeeded(1e-3), &[2.0, 0.0], |x| 3.0 * x);
+        assert_eq!(found, places(Spacing::Even(Spacing::LEAST), &[2.0, 0.0], |x| 3.0 * x));
     }
 
     #[test]
@@ -546,7 +566,7 @@ mod tests {
                 assert!(off <= tolerance, "{name}: {off:e} for {tolerance:e}");
                 let fewest = fewest(curve, tolerance);
                 assert!(
-                    2 * (found.len() - 1) <= 3 * fewest + 3,
+                    2 * (found.len() - 1) <= 3 * fewest + 2 * Spacing::LEAST,
                     "{name}, {tolerance:e}: {} for {fewest}",
                     found.len() - 1
                 );
@@ -597,6 +617,6 @@ mod tests {
     #[test]
     fn a_curve_of_nan_keeps_all_its_places() {
         let found = places(Spacing::AsNeeded(1e-3), &[0.0, 2.0], |_| f64::NAN);
-        assert_eq!(found.len(), Spacing::LOOKS + 1, "{found:?}");
+        assert_eq!(found.len(), Spacing::LEAST + 1, "{found:?}");
     }
 }

@@ -343,7 +343,7 @@ impl Absence {
             _ if is_shared && is_without => no_contact,
             (_, _, Some(refusal), _) => Absence::Withheld(*refusal),
             (Stage::SpeedRun, ..) if quantity.key.starts_with("resonance_factor_") => {
-                Absence::Because("the dynamic factor has no peak within a quarter of this speed")
+                Absence::Because("the dynamic factor has no peak near this speed")
             }
             (Stage::SteadyMotion | Stage::SpeedRun, ..) => Absence::Because(NO_EVENT),
             _ if is_shared => Absence::Because(NO_EVENT),

@@ -350,7 +350,7 @@ macro_rules! peak_near {
                 $harmonic,
                 " harmonic of the mesh frequency is near the natural frequency."
             ),
-            Found("the greatest peak of max F/max F_st with N less than a quarter away", STEADY),
+            Found("the greatest peak of max F/max F_st with N less than 0.18 of it away", STEADY),
         )
     };
 }

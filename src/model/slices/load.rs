@@ -739,7 +739,10 @@ impl<'a> Passage<'a> {
         }
         let ahead = |place: &FacePlace| -place.path / mesh.base_radii.1;
         let behind = |place: &FacePlace| (place.path - mesh.length) / mesh.base_radii.0;
-        let [before_start, after_end] = [Part::BeforeStart, Part::AfterEnd].map(line_peak);
+        let [all, before_start, after_end] =
+            [Part::All, Part::BeforeStart, Part::AfterEnd].map(line_peak);
+        let peaks = [all, before_start, after_end].into_iter().flatten();
+        let peak = peaks.max_by(|one, other| one.line_load.total_cmp(&other.line_load));
         // Reliefs can let the tooth touch after E at its end and before E farther inside; alike at B.
         // A strike shorter than the steps between the samples is beside its greatest line load.
         let in_part = |peak: Option<LinePeak>, of: &dyn Fn(&Loads) -> f64| {
@@ -785,7 +788,7 @@ impl<'a> Passage<'a> {
                 first: first_place,
                 last: last_place,
                 least_gap: None,
-                peak: line_peak(Part::All).ok_or(Refusal::BeyondReach)?,
+                peak: peak.ok_or(Refusal::BeyondReach)?,
                 before_start,
                 after_end,
                 pattern: samples.iter().map(at_slices).collect(),
