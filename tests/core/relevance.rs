@@ -57,7 +57,7 @@ fn others(field: &Field, index: usize, case: &Case) -> Vec<String> {
             let derived = || case.derived(index, &case.inputs().ok()?);
             let now = case.value(index).or_else(derived);
             let near = [1.02, 0.98, 1.3].map(|times| now.map(|value| value / factor * times));
-            let across = [1e-5, 1e-3, 0.02, 0.3, 0.5005]
+            let across = [0.0, 1e-5, 1e-3, 0.02, 0.3, 0.5005]
                 .map(|part| Some(range.from + (range.to - range.from) * part));
             let text = |value: f64| format!("{value} {}", range.unit).trim_end().to_owned();
             near.into_iter()
