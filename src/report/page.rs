@@ -36,7 +36,7 @@ pub struct Settings {
     /// Title of the page (default: the title of the case)
     #[cfg_attr(feature = "cli", arg(long, value_name = "TEXT"))]
     pub title: Option<String>,
-    /// Leave out the appendix: all results, further charts, studies, sources and case files
+    /// Leave out all results, further charts, sources and case files; studies stay
     #[cfg_attr(feature = "cli", arg(long))]
     pub no_appendix: bool,
     /// Units of the page; .csv and .json are in SI
@@ -289,7 +289,7 @@ impl PageCase<'_> {
         });
         Some(PageCase {
             report,
-            title: report.named().heading(),
+            title: report.named().heading().trim_end_matches(".toml").to_owned(),
             verdict: verdict(report, units),
             limits: limits.collect(),
             notes: notes(report),
