@@ -114,10 +114,12 @@ pub fn digest(
 
 /// Seed of the command `tolerance`.
 const SEED: u64 = 1;
-/// Quantities of variants in addition to the headline quantities.
+/// Forces of variants, by their counterparts in the method, before the headline quantities.
+const FORCES_OF_VARIANTS: [&str; 2] = ["peak_force", "impact_force"];
+/// Quantities of variants after the headline quantities.
 const OF_VARIANTS: [&str; 5] = [
-    "total_deviation",
     "clearing_relief",
+    "total_deviation",
     "static_te_peak_to_peak",
     "mesh_force_factor",
     "steady_back_strikes",
@@ -307,8 +309,8 @@ impl Unsolved<'_> {
             std::iter::once(("case", case.clone())).chain(variants).collect();
         let methods = cases.iter().filter_map(|(_, case)| Some(case.inputs().ok()?.method));
         let methods: Vec<Method> = methods.chain([self.inputs.method]).collect();
-        let others = OF_VARIANTS.iter().filter_map(|key| Quantity::find(key));
-        let only = distinct(headline(case, &methods).into_iter().chain(others));
+        let others = || OF_VARIANTS.iter().filter_map(|key| Quantity::find(key));
+        let only = distinct(headline(case, &methods).into_iter().chain(others()));
         let selection = Selection { only, stations: false };
         let count = cases.len();
         let solved = cases.into_iter().enumerate().map(|(at, (name, case))| {
@@ -317,7 +319,14 @@ impl Unsolved<'_> {
             }
             Ok(compared(name.to_owned(), case, &selection))
         });
-        Ok(Some(comparison(solved.collect::<Result<_, _>>()?, selection.clone())))
+        let mut found = comparison(solved.collect::<Result<_, _>>()?, selection.clone());
+        // The forces by the methods that `auto` chose.
+        let methods = found.cases.iter().filter_map(|case| Some(case.solution()?.method));
+        let methods = distinct(methods);
+        let force = |key| methods.iter().filter_map(move |&by| Quantity::find(key)?.by(by));
+        let forces = FORCES_OF_VARIANTS.into_iter().flat_map(force);
+        found.selection.only = distinct(forces.chain(headline(case, &methods)).chain(others()));
+        Ok(Some(found))
     }
 
     fn tolerance(
