@@ -284,7 +284,13 @@ impl PageCase<'_> {
         let report = subject.own()?;
         let limits = verdicts(&report.case, &report.solution);
         let limits = limits.iter().map(|verdict| {
-            let sentence = with_labels(&verdict.sentence(units));
+            let (limit, sentence) = (verdict.limit, verdict.sentence(units));
+            // A relative limit by the symbol of its result, whatever name the file has.
+            let symbols = limit.of.zip(limit.text.split_once(" x "));
+            let sentence = symbols.map_or(sentence.clone(), |(of, (factor, _))| {
+                sentence.replace(&limit.shown(), &format!("{factor} x {}", of.symbol))
+            });
+            let sentence = with_labels(&sentence);
             (verdict.standing.holds(), verdict.standing.word(), sentence)
         });
         Some(PageCase {
