@@ -130,14 +130,15 @@ struct Html<'a> {
 }
 
 /// Marks of pictures with their meanings; the axes name E.
-const MARKS: [(&str, &str); 7] = [
+const MARKS: [(&str, &str); 8] = [
     ("D", "D is the first contact of the driven tip."),
     ("D'", "D' is the driven tip at the end of the impact."),
     ("", "The path of contact begins at E, A in ISO 21771."),
     ("E z+", "E z+ and E z- are E at the ends of the face, at positive and negative z."),
     ("B", "B is its end, E in ISO 21771."),
     ("P", "P is the pitch point."),
-    ("N1", "The line of action touches the base circles at N1 and N2."),
+    ("N1", "The line of action touches the base circle of the driver at N1."),
+    ("N2", "The line of action touches the base circle of the driven gear at N2."),
 ];
 
 /// The content of a page, without its pictures.

@@ -443,7 +443,8 @@ pub fn teeth(inputs: &Inputs, solution: &Solution, pair: &str, units: System) ->
     for (name, point) in scene.distinct_points(&window, APART / scale) {
         let (x, y) = at(point);
         let (anchor, beside) = if name == "D" { ("end", x - 9.0) } else { ("start", x + 9.0) };
-        let base = y + 4.0;
+        // A label at the frame stays inside.
+        let base = (y + 4.0).clamp(14.0, WINDOW.3 - 5.0);
         let _ = writeln!(
             text,
             "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"4\" class=\"f1\"/>\
