@@ -268,6 +268,8 @@ pub(super) fn go_to_tab(app: &mut App, at: usize) {
     app.others.insert(if at > now { now } else { now - 1 }, before);
     app.place_of_tab = at;
     leave_pattern(app);
+    let study = &mut app.tab.study;
+    study.waits |= study.request.is_none() && app.layout.plan().shows(Pane::Study);
     // The worker may have dropped a request of this tab for a later one.
     if !app.tab.is_settled {
         app.tab.requested = Wanted::NOTHING;
@@ -553,6 +555,7 @@ fn put_tab(app: &mut App, tab: Tab, replaces: bool) {
     leave_pattern(app);
     app.layout.is_zoomed = false;
     app.layout.focus = Pane::Form;
+    app.tab.study.waits = app.layout.plan().shows(Pane::Study);
     app.cursor = None;
     app.solve();
     app.focus_on(focus);

@@ -66,9 +66,16 @@ const METHODS: [Method; 4] = [Method::Exact, Method::Paper, Method::Static, Meth
 /// Requests the visible study if it differs from the last one; stops a hidden one.
 pub(super) fn request(app: &mut App) {
     let is_visible = app.layout.plan().shows(Pane::Study);
+    app.tab.study.waits &= app.layout.focus != Pane::Study;
+    let waits = app.tab.study.waits;
     app.tab.study.state.opened =
-        if is_visible { app.tab.study.state.opened.or(focused(app)) } else { None };
-    let Some(parameters) = is_visible.then(|| parameters(app)) else {
+        if is_visible && !waits { app.tab.study.state.opened.or(focused(app)) } else { None };
+    let unstarted = || {
+        let key = if app.has_line() { "Esc 6" } else { "6" };
+        Err(format!("No study of this case yet: {key} starts it."))
+    };
+    let parameters = is_visible.then(|| if waits { unstarted() } else { parameters(app) });
+    let Some(parameters) = parameters else {
         app.cancel(Slot::Study);
         return;
     };

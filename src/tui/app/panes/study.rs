@@ -153,6 +153,8 @@ pub struct LayerFound {
 pub struct Study {
     /// What the user chose to see.
     pub(crate) state: StudyState,
+    /// Whether the case opened beside the pane, so that no study starts before the pane has the focus.
+    pub(crate) waits: bool,
     /// The present request.
     pub request: Option<StudyRequest>,
     /// The point of the cursor on the first and on the second axis.
