@@ -70,12 +70,10 @@ pub(super) fn request(app: &mut App) {
     let waits = app.tab.study.waits;
     app.tab.study.state.opened =
         if is_visible && !waits { app.tab.study.state.opened.or(focused(app)) } else { None };
-    let unstarted = || {
-        let key = if app.has_line() { "Esc 6" } else { "6" };
-        Err(format!("No study of this case yet: {key} starts it."))
-    };
-    let parameters = is_visible.then(|| if waits { unstarted() } else { parameters(app) });
-    let Some(parameters) = parameters else {
+    let key = if app.has_line() { "Esc 6" } else { "6" };
+    let unstarted = || Err(format!("No study of this case yet: {key} starts it."));
+    let wanted = || if waits { unstarted() } else { parameters(app) };
+    let Some(parameters) = is_visible.then(wanted) else {
         app.cancel(Slot::Study);
         return;
     };
