@@ -229,13 +229,13 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
         has_more |= !is_shown;
         if is_shown && lines.len() > left {
             has_more = true;
-            let end = symbol(&format!(" … ({}n)", app.leave()), app.look.ascii).into_owned();
             is_cut = true;
-            lines = to_clause(&text, &end, width, left)
-                .unwrap_or_else(|| to_word(lines, &end, width, left));
+            // A key and its prefix stay in one line.
+            let end = format!(" … ({}n)", app.leave().replace(' ', "\u{a0}"));
+            lines = shortened(text, &symbol(&end, app.look.ascii), width, left);
         }
         let lines = lines.into_iter().filter(|_| is_shown);
-        head.extend(lines.map(|line| Line::styled(line, style)));
+        head.extend(lines.map(|line| Line::styled(line.replace('\u{a0}', " "), style)));
     }
     let notes = (has_more && !is_cut).then(|| {
         let notes = match app.tab.answer.as_ref().map_or(0, |answer| answer.notes.len()) {
@@ -255,12 +255,21 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
     (head, rows)
 }
 
-/// A text that ends after the last clause with which it has at most `rows` lines, unless the clauses
-/// leave more than one line.
-fn to_clause(text: &str, end: &str, width: usize, rows: usize) -> Option<Vec<String>> {
-    let ends = text.rmatch_indices([',', ';']).map(|(at, _)| text[..at].to_owned() + end);
-    let mut ends = ends.map(|text| text::wrap(&text, width));
-    ends.find(|lines| lines.len() <= rows).filter(|lines| lines.len() + 1 >= rows)
+/// A text of at most `rows` lines without the remarks in brackets that need more, otherwise up to its
+/// last clause that fits, unless that leaves more than one line.
+fn shortened(mut text: String, end: &str, width: usize, rows: usize) -> Vec<String> {
+    let wrapped = |text: &str| text::wrap(&format!("{text}{end}"), width);
+    for remark in ["each with the other", "times that at rest", "times the mesh force"] {
+        let Some((before, after)) = text.split_once(remark) else { continue };
+        let (before, after) = (before.rsplit_once(" ("), after.split_once(')'));
+        text = before.zip(after).map_or(text.clone(), |(kept, rest)| kept.0.to_owned() + rest.1);
+        if wrapped(&text).len() <= rows {
+            return wrapped(&text);
+        }
+    }
+    let mut ends = text.rmatch_indices([',', ';']).map(|(at, _)| wrapped(&text[..at]));
+    let to_clause = ends.find(|lines| lines.len() <= rows).filter(|lines| lines.len() + 1 >= rows);
+    to_clause.unwrap_or_else(|| to_word(text::wrap(&text, width), end, width, rows))
 }
 
 /// The first `rows` lines, the last one with as many words as fit before the end.
@@ -322,7 +331,12 @@ fn sentences(app: &App) -> Vec<Sentence> {
                 _ => of.limit.quantity.symbol,
             };
             let symbols: Vec<_> = of.iter().map(exceeding).collect();
-            (!of.is_empty()).then(|| format!("{}: {}", standing.word(), symbols.join(", ")))
+            // A narrow pane has room for two symbols in one line.
+            let all = symbols.len();
+            let count = if app.area(Pane::Results).width < WIDE { all.min(2) } else { all };
+            let more = if all > count { format!(", +{}", all - count) } else { String::new() };
+            let listed = symbols[..count].join(", ");
+            (all > 0).then(|| format!("{}: {listed}{more}", standing.word()))
         };
         let named = [(Standing::Exceeded, &exceeded), (Standing::Unknown, &unknown)];
         let named: Vec<String> = named.into_iter().filter_map(symbols).collect();
