@@ -21,7 +21,7 @@ use crate::model::static_load::lead_at_rest;
 use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve, solve_while};
 pub use demand::{Criterion, Demand};
 pub use refused::NoRelief;
-use search::{Bench, Grid, MOST_TRIES, Search};
+use search::{Bench, Grid, LEAST, MOST_TRIES, Search};
 
 /// Step of an amount, in m: a drawing states whole micrometres.
 pub const AMOUNT_STEP: f64 = 1e-6;
@@ -223,7 +223,7 @@ impl TipReliefs {
 
     /// Both amounts together, in m.
     pub fn removed(&self) -> f64 {
-        self.amounts[0] + self.amounts[1]
+        decimal(self.amounts[0] + self.amounts[1])
     }
 }
 
@@ -375,8 +375,19 @@ pub fn specify(
         pair.part.set(SEARCH + (1.0 - SEARCH) * f64::from(done) / (kinds + 1.0));
         match pair.cleared(name, reliefs) {
             Ok(choice) => {
-                let same = choices[1..].iter_mut().find(|one| one.reliefs == choice.reliefs);
-                match same {
+                let is_least = choice.name == LEAST;
+                // The amounts grow in whole solves, and another kind can then have the least ones.
+                let is_same = |one: &&mut Choice| match is_least {
+                    true if one.worst.strikes => false,
+                    true => {
+                        choice.worst.strikes || one.reliefs.removed() <= choice.reliefs.removed()
+                    }
+                    false => one.reliefs == choice.reliefs,
+                };
+                let same = choices[1..].iter_mut().filter(is_same);
+                match same
+                    .min_by(|one, other| one.reliefs.removed().total_cmp(&other.reliefs.removed()))
+                {
                     Some(same) => same.name = search::joined(same.name, choice.name),
                     None => choices.push(choice),
                 }
@@ -430,10 +441,10 @@ fn best(choices: &[Choice], criterion: Criterion, mesh_force: f64) -> usize {
         let least = candidates.iter().map(figure).fold(f64::INFINITY, f64::min);
         candidates.retain(|at| figure(at) <= (1.0 + criterion.worth()) * least);
     }
-    // Of equal amounts the shorter relief.
+    // Of equal amounts the smaller figure, then the shorter relief.
     let cost = |at: &usize| {
-        let reliefs = choices[*at].reliefs;
-        [reliefs.removed(), reliefs.lengths[0] + reliefs.lengths[1]]
+        let Choice { reliefs, worst, .. } = &choices[*at];
+        [reliefs.removed(), worst.of(criterion), reliefs.lengths[0] + reliefs.lengths[1]]
     };
     let is_less = |one: &usize, other: &usize| cost(one).partial_cmp(&cost(other));
     let least = candidates.into_iter().min_by(|one, other| is_less(one, other).unwrap_or(Equal));

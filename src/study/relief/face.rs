@@ -65,17 +65,18 @@ type Named = Vec<(&'static str, TipReliefs)>;
 /// # Errors
 /// [`NoRelief::Beyond`] if no relief prevents corner contact, [`NoRelief::Refused`] if the user stops.
 pub(super) fn search(pair: &WholeSolves<'_>) -> Result<(Named, u64), NoRelief> {
-    let (mut found, mut least, mut tries) = (Vec::new(), None, 0);
+    let (mut found, mut least, mut tries) = (Vec::new(), Vec::new(), 0);
     pair.part.set(0.0);
     for (shape, [_, name]) in KINDS {
         let mut search = Search { pair, shape, known: HashMap::new(), least: None };
         if let Some(best) = search.best()? {
             found.push((name, search.reliefs(best)));
         }
-        least = least.or(search.least.map(|place| (LEAST, search.reliefs(place))));
+        least.extend(search.least.map(|place| (LEAST, search.reliefs(place))));
         tries += search.known.len() as u64;
     }
-    found.extend(least);
+    let removed = |(_, reliefs): &(_, TipReliefs)| reliefs.removed();
+    found.extend(least.into_iter().min_by(|one, other| removed(one).total_cmp(&removed(other))));
     if found.is_empty() {
         let [one, other] = pair.grid.most_amounts;
         let steps = [one, other, pair.grid.most_length, pair.grid.most_length];

@@ -173,14 +173,20 @@ impl<'a> Search<'a> {
         &mut self,
         peak: Option<Peak<'_>>,
     ) -> Result<Vec<(&'static str, TipReliefs)>, NoRelief> {
-        let (mut found, mut least) = (Vec::new(), None);
+        let (mut found, mut least) = (Vec::new(), None::<((i32, f64), TipReliefs)>);
         for (shape, names) in KINDS {
             let (mut starts, clear) = self.starts(shape)?;
             let least_sum = clear.iter().map(|(steps, _)| steps[0] + steps[1]).min();
             self.most = least_sum.map_or(i32::MAX, |sum| (MOST_AMOUNT * f64::from(sum)) as i32);
             starts.retain(|(steps, _)| steps[0] + steps[1] <= self.most);
-            let fixed = self.best(shape, &clear, &[])?;
-            least = least.or(fixed.map(|(steps, _)| self.grid.reliefs(shape, steps)));
+            let smallest =
+                clear.into_iter().filter(|(steps, _)| Some(steps[0] + steps[1]) == least_sum);
+            if let Some((steps, error)) = self.best(shape, &smallest.collect::<Vec<_>>(), &[])? {
+                let size = (steps[0] + steps[1], error);
+                if least.is_none_or(|(least, _)| size < least) {
+                    least = Some((size, self.grid.reliefs(shape, steps)));
+                }
+            }
             let alike = (1, &DIRECTIONS[..2], &DIRECTIONS[1..2]);
             for (kind, errors, peaks) in [alike, (0, &DIRECTIONS[1..], &DIRECTIONS[1..])] {
                 let Some(mut best) = self.best(shape, &starts, errors)? else { continue };
@@ -199,7 +205,7 @@ impl<'a> Search<'a> {
                 found.push((kind, names[kind], self.grid.reliefs(shape, best.0)));
             }
         }
-        found.extend(least.map(|reliefs| (2, LEAST, reliefs)));
+        found.extend(least.map(|(_, reliefs)| (2, LEAST, reliefs)));
         if found.is_empty() && self.bench.demand.minimise == Criterion::Entry {
             found.push((2, LEAST_OVERLAP, self.least_overlap()?));
         }
