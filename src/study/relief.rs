@@ -20,7 +20,7 @@ use crate::model::slices::Face;
 use crate::model::static_load::lead_at_rest;
 use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve, solve_while};
 pub use demand::{Criterion, Demand};
-pub use refused::NoRelief;
+pub use refused::{Conditions, NoRelief};
 use search::{Bench, Grid, LEAST, MOST_TRIES, Search};
 
 /// Step of an amount, in m: a drawing states whole micrometres.
@@ -515,7 +515,8 @@ fn grid(
     let least_length = (least / length_step - 1e-9).ceil() as i32;
     let most_length = steps(longest * (1.0 + 1e-9), length_step);
     if least_length > most_length {
-        return Err(NoRelief::ShortPath { length: longest, least, ratio: geometry.contact_ratio });
+        let (of, ratio) = (Conditions::of(demand), geometry.contact_ratio);
+        return Err(NoRelief::ShortPath { of, length: longest, least, ratio });
     }
     let tip = |gear, circles| {
         let thickness = Profile::of(&Rack::of(inputs, gear), circles).tip_thickness();
@@ -614,10 +615,11 @@ impl WholeSolves<'_> {
             return self.choice(name, reliefs, self.worst(&reliefs)?);
         }
         let most = greatest.amounts[0].max(greatest.amounts[1]);
+        let (of, length) = (Conditions::of(self.demand), self.grid.longest());
         Err(if last < 0.0 {
-            NoRelief::Beyond { most, overlap: -last }
+            NoRelief::Beyond { of, length, most, overlap: -last }
         } else {
-            NoRelief::InMotion { most }
+            NoRelief::InMotion { of, length, most }
         })
     }
 
@@ -797,7 +799,7 @@ impl WholeSolves<'_> {
         const LENGTHS: [f64; 6] = [0.25, 0.4, 0.55, 0.7, 0.85, 1.0];
         /// A length of the map this close to the length of the relief is omitted.
         const CLOSE: f64 = 0.03;
-        let longest = self.grid.length_step * f64::from(self.grid.most_length);
+        let longest = self.grid.longest();
         let greatest = reliefs.lengths[0].max(reliefs.lengths[1]);
         let own = greatest / longest;
         let [amounts, lengths] = match self.bench {

@@ -3,6 +3,7 @@
 
 use std::collections::HashMap;
 
+use super::refused::Conditions;
 use super::search::{KINDS, LEAST};
 use super::{Criterion, MOST_AMOUNT, NoRelief, SEARCH, TipReliefs, WholeSolves, decimal, loaded};
 use crate::model::inputs::ReliefShape;
@@ -83,6 +84,8 @@ pub(super) fn search(pair: &WholeSolves<'_>) -> Result<(Named, u64), NoRelief> {
         let most = pair.grid.reliefs(ReliefShape::Linear, steps);
         let overlap = (-pair.worst(&most)?.gap).max(0.0);
         return Err(NoRelief::Beyond {
+            of: Conditions::of(pair.demand),
+            length: pair.grid.longest(),
             most: pair.grid.amount_step * f64::from(one.max(other)),
             overlap,
         });

@@ -2,7 +2,38 @@
 
 use std::fmt;
 
+use super::Demand;
+use crate::case::units::System;
 use crate::model::Refusal;
+use crate::numeric::decimal::shortest;
+
+const FIX: &str = "lower the greatest load or a tolerance, or find the relief with the least force \
+    before E (--minimise entry)";
+
+/// The conditions of a search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Conditions {
+    units: System,
+    /// The greatest load, relative to the load of the case.
+    load: f64,
+    /// The tolerances of amounts and lengths, in m.
+    tolerances: [f64; 2],
+}
+
+impl Conditions {
+    pub(super) fn of(demand: &Demand) -> Conditions {
+        let tolerances = [demand.tolerance, demand.tolerance_length.unwrap_or(0.0)];
+        Conditions { units: demand.units, load: demand.greatest_load(), tolerances }
+    }
+
+    fn um(&self, amount: f64) -> String {
+        self.units.text(amount, "um", 3)
+    }
+
+    fn mm(&self, length: f64) -> String {
+        self.units.text(length, "mm", 3)
+    }
+}
 
 /// Why there is no relief.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,15 +42,21 @@ pub enum NoRelief {
     Refused(Refusal),
     /// The relief without corner contact exceeds the thickness that the tip can lose.
     ThinTip {
+        /// The conditions of the search.
+        of: Conditions,
         /// The gear whose tip is too thin.
         gear: &'static str,
         /// Greatest amount that its tip may lose, in m.
         most: f64,
         /// Overlap that remains with this amount, in m.
         overlap: f64,
+        /// The greatest length, in m.
+        length: f64,
     },
     /// The path of contact has no room for a relief.
     ShortPath {
+        /// The conditions of the search.
+        of: Conditions,
         /// The longest relief, in m.
         length: f64,
         /// The least useful length, in m.
@@ -29,15 +66,23 @@ pub enum NoRelief {
     },
     /// No relief up to this amount prevents corner contact.
     Beyond {
+        /// The conditions of the search.
+        of: Conditions,
         /// The greatest amount, in m.
         most: f64,
         /// Overlap that remains with this amount, in m.
         overlap: f64,
+        /// The greatest length, in m.
+        length: f64,
     },
     /// In motion the teeth touch before E with every evaluated relief.
     InMotion {
+        /// The conditions of the search.
+        of: Conditions,
         /// The greatest evaluated amount, in m.
         most: f64,
+        /// The greatest length, in m.
+        length: f64,
     },
 }
 
@@ -49,45 +94,54 @@ impl From<Refusal> for NoRelief {
 
 impl fmt::Display for NoRelief {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let um = |length: &f64| format!("{:.1} um", length * 1e6);
-        let mm = |length: &f64| format!("{:.2} mm", length * 1e3);
-        let none = "no tip relief prevents corner contact";
-        let fix = "lower the greatest load or a tolerance, or find the relief with the least force \
-            before E (--minimise entry)";
-        match self {
-            NoRelief::Refused(refusal) => write!(f, "{refusal}; {}", refusal.fix()),
-            NoRelief::ThinTip { gear, most, overlap } => write!(
-                f,
-                "{none}: the {gear} tip is thin, its relief is limited to {}, and the teeth still \
-                 overlap by {}; {fix}",
-                um(most),
-                um(overlap)
-            ),
-            NoRelief::ShortPath { length, least, ratio } => write!(
-                f,
-                "{none}: for this load and these tolerances its length is at least {} (20 times \
-                 its amount), and beyond {} {} (contact ratio {ratio:.4}); raise the addendum or \
-                 the number of teeth, or lower the greatest load",
-                mm(least),
-                mm(length),
-                if *ratio < 2.0 {
+        let (of, longest, reason) = match self {
+            NoRelief::Refused(refusal) => return write!(f, "{refusal}; {}", refusal.fix()),
+            NoRelief::ThinTip { of, length, gear, most, overlap } => {
+                let [most, overlap] = [most, overlap].map(|amount| of.um(*amount));
+                let reason = format!(
+                    "the {gear} tip is thin, its relief is limited to {most}, and the teeth still \
+                     overlap by {overlap}; {FIX}"
+                );
+                (of, Some(length), reason)
+            }
+            NoRelief::ShortPath { of, length, least, ratio } => {
+                let [length, least] = [length, least].map(|length| of.mm(*length));
+                let reason = if *ratio < 2.0 {
                     "it reaches the contact of a single pair"
                 } else {
                     "the unrelieved flanks lose contact under light load"
-                }
-            ),
-            NoRelief::Beyond { most, overlap } => write!(
-                f,
-                "{none} up to {}: the teeth still overlap by {}; {fix}",
-                um(most),
-                um(overlap)
-            ),
-            NoRelief::InMotion { most } => write!(
-                f,
-                "{none} in motion up to {}; raise model.damping_ratio or change operation.speed, \
-                 or use --method static",
-                um(most)
-            ),
-        }
+                };
+                let reason = format!(
+                    "its length is at least {least} (20 times its amount), and beyond {length} \
+                     {reason} (contact ratio {ratio:.4}); raise the addendum or the number of \
+                     teeth, or lower the greatest load"
+                );
+                (of, None, reason)
+            }
+            NoRelief::Beyond { of, length, most, overlap } => {
+                let [most, overlap] = [most, overlap].map(|amount| of.um(*amount));
+                let reason = format!("up to {most} the teeth still overlap by {overlap}; {FIX}");
+                (of, Some(length), reason)
+            }
+            NoRelief::InMotion { of, length, most } => {
+                let reason = format!(
+                    "up to {} the teeth touch in motion; raise model.damping_ratio or change \
+                     operation.speed, or use --method static",
+                    of.um(*most)
+                );
+                (of, Some(length), reason)
+            }
+        };
+        let longest = longest.map_or_else(String::new, |length| {
+            format!(" and a length of at most {}", of.mm(*length))
+        });
+        write!(
+            f,
+            "no tip relief prevents corner contact at {} % of the load with tolerances {} on \
+             amounts and {} on lengths{longest}: {reason}",
+            shortest((of.load * 1e4).round() / 100.0),
+            of.um(of.tolerances[0]),
+            of.mm(of.tolerances[1])
+        )
     }
 }

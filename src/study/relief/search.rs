@@ -4,6 +4,7 @@ use std::array::from_fn;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 
+use super::refused::Conditions;
 use super::{Criterion, Demand, MOST_AMOUNT, NoRelief, Off, TipReliefs, decimal};
 use crate::model::geometry::{Geometry, PairShape, geometry};
 use crate::model::inputs::{Gear, ReliefShape};
@@ -86,6 +87,11 @@ pub(super) struct Grid {
 }
 
 impl Grid {
+    /// The greatest length, in m.
+    pub(super) fn longest(&self) -> f64 {
+        self.length_step * f64::from(self.most_length)
+    }
+
     /// The reliefs with amounts increased by `steps`, if the tips allow it.
     pub(super) fn greater(&self, reliefs: &TipReliefs, steps: i32) -> Option<TipReliefs> {
         let more = |at: usize| {
@@ -239,11 +245,13 @@ impl<'a> Search<'a> {
         let worst = self.grid.reliefs(ReliefShape::Linear, steps).off(self.corners[0]);
         let overlap = self.bench.overlap(&worst);
         let most = amount_step * f64::from(one.max(other));
+        let (of, length) = (Conditions::of(self.bench.demand), self.grid.longest());
         match (0..2).find(|&at| tips[at] < most + amount_step) {
             Some(at) => {
-                NoRelief::ThinTip { gear: ["driver", "driven"][at], most: tips[at], overlap }
+                let gear = ["driver", "driven"][at];
+                NoRelief::ThinTip { of, length, gear, most: tips[at], overlap }
             }
-            None => NoRelief::Beyond { most, overlap },
+            None => NoRelief::Beyond { of, length, most, overlap },
         }
     }
 
