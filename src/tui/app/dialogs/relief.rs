@@ -206,7 +206,8 @@ impl Dialog for ReliefDialog {
         let system = |key: &str| rows::written_system(&app.tab.case, key);
         let values =
             report.settings(self.selected, |key| system(key).unwrap_or(app.settings.units));
-        let shown = report.settings(self.selected, |_| app.settings.units);
+        let mut shown = report.settings(self.selected, |_| app.settings.units);
+        shown.retain(|(_, text)| !text.is_empty());
         let take_over = self.take_over;
         Some(Change::of(move |app| take_over(app, &values, &shown)))
     }
