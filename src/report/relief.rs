@@ -28,6 +28,7 @@ impl Specification {
         let costs = ["least_load_error", "least_load_change", "unloaded_contact_ratio", "margin"];
         let costs: Vec<&str> = costs.into_iter().chain(["greatest_load"]).collect();
         let force = if self.is_moving() { "in motion" } else { "at rest" };
+        let map_mark = self.map_mark();
         let gains = has_gains.then(|| {
             (format!("What each relief gains; {}", self.legend(units)), self.gains(units, WIDTH))
         });
@@ -59,16 +60,22 @@ impl Specification {
             (
                 format!(
                     "Map of the {figure} transmission error over length and amount, {um}; - corner \
-                     contact at the greatest load, * the relief to specify"
+                     contact at the greatest load, {map_mark} the {} relief",
+                    if map_mark == '*' { "specified" } else { "best" }
                 ),
                 self.map(units),
             ),
         ];
         let advice = self.advice(units);
         let mut lines: Vec<String> = advice.into_iter().chain([self.demand(units)]).collect();
-        if self.choices[at].reliefs.removed() > 0.0 {
+        let drawn = self.drawn(at);
+        if self.choices[drawn].reliefs.removed() > 0.0 {
+            if drawn != at {
+                let name = self.choices[drawn].name;
+                lines.extend([String::new(), format!("The best relief, \"{name}\"")]);
+            }
             lines.push(String::new());
-            lines.extend(self.drawing(at, units).lines());
+            lines.extend(self.drawing(drawn, units).lines());
         }
         lines.push(String::new());
         lines.extend(self.sentences(at, units));
@@ -191,6 +198,11 @@ impl Specification {
     /// The figure over the loads.
     fn figure(&self) -> &'static str {
         if self.demand.spectrum.is_empty() { "greatest" } else { "mean" }
+    }
+
+    /// The choice whose drawing is shown for a choice: without a relief the best one.
+    fn drawn(&self, at: usize) -> usize {
+        if self.choices[at].reliefs.removed() > 0.0 { at } else { self.best }
     }
 
     /// What a drawing states of a choice.
@@ -442,10 +454,16 @@ impl Specification {
         Table::of_texts(["  relief".to_owned()].into_iter().chain(loads).collect(), rows)
     }
 
+    /// The mark of the best relief in the map, which is not that of the relief to specify if another
+    /// one is specified.
+    fn map_mark(&self) -> char {
+        if self.specified() == self.best { '*' } else { '>' }
+    }
+
     /// One row per length: the figure of the transmission error by amount. The amounts are in one
     /// row, or in one per gear.
     fn map(&self, units: System) -> Table {
-        let chosen = self.chosen().reliefs;
+        let (chosen, mark) = (self.chosen().reliefs, self.map_mark());
         let near = |one: [f64; 2], other: [f64; 2]| (one[0] - other[0]).abs() < 1e-9;
         let cell = |point: &MapPoint| {
             let error = match point.margin {
@@ -454,7 +472,7 @@ impl Specification {
             };
             let is_chosen = near(point.reliefs.amounts, chosen.amounts)
                 && near(point.reliefs.lengths, chosen.lengths);
-            if is_chosen { format!("*{error}") } else { error }
+            if is_chosen { format!("{mark}{error}") } else { error }
         };
         let points = self.map.first().map_or(&[][..], Vec::as_slice);
         let amounts = |at: usize| {
@@ -539,15 +557,23 @@ impl Specification {
 }
 
 impl Results for Specification {
-    /// The diagram of the relief to specify with its tolerances, on the pair of the case.
+    /// The diagram of the relief to specify with its tolerances, on the pair of the case; without a
+    /// relief to specify that of the best one.
     fn picture(&self, inputs: &Inputs) -> Option<Result<Chart, String>> {
         let (amount, length) = (self.demand.tolerance, self.tolerance_length());
-        let specified = self.specified();
-        if specified != self.best && self.choices[specified].reliefs.removed() <= 0.0 {
-            return Some(Err(format!("no relief is advised by the {}", self.criterion())));
+        let Choice { reliefs, name, .. } = &self.choices[self.drawn(self.specified())];
+        if reliefs.removed() <= 0.0 {
+            let criterion = self.criterion();
+            return Some(Err(format!(
+                "no relief to draw: none has less {criterion} than the case"
+            )));
         }
-        let reliefs = self.choices[specified].reliefs.of(inputs).reliefs();
-        Some(relief_chart(&reliefs, &self.geometry, [amount, amount, length, length]))
+        let off = [amount, amount, length, length];
+        let chart = relief_chart(&reliefs.of(inputs).reliefs(), &self.geometry, off);
+        Some(chart.map(|chart| match self.drawn(self.specified()) == self.specified() {
+            true => chart,
+            false => Chart { title: format!("{}: \"{name}\", not advised", chart.title), ..chart },
+        }))
     }
 
     fn lines(&self, case: Named) -> Vec<String> {

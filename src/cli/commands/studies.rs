@@ -320,9 +320,11 @@ impl<Q: Args + Question> Asked<Q> {
         })?;
         let out = destination.out.as_deref();
         if let Some(chart) = found.picture(inputs).filter(|_| format.is_none()) {
-            let chart = chart.map_err(|reason| opened.failed(&reason))?;
-            write_text(out, streams, &draw(&chart, &opened.named().caption()))?;
-            return opened.write(&*found, Format::Text, None, streams);
+            if let Ok(chart) = &chart {
+                write_text(out, streams, &draw(chart, &opened.named().caption()))?;
+            }
+            let done = opened.write(&*found, Format::Text, None, streams)?;
+            return chart.map(|_| done).map_err(|reason| opened.failed(&reason));
         }
         opened.write(&*found, format.unwrap_or(Format::Text), out, streams)?;
         if format == Some(Format::Csv) {
