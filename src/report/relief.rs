@@ -570,9 +570,10 @@ impl Results for Specification {
         }
         let off = [amount, amount, length, length];
         let chart = relief_chart(&reliefs.of(inputs).reliefs(), &self.geometry, off);
-        Some(chart.map(|chart| match self.drawn(self.specified()) == self.specified() {
-            true => chart,
-            false => Chart { title: format!("{}: \"{name}\", not advised", chart.title), ..chart },
+        let is_advised = self.drawn(self.specified()) == self.specified();
+        Some(chart.map(|chart| {
+            let title = format!("{}: \"{name}\", not advised", chart.title);
+            if is_advised { chart } else { Chart { title, ..chart } }
         }))
     }
 
