@@ -145,10 +145,8 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
     format!("Corner contact{angle}{forces}{}{exit}.", relief.unwrap_or_default())
 }
 
-/// The corner contact at the exit, a sentence of its own if there is none at the entry; the remedy if the
-/// force is clearly larger than at the entry.
+/// The corner contact at the exit with its remedy, a sentence of its own if there is none at the entry.
 fn at_exit(solution: &Solution, system: System) -> Option<String> {
-    const LARGER: f64 = 1.05;
     let shown = |key| printed(key, solution, system);
     let load = solution.having(Stage::Static).static_load.as_ref()?;
     let most = Some(load.recess_force).filter(|most| *most > 0.0)?;
@@ -158,15 +156,13 @@ fn at_exit(solution: &Solution, system: System) -> Option<String> {
     let relief_of_entry = clearing.and_then(|clearing| clearing.relief);
     let relief = clearing.and_then(|clearing| clearing.at_exit);
     let required = |on| relief.map(|(given, more)| required(more, given, on, system));
-    let at_rest = if solution.method == Method::Dynamic { " at rest" } else { "" };
+    let at_rest = if solution.method == Method::Dynamic { " (at rest)" } else { "" };
     if solution.outcome == Outcome::CornerContact {
-        let is_larger = most > LARGER * load.approach_force;
-        let required = required("on the driver").filter(|_| is_larger);
-        let required = required.map(|required| {
+        let required = required("on the driver").map(|required| {
             let each = relief_of_entry.map_or("", |_| " (each with the other gear unchanged)");
             format!(", {required}{each}")
         });
-        return Some(format!("; at the exit {force}{at_rest}{}", required.unwrap_or_default()));
+        return Some(format!("; {force} at the exit{at_rest}{}", required.unwrap_or_default()));
     }
     let required =
         required("tip relief on the driver").map(|required| format!("at least {required}"));
