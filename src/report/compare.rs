@@ -425,6 +425,22 @@ pub(crate) fn symbol(key: &str) -> String {
     quantity.map(|quantity| quantity.symbol).or(field).unwrap_or_default().to_owned()
 }
 
+/// The symbol and the label of an input. An input without a symbol has its label instead.
+pub(crate) fn names(key: &str) -> [String; 2] {
+    let (kind, subject) = key.split_once('.').unwrap_or_default();
+    let symbol = symbol(key);
+    let field = if kind == "spread" { subject.trim_matches('"') } else { key };
+    let quantity = Quantity::find(subject).filter(|_| kind == "limits");
+    let label = index_of(field).map(|field| FIELDS[field].label);
+    let label = quantity.map(|quantity| quantity.label.trim_start()).or(label).unwrap_or(key);
+    match kind {
+        "limits" => [format!("{symbol} limit"), label.to_owned()],
+        "spread" => [format!("{symbol} spread"), label.to_owned()],
+        _ if symbol.is_empty() => [label.to_owned(), String::new()],
+        _ => [symbol, label.to_owned()],
+    }
+}
+
 /// A to Z, then AA and so on.
 fn letter(at: usize) -> String {
     let last = char::from(b'A' + (at % 26) as u8);

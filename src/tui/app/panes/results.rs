@@ -43,10 +43,14 @@ pub struct ResultsState {
 }
 
 impl App {
-    /// The quantities in their order.
+    /// The visible quantities; beside variants their required relief is first.
     pub fn listed_results(&self) -> Vec<&'static Quantity> {
         let order = |answer| order(answer, self.shows_every_method);
-        self.shown_answer().map_or_else(Vec::new, order)
+        let mut listed = self.shown_answer().map_or_else(Vec::new, order);
+        if self.shown_variants().is_some() {
+            listed.sort_by_key(|quantity| quantity.stage != Stage::Clearing);
+        }
+        listed
     }
 
     /// The selected line among the quantities.
@@ -812,7 +816,7 @@ fn add_inputs(app: &App, inputs: &[(String, Vec<String>)], columns: &mut [Column
         if app.area(Pane::Results).width < WIDE { NARROW_INPUT } else { [LONGEST_INPUT; 3] };
     let cut = |text: &str, most| text::cut(&sanitize(text), most);
     for (row, (key, texts)) in inputs.iter().enumerate() {
-        let [own, label] = names_of(key);
+        let [own, label] = compare::names(key);
         let own = cut(&symbol(&own, app.look.ascii), of_name);
         let is_field = index_of(key).is_some();
         let of_variant = if is_field { of_field } else { of_variant };
@@ -822,22 +826,6 @@ fn add_inputs(app: &App, inputs: &[(String, Vec<String>)], columns: &mut [Column
         let case = [own, label, cut(&texts[0], of_field), String::new()];
         let cells = case.into_iter().chain(others);
         columns.iter_mut().zip(cells).for_each(|(column, cell)| column.cells.insert(row, cell));
-    }
-}
-
-/// The symbol and the label of an input. An input without a symbol has its label instead.
-fn names_of(key: &str) -> [String; 2] {
-    let (kind, subject) = key.split_once('.').unwrap_or_default();
-    let symbol = compare::symbol(key);
-    let field = if kind == "spread" { subject.trim_matches('"') } else { key };
-    let quantity = Quantity::find(subject).filter(|_| kind == "limits");
-    let label = index_of(field).map(|field| FIELDS[field].label);
-    let label = quantity.map(|quantity| quantity.label.trim_start()).or(label).unwrap_or(key);
-    match kind {
-        "limits" => [format!("{symbol} limit"), label.to_owned()],
-        "spread" => [format!("{symbol} spread"), label.to_owned()],
-        _ if symbol.is_empty() => [label.to_owned(), String::new()],
-        _ => [symbol, label.to_owned()],
     }
 }
 
