@@ -255,6 +255,9 @@ impl Runs<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::inputs::Method;
+    use crate::model::sample::standard_pair;
+    use crate::model::{Stage, Stages, solve};
 
     /// Points from tooth factor and loss of contact.
     fn run(points: &[Option<(f64, bool)>]) -> Vec<Option<AtSpeed>> {
@@ -277,6 +280,41 @@ mod tests {
             present: 1.0,
             resonance: 1.0,
             is_cut: false,
+        }
+    }
+
+    /// The greatest tooth force at falling speeds near resonance, and whether contact is lost.
+    fn falling(inputs: &Inputs) -> Vec<(f64, bool)> {
+        let ratios: Vec<f64> = (0..17).map(|at| 1.05 - 0.025 * f64::from(at)).collect();
+        let inputs = Inputs { method: Method::Dynamic, ..inputs.clone() };
+        let solution = solve(&inputs, Stages::of(Stage::Mesh).with(Stage::Masses)).unwrap();
+        let mesh = Arc::new(wide_mesh(&inputs, &solution).unwrap());
+        let resonance = Resonance::of(inputs.speed, &mesh, solution.reduced_mass);
+        let settings = Settings::steady(&inputs, solution.reduced_mass);
+        let face = inputs.face().map(|face| Face::new(&face, &solution.geometry, &mesh).unwrap());
+        let speed = |ratio: f64| inputs.speed / resonance.ratio() * ratio;
+        let slowest = speed(ratios[16]) * mesh.base_radii.0;
+        let springs = face.as_ref().map(|face| Springs::new(face, &settings, slowest));
+        let (springs, work) = (springs.as_ref(), Meter::new(WORK));
+        let runs =
+            Runs { mesh: &mesh, springs, settings, tooth_force: 1.0, resonance: speed(1.0), work };
+        let mut last = None;
+        let at = |ratio| {
+            let found = runs.at(speed(ratio), &mut last).unwrap().unwrap();
+            (found.tooth_factor, found.contact_lost)
+        };
+        ratios.into_iter().map(at).collect()
+    }
+
+    #[test]
+    fn a_pair_over_the_face_repeats_after_loss_of_contact_as_the_spur_pair_does() {
+        let mut inputs = standard_pair(16, 24, 4.5e-3);
+        let spur = falling(&inputs);
+        inputs.helix_angle = 1e-8;
+        let over_face = falling(&inputs);
+        assert!(spur.iter().any(|(_, is_lost)| *is_lost));
+        for ((one, is_lost), (other, is_lost_too)) in spur.into_iter().zip(over_face) {
+            assert!((one / other - 1.0).abs() < 1e-3 && is_lost == is_lost_too, "{one} {other}");
         }
     }
 

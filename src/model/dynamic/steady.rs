@@ -132,7 +132,7 @@ fn repeated(
         return Ok(None);
     }
     let mut round = Round::begin(motion, settings, from, meter)?;
-    let found = periodic(round.start(), motion.scale(), go_on, |start| {
+    let found = periodic(round.start(), (motion.scale(), EXACT), go_on, |start| {
         round.run.y = start.state;
         round.lap(|_, _, _| ())?;
         Ok((!round.run.misses_back).then(|| round.start()))
@@ -144,26 +144,46 @@ fn repeated(
     round.measured(periods).map(Some)
 }
 
+/// Greatest change of the state in a repetition of exact steps, relative to the scale of the motion.
+const EXACT: f64 = 1e-9;
+
 /// The start of a base pitch from which the motion repeats, with the number of base pitches in a
-/// period. `lap` computes the next start; `None` if it finds none.
+/// period. `lap` computes the next start, with an error of `precision` scales; `None` if it finds none.
+/// A motion whose errors never repeat exactly repeats if it stays within the precision.
 pub(in crate::model) fn periodic(
     mut start: Start,
-    scale: State,
+    (scale, precision): (State, f64),
     go_on: &dyn Fn(f64) -> bool,
     mut lap: impl FnMut(&Start) -> Result<Option<Start>, Refusal>,
 ) -> Result<Option<(Start, u32)>, Refusal> {
+    /// Greatest distance of the last two states from which a fixed point is sought, relative to the
+    /// scale of the state.
+    const NEAR: f64 = 0.03;
+    /// Change of the state that is not another motion.
+    const NEARLY: f64 = 1e-6;
+    /// Base pitches within the precision after which the rest of the change is lost in the errors.
+    const ENOUGH: u32 = 30;
     let mut before: Vec<Start> = Vec::with_capacity(PERIODS);
+    let (mut near, mut repeated) = (NEAR, 0);
     for laps in 0..MOST_LAPS {
         let done = f64::from(laps) / f64::from(MOST_LAPS);
         if !go_on(done) {
             return Err(Refusal::Stopped);
         }
-        if let Some(periods) = repetition(scale, &before, &start) {
-            return Ok(Some((start, periods)));
+        let moved: Vec<f64> = before.iter().map(|then| start.moved_since(then, scale)).collect();
+        let period =
+            |most: f64| moved.iter().position(|&moved| moved <= most).map(|at| at as u32 + 1);
+        repeated = if period(precision).is_some() { repeated + 1 } else { 0 };
+        // A nearly equal state after fewer base pitches counts as the period.
+        let nearly = precision.max(NEARLY);
+        if period(EXACT).is_some() || repeated > ENOUGH {
+            return Ok(period(nearly).map(|periods| (start, periods)));
         }
-        if let Some(state) = fixed_point(scale, &before, &start) {
+        if let Some((state, distance)) = fixed_point(scale, &before, &start, near) {
             start.state = state;
             before.clear();
+            // Errors of the steps bring the states no nearer.
+            near = 0.5 * distance;
         } else {
             before.insert(0, start.clone());
             before.truncate(PERIODS);
@@ -180,30 +200,15 @@ pub(in crate::model) fn periodic(
     Err(Refusal::NoSteadyMotion { pitches: MOST_LAPS })
 }
 
-/// The number of base pitches in a period. `None` without repetition. `before` begins with the last
-/// start.
-fn repetition(scale: State, before: &[Start], now: &Start) -> Option<u32> {
-    /// Relative to the scale of the state.
-    const NONE: f64 = 1e-9;
-    /// With a repetition after several base pitches, a nearly equal state after fewer counts as the
-    /// period.
-    const NEARLY: f64 = 1e-6;
-    let moved: Vec<f64> = before.iter().map(|then| now.moved_since(then, scale)).collect();
-    moved.iter().position(|&moved| moved <= NONE)?;
-    let first = moved.iter().position(|&moved| moved <= NEARLY)?;
-    Some(first as u32 + 1)
-}
-
 /// The state that repeats with every base pitch, if the last four states approach it: the fixed
-/// point of the linear map through their differences. `before` begins with the last start.
+/// point of the linear map through their differences, with the distance of the last two, which is at
+/// most `near` in scales of the state. `before` begins with the last start.
 ///
 /// # Formula
 /// ```text
 /// v_n = y_n+1 − y_n,   A = (v_1 v_2)(v_0 v_1)⁻¹,   y* = y_3 + (1 − A)⁻¹ A v_2
 /// ```
-fn fixed_point(scale: State, before: &[Start], now: &Start) -> Option<State> {
-    /// Greatest distance of the last two states, relative to the scale of the state.
-    const NEAR: f64 = 0.03;
+fn fixed_point(scale: State, before: &[Start], now: &Start, near: f64) -> Option<(State, f64)> {
     /// Greatest distance of the fixed point, in distances of the last two states.
     const FAR: f64 = 10.0;
     /// Least angle between two differences, in rad.
@@ -218,13 +223,13 @@ fn fixed_point(scale: State, before: &[Start], now: &Start) -> Option<State> {
     let (v0, v1, v2) = (y1 - y0, y2 - y1, y3 - y2);
     let differences = Matrix2::from_columns(&[v0, v1]);
     let is_flat = differences.determinant().abs() <= LEAST_ANGLE * v0.norm() * v1.norm();
-    if is_flat || v2.norm() > NEAR {
+    if is_flat || v2.norm() > near {
         return None;
     }
     let map = Matrix2::from_columns(&[v1, v2]) * differences.try_inverse()?;
     let way = (Matrix2::identity() - map).try_inverse()? * map * v2;
     let is_sound = map.determinant().abs() < MOST_GROWTH && way.norm() <= FAR * v2.norm();
-    is_sound.then(|| (y3 + way).component_mul(&scale))
+    is_sound.then(|| ((y3 + way).component_mul(&scale), v2.norm()))
 }
 
 /// A run that repeats one base pitch.

@@ -24,6 +24,9 @@ const MOST_WORK: f64 = 4e6;
 /// Smaller errors of the balances and of the peaks are lost among those of the usual number of slices.
 const OF_SLICES: f64 = 1e-4;
 
+/// The harmonics of a motion at resonance are ten times as sensitive as its peaks.
+const OF_HARMONICS: f64 = 1e-5;
+
 /// The force of the mesh at even places of a base pitch, for any displacement. What is known of a place
 /// serves again, since a motion returns to it in every base pitch.
 pub(in crate::model) struct Springs<'a> {
@@ -59,8 +62,6 @@ struct Point {
 impl<'a> Springs<'a> {
     /// The places for steady motions at this speed along the line of action and above.
     pub(in crate::model) fn new(face: &'a Face, settings: &Settings, speed: f64) -> Springs<'a> {
-        /// The harmonics of a motion at resonance are ten times as sensitive as its peaks.
-        const OF_HARMONICS: f64 = 1e-5;
         Springs::within(OF_HARMONICS, face, settings, speed)
     }
 
@@ -240,7 +241,7 @@ impl<'a, 'b> Motion<'a, 'b> {
     ) -> Result<State, Refusal> {
         /// Change of the stiffness that smaller steps resolve, and the smallest of them.
         const SUDDEN: f64 = 0.1;
-        const HALVINGS: u32 = 6;
+        const HALVINGS: u32 = 16;
         /// The mesh jumps at a border. Of the length of the part.
         const INSIDE: f64 = 1e-9;
         let aside = INSIDE * (part.1 - part.0);
@@ -421,7 +422,7 @@ pub(in crate::model) fn steady(
     let lap = |start: &Start| {
         motion.pitch(0, start.state, &mut |_| ()).map(|state| Some(Start::of_state(state)))
     };
-    let found = periodic(start, motion.scale(), go_on, lap)?;
+    let found = periodic(start, (motion.scale(), OF_HARMONICS), go_on, lap)?;
     let (start, periods) = found.ok_or(Refusal::BeyondReach)?;
     let mut moments = vec![Moment { s: 0.0, state: start.state, force: 0.0, touches: true }];
     for lap in 0..periods {
