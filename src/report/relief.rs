@@ -32,8 +32,7 @@ impl Specification {
         let gains = has_gains.then(|| {
             (format!("What each relief gains; {}", self.legend(units)), self.gains(units, WIDTH))
         });
-        // The relief of the case is compared with the best one.
-        let compared = if at == 0 { self.best } else { at };
+        let compared = self.compared(at);
         let before = (
             format!(
                 "Before and after with \"{}\", forces {force} at {greatest} % of the load",
@@ -78,7 +77,7 @@ impl Specification {
             lines.extend(self.drawing(drawn, units).lines());
         }
         lines.push(String::new());
-        lines.extend(self.sentences(at, units));
+        lines.extend(self.sentences(drawn, units));
         for (title, table) in [before].into_iter().chain(gains).chain(others) {
             lines.extend([String::new(), title]);
             lines.extend(table.lines());
@@ -109,9 +108,9 @@ impl Specification {
     fn advice(&self, units: System) -> Vec<String> {
         let other = if self.choices[0].reliefs.removed() > 0.0 { "other " } else { "" };
         let criterion = self.criterion();
-        let reason = match self.best {
+        let reason = match self.compared(0) {
             _ if self.is_advised() => return Vec::new(),
-            0 => format!("the relief of the case has about the least {criterion}"),
+            0 => format!("the relief of the case has the least {criterion}"),
             best => {
                 let name = self.choices[best].name;
                 format!("the best, \"{name}\", changes the {}", self.changes(best, units))
@@ -287,8 +286,11 @@ impl Specification {
                  {over_loads}{at_first}.",
                 self.figure(),
             ));
-            lines
-                .push(format!("Gain and cost within the tolerances: {}.", self.changes(at, units)));
+            // The reason why no relief is advised has them.
+            if self.is_advised() || at != self.compared(0) {
+                let changes = self.changes(at, units);
+                lines.push(format!("Gain and cost within the tolerances: {changes}."));
+            }
         }
         let ratio = own.unloaded_contact_ratio + self.helix.overlap_ratio;
         if ratio < 1.0 {
@@ -313,10 +315,8 @@ impl Specification {
 
     /// The choice with the best figure, if it is another one than `own`.
     fn alternative(&self, own: &Choice, units: System) -> Option<String> {
-        let Specification { choices, demand, .. } = self;
-        let figure = |choice: &Choice| choice.worst.of(demand.minimise);
-        let best = choices.iter().filter(|choice| !choice.worst.strikes);
-        let best = best.min_by(|one, other| figure(one).total_cmp(&figure(other)))?;
+        let figure = |choice: &Choice| choice.worst.of(self.demand.minimise);
+        let best = &self.choices[self.least()?];
         let gain = 1.0 - figure(best) / figure(own);
         let cost = best.reliefs.removed() - own.reliefs.removed();
         (gain >= 0.005 && cost > 0.0).then(|| {

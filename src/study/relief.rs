@@ -284,6 +284,23 @@ impl Specification {
         &self.choices[self.best]
     }
 
+    /// Index of the choice with the least figure of those without corner contact.
+    pub fn least(&self) -> Option<usize> {
+        let figure = |at: &usize| self.choices[*at].worst.of(self.demand.minimise);
+        let open = (0..self.choices.len()).filter(|at| !self.choices[*at].worst.strikes);
+        open.min_by(|one, other| figure(one).total_cmp(&figure(other)))
+    }
+
+    /// The choice whose figures are shown beside those of the case: for the case the best one, or if
+    /// none is better by the rule, the one with the least figure.
+    pub fn compared(&self, at: usize) -> usize {
+        match (at, self.best) {
+            (0, 0) => self.least().unwrap_or(0),
+            (0, best) => best,
+            (own, _) => own,
+        }
+    }
+
     /// Whether the [`RULE`] advises the best choice. The relief of the case needs no advice.
     pub fn is_advised(&self) -> bool {
         let Specification { demand, mesh_force, .. } = self;
