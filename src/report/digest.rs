@@ -107,12 +107,11 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
     let most = most.map(|most| format!("{most} on a tooth{at_rest}{ratio}"));
     if solution.outcome == Outcome::NoCornerContact {
         let why = without_contact_in_full(solution, system);
-        let most = most.map(|most| format!("; up to {most}")).unwrap_or_default();
-        let none = format!("{why}{most}.");
-        return match at_exit(solution, system) {
-            Some(exit) => format!("{exit}. None at the entry: {none}"),
-            None => format!("No corner contact: {none}"),
-        };
+        let up_to = |before| most.as_ref().map(|most| format!("{before} up to {most}"));
+        return at_exit(solution, up_to(",").unwrap_or_default(), system).map_or_else(
+            || format!("No corner contact: {why}{}.", up_to(";").unwrap_or_default()),
+            |exit| format!("{exit}; none at the entry: {why}."),
+        );
     }
     let angle = own("approach_angle_driver", solution).zip(first_contact_of_driver(solution));
     let angle = angle.map(|(own, angle)| shown_in(own, angle, system));
@@ -140,13 +139,14 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
         (Some((tip, ratio)), None) => format!(": free impact {tip}{ratio}"),
         _ => String::new(),
     };
-    let exit = at_exit(solution, system).unwrap_or_default();
+    let exit = at_exit(solution, String::new(), system).unwrap_or_default();
     let relief = relief(solution, system, is_pending).map(|relief| format!("; {relief}"));
     format!("Corner contact{angle}{forces}{}{exit}.", relief.unwrap_or_default())
 }
 
-/// The corner contact at the exit with its remedy, a sentence of its own if there is none at the entry.
-fn at_exit(solution: &Solution, system: System) -> Option<String> {
+/// The corner contact at the exit with its remedy; the whole verdict, with the greatest force of a
+/// tooth, if there is none at the entry.
+fn at_exit(solution: &Solution, greatest: String, system: System) -> Option<String> {
     let shown = |key| printed(key, solution, system);
     let load = solution.having(Stage::Static).static_load.as_ref()?;
     let most = Some(load.recess_force).filter(|most| *most > 0.0)?;
@@ -170,8 +170,9 @@ fn at_exit(solution: &Solution, system: System) -> Option<String> {
     let closes_gap = clearing.is_some_and(|clearing| clearing.closes_gap);
     let but = if closes_gap { ", but would cause contact at the entry" } else { "" };
     Some(format!(
-        "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's tip; \
-            {required} prevents it{but}"
+        "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's tip \
+            ({:.2} times the mesh force){greatest}; {required} prevents it{but}",
+        most / solution.mesh_force
     ))
 }
 
@@ -369,7 +370,7 @@ mod tests {
         let in_motion = of("dynamic").outcome;
         assert!(
             in_motion.contains(
-                "None at the entry: no contact before E in motion; at rest the tooth touches, 1."
+                "none at the entry: no contact before E in motion; at rest the tooth touches, 1."
             ),
             "{in_motion}"
         );
@@ -388,7 +389,7 @@ mod tests {
         assert!(at_exit.starts_with("Corner contact at the exit, until "), "{at_exit}");
         assert!(
             at_exit
-                .contains(" um tip relief on the driver prevents it. None at the entry: the tip"),
+                .contains(" um tip relief on the driver prevents it; none at the entry: the tip"),
             "{at_exit}"
         );
         let closes_gap = |relief| {
@@ -397,7 +398,7 @@ mod tests {
             let inputs = Inputs { method: Method::Dynamic, ..case.inputs().unwrap() };
             let solution = model::solve(&inputs, STAGES.and(Stages::of(Stage::Clearing))).unwrap();
             let verdict = sentence(&solution, System::Metric, false);
-            verdict.contains(" prevents it, but would cause contact at the entry. None ")
+            verdict.contains(" prevents it, but would cause contact at the entry; none ")
         };
         assert!(closes_gap("39 um") && !closes_gap("43 um"));
         let relieved = of("80 um");
