@@ -275,6 +275,12 @@ impl<'a> Page<'a> {
         self.cases.iter().any(|case| !case.notes.is_empty())
     }
 
+    /// Whether the studies are a few lines, which fit on the first sheet.
+    fn has_short_studies(&self) -> bool {
+        let has_no_rows = |case: &PageCase| case.studies.iter().all(|study| study.rows.is_empty());
+        self.is_single() && self.has_studies() && self.cases.iter().all(has_no_rows)
+    }
+
     fn has_studies(&self) -> bool {
         self.cases.iter().any(|case| !case.studies.is_empty())
     }
