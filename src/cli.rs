@@ -556,7 +556,7 @@ impl Exit {
     /// Every exit code with its meaning.
     const MEANINGS: [(Exit, &'static str); 6] = [
         (Exit::Done, "done"),
-        (Exit::Exceeded, "a limit is exceeded, or its quantity has no value"),
+        (Exit::Exceeded, "check: a limit is exceeded, or its quantity has no value"),
         (Exit::Usage, "wrong usage, or no terminal for the workbench"),
         (Exit::BadCase, "an invalid case, or a case that cannot be solved"),
         (Exit::NewerFormat, "a case of a newer format"),
