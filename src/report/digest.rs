@@ -108,7 +108,7 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
     if solution.outcome == Outcome::NoCornerContact {
         let why = without_contact_in_full(solution, system);
         let up_to = |before| most.as_ref().map(|most| format!("{before} up to {most}"));
-        return at_exit(solution, up_to(",").unwrap_or_default(), system).map_or_else(
+        return at_exit(solution, &up_to(",").unwrap_or_default(), system).map_or_else(
             || format!("No corner contact: {why}{}.", up_to(";").unwrap_or_default()),
             |exit| format!("{exit}; none at the entry: {why}."),
         );
@@ -139,14 +139,14 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
         (Some((tip, ratio)), None) => format!(": free impact {tip}{ratio}"),
         _ => String::new(),
     };
-    let exit = at_exit(solution, String::new(), system).unwrap_or_default();
+    let exit = at_exit(solution, "", system).unwrap_or_default();
     let relief = relief(solution, system, is_pending).map(|relief| format!("; {relief}"));
     format!("Corner contact{angle}{forces}{}{exit}.", relief.unwrap_or_default())
 }
 
 /// The corner contact at the exit with its remedy; the whole verdict, with the greatest force of a
 /// tooth, if there is none at the entry.
-fn at_exit(solution: &Solution, greatest: String, system: System) -> Option<String> {
+fn at_exit(solution: &Solution, greatest: &str, system: System) -> Option<String> {
     let shown = |key| printed(key, solution, system);
     let load = solution.having(Stage::Static).static_load.as_ref()?;
     let most = Some(load.recess_force).filter(|most| *most > 0.0)?;
