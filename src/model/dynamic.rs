@@ -22,6 +22,7 @@ use side::{PairName, TERMS};
 use steady::{RepeatDetector, Start};
 pub use watch::Rattle;
 use watch::Watch;
+pub(super) use watch::first_valley;
 
 /// Part of the tolerance for one step. Measured over the reference pairs, the peak force then meets
 /// the tolerance with a margin.
@@ -38,8 +39,8 @@ pub struct Dynamic {
     pub peak_approach_force: f64,
     /// Greatest force of the incoming tooth, in N.
     pub peak_force: f64,
-    /// Time from a first contact before E to the first minimum of the force after the first peak,
-    /// or to the loss of contact, in s.
+    /// Time from a first contact before E to the first valley of the force, or to the loss of contact, in
+    /// s. A fall of less than a hundredth of the peak is no valley.
     pub impact_duration: Option<f64>,
     /// Least gap between the incoming tooth and the flank before E, in m. `None` if the tooth
     /// touches before E.

@@ -304,3 +304,11 @@ fn the_stations_include_every_peak() {
         assert!(dynamic.stations.is_sorted_by(|one, other| one.time() < other.time()));
     }
 }
+
+#[test]
+fn an_impact_ends_at_a_valley_and_not_at_a_ripple() {
+    let valley = |forces: &[f64]| first_valley(forces.iter().copied());
+    assert_eq!(valley(&[0.0, 5.0, 10.0, 9.95, 12.0, 6.0, 6.05, 5.5, 7.0]), Some(7));
+    assert_eq!(valley(&[0.0, 3.0, 0.0, 0.0, 2.0]), Some(2));
+    assert_eq!(valley(&[0.0, 1.0, 2.0]), None);
+}

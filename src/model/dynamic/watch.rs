@@ -44,7 +44,8 @@ struct Swings {
     peak_before_start: f64,
     /// Times of the turning points, in s.
     turns: Vec<f64>,
-    phases: Vec<Phase>,
+    /// Times in s and forces in N at the ends of stretches with a monotonic force.
+    ends: Vec<(f64, f64)>,
 }
 
 impl Watch {
@@ -127,7 +128,7 @@ impl Watch {
             Some((motion.place(t) - mesh.length) / mesh.base_radii.0).filter(|&angle| angle > 0.0)
         };
         let swings = self.swings(motion);
-        let end = || end_of_first_impact(&swings.phases, swings.peak);
+        let valley = || first_valley(swings.ends.iter().map(|(_, force)| *force));
         let (stations, rough) = first.zip(last).map_or((Vec::new(), None), |contact| {
             self.stations(motion, &swings, contact, settings.spacing)
         });
@@ -136,7 +137,7 @@ impl Watch {
             last_contact_angle: last.and_then(after_end),
             peak_approach_force: swings.peak_before_start,
             peak_force: swings.peak,
-            impact_duration: early.and_then(|first| end().map(|end| end - first)),
+            impact_duration: early.and_then(|first| valley().map(|at| swings.ends[at].0 - first)),
             least_gap: early.is_none().then(|| -self.lead(motion)).filter(|gap| gap.is_finite()),
             contact_lost: self.contact_lost,
             rattle: motion.has_backlash().then(|| self.rattle.found()),
@@ -200,10 +201,8 @@ impl Watch {
 
     fn swings(&self, motion: &Motion<'_>) -> Swings {
         let mut swings = Swings::default();
-        let mut follows_gap = true;
         for (course, incoming, step) in self.steps(motion) {
             if !course.touches(incoming) {
-                follows_gap = true;
                 continue;
             }
             let force = course.force_along(incoming, step);
@@ -217,11 +216,7 @@ impl Watch {
             if step.t + 0.5 * step.length < 0.0 {
                 swings.peak_before_start = swings.peak;
             }
-            for ends in ends.windows(2) {
-                let rise = force.at(ends[1]) - force.at(ends[0]);
-                swings.phases.push(Phase { end: time(ends[1]), rise, follows_gap });
-                follows_gap = false;
-            }
+            swings.ends.extend(ends[1..].iter().map(|&part| (time(part), force.at(part))));
         }
         swings
     }
@@ -353,30 +348,21 @@ fn at_most(most: usize, times: Vec<f64>) -> (Vec<f64>, Option<Refusal>) {
     (chosen.collect(), Some(Refusal::CurveTooRough { limit: most }))
 }
 
-/// A stretch with a monotonic force.
-struct Phase {
-    /// End time, in s.
-    end: f64,
-    /// Rise of the force, in N.
-    rise: f64,
-    /// Whether the tooth is apart before the stretch.
-    follows_gap: bool,
-}
-
-/// Time of the first minimum of the force after its first peak, or of the loss of contact. `peak`
-/// is the greatest force of all phases, in N.
-fn end_of_first_impact(phases: &[Phase], peak: f64) -> Option<f64> {
-    const ROUNDING: f64 = 1e-12;
-    let none = ROUNDING * peak;
-    let (mut has_fallen, mut last) = (false, None);
-    for phase in phases {
-        if has_fallen && (phase.rise > none || phase.follows_gap) {
-            return last;
+/// The place of the first valley after the first peak of a force, or of the loss of contact. A fall or
+/// a rise of less than a hundredth of the peak is no valley.
+pub(in crate::model) fn first_valley(forces: impl Iterator<Item = f64>) -> Option<usize> {
+    const RIPPLE: f64 = 0.01;
+    let (mut peak, mut valley) = (0.0, None);
+    for (at, force) in forces.enumerate() {
+        match valley {
+            None if force >= peak => peak = force,
+            None if force < (1.0 - RIPPLE) * peak => valley = Some((at, force)),
+            Some((_, least)) if force < least => valley = Some((at, force)),
+            Some((_, least)) if force > least + RIPPLE * peak => break,
+            _ => {}
         }
-        has_fallen |= phase.rise < -none;
-        last = Some(phase.end);
     }
-    last.filter(|_| has_fallen)
+    valley.map(|(at, _)| at)
 }
 
 /// Strikes and force of the back flanks.

@@ -123,8 +123,9 @@ pub(super) const TABLE: &[Quantity] = &[
             ["dynamic_impact_duration", "T_d", "dynamic: impact duration"],
             ("s", "us", 4),
             |s| s.dynamic.as_ref()?.impact_duration,
-            "The time from a first contact before E to the first minimum of the force \
-            after its first peak, or to the loss of contact if that is earlier.",
+            "The time from a first contact before E to the first valley of the force after \
+            its first peak, or to the loss of contact if that is earlier. A fall of less than a \
+            hundredth of the peak is no valley.",
             BY_MOTION,
         )
         .corrections(&["Eq. 32"]),

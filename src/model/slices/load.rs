@@ -7,6 +7,7 @@ use super::loads::Loads;
 use super::{Face, Slice};
 use crate::model::Refusal;
 use crate::model::budget::STATIONS;
+use crate::model::dynamic::first_valley;
 use crate::model::static_load::{HARMONICS, Spectrum, StaticLoad, StaticSpectrum};
 use crate::model::stations::{Own, Spacing, Station};
 use crate::numeric::root::{self, greatest_within};
@@ -798,14 +799,12 @@ impl<'a> Passage<'a> {
         }))
     }
 
-    /// The time from the first contact to the first minimum of the force after its first peak, or to the
-    /// last contact, in s. `None` at rest.
+    /// The time from the first contact to the first valley of the force, or to the last contact, in s.
+    /// `None` at rest.
     pub(super) fn first_minimum(&self, samples: &[Rc<Loads>]) -> Option<f64> {
         let of = |loads: &Loads| self.face.pair_force(loads, 0);
         let force: Vec<f64> = samples.iter().map(|loads| of(loads)).collect();
-        let peak = (1..force.len()).find(|&at| force[at] < force[at - 1])?;
-        let rises = |at: &usize| force.get(at + 1).is_none_or(|next| *next > force[*at]);
-        let least = (peak..force.len()).find(rises)?;
+        let least = first_valley(force.iter().copied())?;
         let near = &samples[least - 1..=(least + 1).min(force.len() - 1)];
         let (s, _) = self.greatest(near, &|loads| -of(loads));
         Some((s - samples[0].s) / self.course?.speed)
