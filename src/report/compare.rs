@@ -208,7 +208,8 @@ impl Comparison {
         let dimension = Dimension::of_unit(usual);
         let unit = dimension.and_then(|own| symbol_of(written_unit(&texts[0], own)?));
         let unit = unit.unwrap_or(usual);
-        let names = [key, dimension.map_or("", Dimension::si_unit), &symbol(key), &label(key), ""];
+        let names =
+            [key, dimension.map_or("", Dimension::si_unit), subject_of(key).0, &label(key), ""];
         let difference = |&now: &Option<f64>| match known[0].zip(now) {
             Some((base, now)) if !is_unchanged(now, base) => {
                 let number = tidy(per(now - base, unit), 4);
@@ -417,28 +418,25 @@ fn wrapped(table: &Table, label: usize) -> Table {
     Table { rows: rows.collect(), ..table.clone() }
 }
 
-/// The symbol of an input: of the field, or of the subject of a limit or a distribution.
-pub(crate) fn symbol(key: &str) -> String {
+/// The symbol and the label of the field of an input, or of the subject of a limit or a distribution.
+fn subject_of(key: &str) -> (&'static str, &str) {
     let quantity = key.strip_prefix("limits.").and_then(Quantity::find);
     let field = key.strip_prefix("spread.").map_or(key, |field| field.trim_matches('"'));
-    let field = index_of(field).map(|field| FIELDS[field].symbol);
-    quantity.map(|quantity| quantity.symbol).or(field).unwrap_or_default().to_owned()
+    let field = index_of(field).map(|field| (FIELDS[field].symbol, FIELDS[field].label));
+    let quantity = quantity.map(|quantity| (quantity.symbol, quantity.label.trim_start()));
+    quantity.or(field).unwrap_or(("", key))
 }
 
 /// The symbol and the label of an input. An input without a symbol has its label instead.
 pub(crate) fn names(key: &str) -> [String; 2] {
-    let (kind, subject) = key.split_once('.').unwrap_or_default();
-    let symbol = symbol(key);
-    let field = if kind == "spread" { subject.trim_matches('"') } else { key };
-    let quantity = Quantity::find(subject).filter(|_| kind == "limits");
-    let label = index_of(field).map(|field| FIELDS[field].label);
-    let label = quantity.map(|quantity| quantity.label.trim_start()).or(label).unwrap_or(key);
-    match kind {
-        "limits" => [format!("{symbol} limit"), label.to_owned()],
-        "spread" => [format!("{symbol} spread"), label.to_owned()],
-        _ if symbol.is_empty() => [label.to_owned(), String::new()],
-        _ => [symbol, label.to_owned()],
-    }
+    let (symbol, label) = subject_of(key);
+    let symbol = match key.split_once('.') {
+        Some(("limits", _)) => format!("{symbol} limit"),
+        Some(("spread", _)) => format!("{symbol} spread"),
+        _ if symbol.is_empty() => return [label.to_owned(), String::new()],
+        _ => symbol.to_owned(),
+    };
+    [symbol, label.to_owned()]
 }
 
 /// A to Z, then AA and so on.

@@ -91,6 +91,12 @@ fn text(case: &Case, key: &str) -> String {
     index_of(key).and_then(|field| case.effective(field)).map(sanitize).unwrap_or_default()
 }
 
+/// The remarks in brackets of the verdict, in the order in which a narrow screen leaves them out.
+pub(crate) const REMARKS: [&str; 3] = [EACH, OF_REST, OF_MESH];
+const EACH: &str = "each with the other gear unchanged";
+const OF_REST: &str = "times that at rest";
+const OF_MESH: &str = "times the mesh force";
+
 /// The verdict in one sentence: whether the tip strikes, its force before E, the greatest force of
 /// a tooth, and the relief that prevents the contact, each if its stage ran; `is_pending` while the
 /// relief is being computed.
@@ -101,7 +107,7 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
         Method::Paper | Method::Exact | Method::Auto => None,
     };
     let ratio = of("peak_force_ratio", solution).filter(|_| solution.method == Method::Dynamic);
-    let ratio = ratio.map(|ratio| format!(" ({ratio:.2} times that at rest)"));
+    let ratio = ratio.map(|ratio| format!(" ({ratio:.2} {OF_REST})"));
     let ratio = ratio.unwrap_or_default();
     let at_rest = if solution.method == Method::Static { " at rest" } else { "" };
     let most = most.map(|most| format!("{most} on a tooth{at_rest}{ratio}"));
@@ -121,7 +127,7 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
         let greatest =
             at_rest.map_or_else(|| value(force, solution), |load| Some(load.approach_force));
         let ratio = value(own("dynamic_factor", solution)?, solution)?;
-        let ratio = format!(" ({ratio:.2} times the mesh force)");
+        let ratio = format!(" ({ratio:.2} {OF_MESH})");
         Some((shown_in(force, greatest?, system).to_string(), ratio))
     });
     let forces = match (tip, most) {
@@ -159,7 +165,7 @@ fn at_exit(solution: &Solution, greatest: &str, system: System) -> Option<String
     let at_rest = if solution.method == Method::Dynamic { " (at rest)" } else { "" };
     if solution.outcome == Outcome::CornerContact {
         let required = required("on the driver").map(|required| {
-            let each = relief_of_entry.map_or("", |_| " (each with the other gear unchanged)");
+            let each = relief_of_entry.map_or(String::new(), |_| format!(" ({EACH})"));
             format!(", {required}{each}")
         });
         return Some(format!("; {force} at the exit{at_rest}{}", required.unwrap_or_default()));
@@ -171,7 +177,7 @@ fn at_exit(solution: &Solution, greatest: &str, system: System) -> Option<String
     let but = if closes_gap { ", but would cause contact at the entry" } else { "" };
     Some(format!(
         "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's tip \
-            ({:.2} times the mesh force){greatest}; {required} prevents it{but}",
+            ({:.2} {OF_MESH}){greatest}; {required} prevents it{but}",
         most / solution.mesh_force
     ))
 }

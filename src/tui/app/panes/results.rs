@@ -263,7 +263,7 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
 /// last clause that fits, unless that leaves more than one line.
 fn shortened(mut text: String, end: &str, width: usize, rows: usize) -> Vec<String> {
     let wrapped = |text: &str| text::wrap(&format!("{text}{end}"), width);
-    for remark in ["each with the other", "times that at rest", "times the mesh force"] {
+    for remark in digest::REMARKS {
         let Some((before, after)) = text.split_once(remark) else { continue };
         let (before, after) = (before.rsplit_once(" ("), after.split_once(')'));
         text = before.zip(after).map_or(text.clone(), |(kept, rest)| kept.0.to_owned() + rest.1);
