@@ -532,8 +532,8 @@ fn grid(
     let least_length = (least / length_step - 1e-9).ceil() as i32;
     let most_length = steps(longest * (1.0 + 1e-9), length_step);
     if least_length > most_length {
-        let (of, ratio) = (Conditions::of(demand), geometry.contact_ratio);
-        return Err(NoRelief::ShortPath { of, length: longest, least, ratio });
+        let (of, ratio) = (Conditions::of(demand, longest), geometry.contact_ratio);
+        return Err(NoRelief::ShortPath { of, least, ratio });
     }
     let tip = |gear, circles| {
         let thickness = Profile::of(&Rack::of(inputs, gear), circles).tip_thickness();
@@ -632,11 +632,11 @@ impl WholeSolves<'_> {
             return self.choice(name, reliefs, self.worst(&reliefs)?);
         }
         let most = greatest.amounts[0].max(greatest.amounts[1]);
-        let (of, length) = (Conditions::of(self.demand), self.grid.longest());
+        let of = Conditions::of(self.demand, self.grid.longest());
         Err(if last < 0.0 {
-            NoRelief::Beyond { of, length, most, overlap: -last }
+            NoRelief::Beyond { of, most, overlap: -last }
         } else {
-            NoRelief::InMotion { of, length, most }
+            NoRelief::InMotion { of, most }
         })
     }
 

@@ -84,8 +84,7 @@ pub(super) fn search(pair: &WholeSolves<'_>) -> Result<(Named, u64), NoRelief> {
         let most = pair.grid.reliefs(ReliefShape::Linear, steps);
         let overlap = (-pair.worst(&most)?.gap).max(0.0);
         return Err(NoRelief::Beyond {
-            of: Conditions::of(pair.demand),
-            length: pair.grid.longest(),
+            of: Conditions::of(pair.demand, pair.grid.longest()),
             most: pair.grid.amount_step * f64::from(one.max(other)),
             overlap,
         });

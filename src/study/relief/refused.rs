@@ -18,12 +18,14 @@ pub struct Conditions {
     load: f64,
     /// The tolerances of amounts and lengths, in m.
     tolerances: [f64; 2],
+    /// The greatest length, in m.
+    length: f64,
 }
 
 impl Conditions {
-    pub(super) fn of(demand: &Demand) -> Conditions {
+    pub(super) fn of(demand: &Demand, length: f64) -> Conditions {
         let tolerances = [demand.tolerance, demand.tolerance_length.unwrap_or(0.0)];
-        Conditions { units: demand.units, load: demand.greatest_load(), tolerances }
+        Conditions { units: demand.units, load: demand.greatest_load(), tolerances, length }
     }
 
     fn um(&self, amount: f64) -> String {
@@ -50,15 +52,11 @@ pub enum NoRelief {
         most: f64,
         /// Overlap that remains with this amount, in m.
         overlap: f64,
-        /// The greatest length, in m.
-        length: f64,
     },
     /// The path of contact has no room for a relief.
     ShortPath {
         /// The conditions of the search.
         of: Conditions,
-        /// The longest relief, in m.
-        length: f64,
         /// The least useful length, in m.
         least: f64,
         /// Contact ratio ε.
@@ -72,8 +70,6 @@ pub enum NoRelief {
         most: f64,
         /// Overlap that remains with this amount, in m.
         overlap: f64,
-        /// The greatest length, in m.
-        length: f64,
     },
     /// In motion the teeth touch before E with every evaluated relief.
     InMotion {
@@ -81,8 +77,6 @@ pub enum NoRelief {
         of: Conditions,
         /// The greatest evaluated amount, in m.
         most: f64,
-        /// The greatest length, in m.
-        length: f64,
     },
 }
 
@@ -94,18 +88,18 @@ impl From<Refusal> for NoRelief {
 
 impl fmt::Display for NoRelief {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (of, longest, reason) = match self {
+        let (of, reason) = match self {
             NoRelief::Refused(refusal) => return write!(f, "{refusal}; {}", refusal.fix()),
-            NoRelief::ThinTip { of, length, gear, most, overlap } => {
+            NoRelief::ThinTip { of, gear, most, overlap } => {
                 let [most, overlap] = [most, overlap].map(|amount| of.um(*amount));
                 let reason = format!(
                     "the {gear} tip is thin, its relief is limited to {most}, and the teeth still \
                      overlap by {overlap}; {FIX}"
                 );
-                (of, Some(length), reason)
+                (of, reason)
             }
-            NoRelief::ShortPath { of, length, least, ratio } => {
-                let [length, least] = [length, least].map(|length| of.mm(*length));
+            NoRelief::ShortPath { of, least, ratio } => {
+                let [length, least] = [of.length, *least].map(|length| of.mm(length));
                 let reason = if *ratio < 2.0 {
                     "it reaches the contact of a single pair"
                 } else {
@@ -116,25 +110,25 @@ impl fmt::Display for NoRelief {
                      {reason} (contact ratio {ratio:.4}); raise the addendum or the number of \
                      teeth, or lower the greatest load"
                 );
-                (of, None, reason)
+                (of, reason)
             }
-            NoRelief::Beyond { of, length, most, overlap } => {
+            NoRelief::Beyond { of, most, overlap } => {
                 let [most, overlap] = [most, overlap].map(|amount| of.um(*amount));
-                let reason = format!("up to {most} the teeth still overlap by {overlap}; {FIX}");
-                (of, Some(length), reason)
+                (of, format!("up to {most} the teeth still overlap by {overlap}; {FIX}"))
             }
-            NoRelief::InMotion { of, length, most } => {
+            NoRelief::InMotion { of, most } => {
                 let reason = format!(
                     "up to {} the teeth touch in motion; raise model.damping_ratio or change \
                      operation.speed, or use --method static",
                     of.um(*most)
                 );
-                (of, Some(length), reason)
+                (of, reason)
             }
         };
-        let longest = longest.map_or_else(String::new, |length| {
-            format!(" and a length of at most {}", of.mm(*length))
-        });
+        let longest = match self {
+            NoRelief::ShortPath { .. } => String::new(),
+            _ => format!(" and a length of at most {}", of.mm(of.length)),
+        };
         write!(
             f,
             "no tip relief prevents corner contact at {} % of the load with tolerances {} on \

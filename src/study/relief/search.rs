@@ -245,13 +245,13 @@ impl<'a> Search<'a> {
         let worst = self.grid.reliefs(ReliefShape::Linear, steps).off(self.corners[0]);
         let overlap = self.bench.overlap(&worst);
         let most = amount_step * f64::from(one.max(other));
-        let (of, length) = (Conditions::of(self.bench.demand), self.grid.longest());
+        let of = Conditions::of(self.bench.demand, self.grid.longest());
         match (0..2).find(|&at| tips[at] < most + amount_step) {
             Some(at) => {
                 let gear = ["driver", "driven"][at];
-                NoRelief::ThinTip { of, length, gear, most: tips[at], overlap }
+                NoRelief::ThinTip { of, gear, most: tips[at], overlap }
             }
-            None => NoRelief::Beyond { of, length, most, overlap },
+            None => NoRelief::Beyond { of, most, overlap },
         }
     }
 
