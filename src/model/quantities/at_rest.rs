@@ -147,15 +147,15 @@ pub(super) const TABLE: &[Quantity] = &[
             relief reduces this force to 0. With a root relief of the driver the force can be greater \
             before E: entry_force_ratio and the verdict have the greatest one.",
             Cases(&[
-                (in_slices, Found("the largest Σ w_k F_k of the slices before their E", SHARED)),
+                (in_slices, Found("the largest Σ w_k F_k of the slices before their E while slices pass E", SHARED)),
                 (always, Difference("max(k_E (x_E + Δf_0 - C_E), 0)")),
             ]),
         )
         .variants(&[Variant::meaning(
             in_slices,
             " Each slice of the face reaches its E at another time: here this is the part of the force \
-                on the tooth in slices before their E, at its largest. The chart of the force \
-                shows the whole force on the tooth.",
+                on the tooth in slices before their E, at its largest from the first slice at E to the last. \
+                The chart of the force shows the whole force on the tooth.",
         )])
         .corrections(&["Eq. 53", "Eq. 54"]),
     AT_REST
@@ -164,7 +164,7 @@ pub(super) const TABLE: &[Quantity] = &[
             ("N", "N", 5),
             |s| Some(s.static_load.as_ref()?.force_at_end),
             "The force at rest of the incoming tooth at the exit B, on the driver's tip edge; over the \
-            face width the greatest force in slices after their B. A sufficient tip relief of the \
+            face width the greatest force in slices after their B while slices pass B. A sufficient tip relief of the \
             driver reduces this force to 0.",
             Found("F_k of the tooth at B, with Σ w_k F_k = F_0", SHARED),
         )

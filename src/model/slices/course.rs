@@ -9,8 +9,6 @@ pub(super) struct Moment {
     pub s: f64,
     /// Displacement, in m, and its rate, in m/s.
     pub state: State,
-    /// Force that turns the driver, in N.
-    pub force: f64,
     /// Whether any pair touches.
     pub touches: bool,
 }

@@ -747,8 +747,8 @@ impl<'a> Passage<'a> {
         // Reliefs can let the tooth touch after E at its end and before E farther inside; alike at B.
         // A strike shorter than the steps between the samples is beside its greatest line load.
         let in_part = |peak: Option<LinePeak>, of: &dyn Fn(&Loads) -> f64| {
-            let found = extreme(of);
-            let Some(LinePeak { place, .. }) = peak.filter(|_| found <= 0.0) else {
+            let found = self.greatest(&samples, of);
+            let Some(LinePeak { place, .. }) = peak.filter(|_| found.1 <= 0.0) else {
                 return found;
             };
             let there = place.path - place.z * face.inputs.lead;
@@ -756,26 +756,41 @@ impl<'a> Passage<'a> {
             let before = ways.clone().map(|way| there - way);
             let beside = before.chain([there]).chain(ways.rev().map(|way| there + way));
             let beside: Vec<_> = beside.filter_map(|s| self.loads(s).ok()).collect();
-            self.greatest(&beside, of).1
+            self.greatest(&beside, of)
+        };
+        // The greatest force in a part of the path, and that while the slices pass its end.
+        let forces = |part: Part, peak: Option<LinePeak>, end: f64| {
+            let of = |loads: &Loads| face.force(loads, 0, part);
+            let (place, greatest) = in_part(peak, &of);
+            let (from, to) = (end - face.reach, end + face.reach);
+            if greatest <= 0.0 || (from <= place && place <= to) {
+                return Ok((greatest, greatest));
+            }
+            let aside = INSIDE * mesh.length;
+            let inner = samples.iter().filter(|loads| from < loads.s && loads.s < to);
+            let ends = [self.loads(from - aside)?, self.loads(to + aside)?];
+            let [before, after] = ends;
+            let passing: Vec<_> =
+                [before].into_iter().chain(inner.map(Rc::clone)).chain([after]).collect();
+            Ok((greatest, self.greatest(&passing, &of).1.max(0.0)))
         };
         let strike = |part: Part, peak: Option<LinePeak>, radius: f64| {
-            peak.map(|_| in_part(peak, &|loads| face.deepest(loads, part)) / radius)
+            peak.map(|_| in_part(peak, &|loads| face.deepest(loads, part)).1 / radius)
         };
         let first_strike = || strike(Part::BeforeStart, before_start, mesh.base_radii.1);
         let last_strike = || strike(Part::AfterEnd, after_end, mesh.base_radii.0);
         let is_apart = |angle: &f64| *angle > 0.0;
         let at_slices =
             |loads: &Rc<Loads>| (0..face.slices.len()).map(|at| loads.at(0, at)).collect();
-        let force_at_start =
-            in_part(before_start, &|loads| face.force(loads, 0, Part::BeforeStart));
-        let force_at_end = in_part(after_end, &|loads| face.force(loads, 0, Part::AfterEnd));
+        let (approach_force, force_at_start) = forces(Part::BeforeStart, before_start, 0.0)?;
+        let (recess_force, force_at_end) = forces(Part::AfterEnd, after_end, mesh.length)?;
         let load = StaticLoad {
             first_contact_angle: Some(ahead(&first_place)).filter(is_apart).or_else(first_strike),
             last_contact_angle: Some(behind(&last_place)).filter(is_apart).or_else(last_strike),
             force_at_start,
             force_at_end,
-            approach_force: force_at_start,
-            recess_force: force_at_end,
+            approach_force,
+            recess_force,
             peak_force,
             transmission_error: extreme(&|loads| loads.displacement)
                 + extreme(&|loads| -loads.displacement),

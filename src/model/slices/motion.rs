@@ -24,8 +24,8 @@ const MOST_WORK: f64 = 4e6;
 /// Smaller errors of the balances and of the peaks are lost among those of the usual number of slices.
 const OF_SLICES: f64 = 1e-4;
 
-/// The harmonics of a motion at resonance are ten times as sensitive as its peaks.
-const OF_HARMONICS: f64 = 1e-5;
+/// The harmonics of a motion at resonance are more sensitive than its peaks.
+const OF_HARMONICS: f64 = 4e-5;
 
 /// The force of the mesh at even places of a base pitch, for any displacement. What is known of a place
 /// serves again, since a motion returns to it in every base pitch.
@@ -43,6 +43,8 @@ pub(in crate::model) struct Springs<'a> {
     precision: f64,
     /// How far a smooth force is known about a point, in m.
     reach: f64,
+    /// Change of the stiffness that smaller steps resolve.
+    sudden: f64,
     solves: Cell<u64>,
 }
 
@@ -67,23 +69,30 @@ impl<'a> Springs<'a> {
 
     /// The places for motions whose steps need no smaller errors than `least`, with the usual slices.
     fn within(least: f64, face: &'a Face, settings: &Settings, speed: f64) -> Springs<'a> {
-        /// Least number of steps in a base pitch.
-        const LEAST: f64 = 64.0;
         /// Greatest stiffness over the mean.
         const STIFFER: f64 = 1.5;
-        /// (ωh)⁴ of a step over the tolerance, and the greatest ωh: measured, the peak force then meets
-        /// the tolerance with a margin.
-        const SHARE: f64 = 800.0;
-        const COARSEST: f64 = 0.5;
+        /// Steps in a base pitch and ωh of a step with the tolerance of slices: measured, the peak force
+        /// then meets the tolerance with a margin, and the harmonics within a tenth of it. The greatest ωh.
+        const STEPS: f64 = 64.0;
+        const TURN: f64 = 0.376;
+        const MOST_TURN: f64 = 0.5;
+        /// A change of the stiffness between steps over the root of the tolerance, and the greatest.
+        const SUDDEN: f64 = 25.0;
+        const MOST_SUDDEN: f64 = 0.1;
         let mesh = &face.mesh;
         let frequency = (STIFFER * mesh.mean_stiffness() / settings.mass).sqrt();
-        let at_least = |least: f64| {
-            settings.tolerance.max(if face.inputs.slices.is_none() { least } else { 0.0 })
-        };
-        let tolerance = at_least(OF_SLICES);
-        let turn = (SHARE * at_least(least)).powf(0.25).min(COARSEST);
-        let step = turn / frequency * speed;
-        let step = step.min(mesh.base_pitch / LEAST);
+        // Slices that differ little make little errors.
+        let widest_gap = face.slices.iter().map(|slice| slice.gap).fold(0.0, f64::max);
+        let differences = 2.0 * face.reach / mesh.base_pitch
+            + (widest_gap - face.least_gap) * mesh.mean_stiffness() / mesh.force;
+        let of_slices = if face.inputs.slices.is_none() { differences } else { 0.0 };
+        let at_least = |least: f64| settings.tolerance.max(of_slices.min(least));
+        let (tolerance, of_steps) = (at_least(OF_SLICES), at_least(least));
+        // The error of a step is of fourth order.
+        let length = (of_steps / OF_SLICES).powf(0.25);
+        let turn = (TURN * length).min(MOST_TURN);
+        let step =
+            (turn / frequency * speed).min(mesh.base_pitch / STEPS * length.min(1.0));
         let borders = mesh.borders(0.0, mesh.base_pitch);
         let part = |ends: &[f64]| {
             let steps = ((ends[1] - ends[0]) / step - 1e-9).ceil().max(1.0);
@@ -98,6 +107,7 @@ impl<'a> Springs<'a> {
             precision: (0.01 * tolerance).max(PRECISE),
             // The stiffness changes by less than itself over the deflection.
             reach: (2.0 * tolerance).sqrt() * mesh.force / mesh.mean_stiffness(),
+            sudden: (SUDDEN * of_steps.sqrt()).min(MOST_SUDDEN),
             solves: Cell::default(),
         }
     }
@@ -239,8 +249,7 @@ impl<'a, 'b> Motion<'a, 'b> {
         (state, halvings): (State, u32),
         show: &mut dyn FnMut(Moment),
     ) -> Result<State, Refusal> {
-        /// Change of the stiffness that smaller steps resolve, and the smallest of them.
-        const SUDDEN: f64 = 0.1;
+        /// Of the smallest step.
         const HALVINGS: u32 = 16;
         /// The mesh jumps at a border. Of the length of the part.
         const INSIDE: f64 = 1e-9;
@@ -255,7 +264,7 @@ impl<'a, 'b> Motion<'a, 'b> {
         let next = state + (first + (second + third) * 2.0 + fourth) * (time / 6.0);
         let (_, after) = self.rates(inside(to), pitches, next)?;
         let change = (after[1] - before[1]).abs();
-        if change > SUDDEN * before[1].max(after[1]) && halvings < HALVINGS {
+        if change > self.springs.sudden * before[1].max(after[1]) && halvings < HALVINGS {
             let half = (state, halvings + 1);
             let state = self.step(pitches, part, (from, middle), half, show)?;
             return self.step(pitches, part, (middle, to), (state, halvings + 1), show);
@@ -364,7 +373,7 @@ pub(in crate::model) fn dynamic(
     let found = Dynamic {
         first_contact_angle: load.first_contact_angle,
         last_contact_angle: load.last_contact_angle,
-        peak_approach_force: load.force_at_start,
+        peak_approach_force: load.approach_force,
         peak_force: load.peak_force,
         impact_duration: strikes.then(|| passage.first_minimum(&samples)).flatten(),
         least_gap,
@@ -410,6 +419,8 @@ pub(in crate::model) fn steady(
     from: Option<&Start>,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Steady, Refusal> {
+    /// Error of a state after a base pitch in scales of the motion: that of the smallest steps.
+    const PRECISION_OF_PITCH: f64 = 1e-5;
     /// Steps in an interval of the Fourier integral.
     const STEPS: usize = 8;
     let motion = Motion::new(springs, settings, speed, Incoming::Alike);
@@ -422,7 +433,7 @@ pub(in crate::model) fn steady(
     let lap = |start: &Start| {
         motion.pitch(0, start.state, &mut |_| ()).map(|state| Some(Start::of_state(state)))
     };
-    let found = periodic(start, (motion.scale(), OF_HARMONICS), go_on, lap)?;
+    let found = periodic(start, (motion.scale(), PRECISION_OF_PITCH), go_on, lap)?;
     let (start, periods) = found.ok_or(Refusal::BeyondReach)?;
     let mut moments = vec![Moment { s: 0.0, state: start.state, force: 0.0, touches: true }];
     for lap in 0..periods {
@@ -449,9 +460,13 @@ pub(in crate::model) fn steady(
         let loads = face.loads(s % pitch, 0.0, Until::Displacement(course.at(s)[0]));
         loads.map_or(0.0, |loads| face.tooth_force(&loads))
     });
+    let mesh_force = extreme(&|s| {
+        let force = springs.force(s % pitch, (0, Incoming::Alike), course.at(s)[0]);
+        force.map_or(0.0, |[force, _]| force)
+    });
     Ok(Steady {
         spectrum: fourier.spectrum(periods),
-        mesh_force: course.moments.iter().map(|moment| moment.force).fold(0.0, f64::max),
+        mesh_force,
         tooth_force,
         contact_lost: course.moments.iter().any(|moment| !moment.touches),
         rattle: None,
