@@ -270,7 +270,7 @@ impl<'a, 'b> Motion<'a, 'b> {
             return self.step(pitches, part, (middle, to), (state, halvings + 1), show);
         }
         let s = f64::from(pitches) * self.springs.face.mesh.base_pitch + to;
-        show(Moment { s, state: next, force: after[0], touches: after[1] > 0.0 });
+        show(Moment { s, state: next, touches: after[1] > 0.0 });
         Ok(next)
     }
 
@@ -306,7 +306,7 @@ impl<'a, 'b> Motion<'a, 'b> {
         let last = (until / pitch).ceil() as i32;
         self.check_pace(f64::from(last - first.max(near - 2)) * pitch)?;
         let mut state = self.at_rest(first)?;
-        let start = Moment { s: f64::from(first) * pitch, state, force: 0.0, touches: true };
+        let start = Moment { s: f64::from(first) * pitch, state, touches: true };
         let mut moments = vec![start];
         let (mut pitches, mut moved) = (first, f64::INFINITY);
         while pitches < last {
@@ -435,7 +435,7 @@ pub(in crate::model) fn steady(
     };
     let found = periodic(start, (motion.scale(), PRECISION_OF_PITCH), go_on, lap)?;
     let (start, periods) = found.ok_or(Refusal::BeyondReach)?;
-    let mut moments = vec![Moment { s: 0.0, state: start.state, force: 0.0, touches: true }];
+    let mut moments = vec![Moment { s: 0.0, state: start.state, touches: true }];
     for lap in 0..periods {
         let state = moments[moments.len() - 1].state;
         let before = f64::from(lap) * pitch;
