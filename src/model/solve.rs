@@ -22,7 +22,7 @@ use super::stage::{Stage, Stages};
 use super::static_load::{Resonance, static_load, static_spectrum};
 use super::stations::{Spacing, stations};
 use super::{Geometry, Kept, Mesh, Outcome, Position, Refusal, Solution, SpeedCurve, impact};
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::sync::Arc;
 use twofloat::TwoFloat;
 
@@ -78,7 +78,7 @@ pub fn speeds(
 ) -> Result<SpeedCurve, Refusal> {
     let inputs = Inputs { method: Method::Dynamic, ..inputs.clone() };
     let solution = solve(&inputs, Stages::of(Stage::Deviation))?;
-    over_speed(&inputs, &solution, show)
+    over_speed(&inputs, &solution, show, &|_| true)
 }
 
 /// An earlier solve by the same method.
@@ -374,10 +374,14 @@ impl<'a> Run<'a> {
         let of = |s: &Solution| s.steady.clone();
         solution.steady = self.on_mesh(Stage::SteadyMotion, of, &mut meshes, find)?;
         let find = |mesh: &Arc<Mesh>| {
-            let done = |curve: &SpeedCurve| curve.up.iter().chain(&curve.down).flatten().count();
-            let total = (2 * SPEEDS) as f64;
-            let mut show = |curve: &SpeedCurve| go_on(done(curve) as f64 / total);
-            late(mesh, over_speed(inputs, solution, &mut show).map(Arc::new))
+            let done = Cell::new(0.0);
+            let mut show = |curve: &SpeedCurve| {
+                let count = curve.up.iter().chain(&curve.down).flatten().count();
+                done.set(count as f64 / (2 * SPEEDS) as f64);
+                go_on(done.get())
+            };
+            let go_on = |_| go_on(done.get());
+            late(mesh, over_speed(inputs, solution, &mut show, &go_on).map(Arc::new))
         };
         let of = |s: &Solution| s.over_speed.clone();
         solution.over_speed = self.on_mesh(Stage::SpeedRun, of, &mut meshes, find)?;

@@ -122,14 +122,16 @@ fn greatest(run: &[Option<AtSpeed>]) -> Option<&AtSpeed> {
 
 /// Computes the steady motion of a pair at each of [`SPEEDS`] speeds, first with rising speed, then
 /// with falling speed. Each motion starts from the previous one. `show` receives the growing curve
-/// and returns whether to continue. The solution has geometry, load, masses and deviation.
+/// and returns whether to continue; `go_on` is asked during each motion. The solution has geometry,
+/// load, masses and deviation.
 ///
 /// # Errors
-/// The [`Refusal`] of the pair; [`Refusal::Stopped`] if `show` returns false.
+/// The [`Refusal`] of the pair; [`Refusal::Stopped`] if `show` or `go_on` returns false.
 pub(crate) fn over_speed(
     inputs: &Inputs,
     solution: &Solution,
     show: &mut dyn FnMut(&SpeedCurve) -> bool,
+    go_on: &dyn Fn(f64) -> bool,
 ) -> Result<SpeedCurve, Refusal> {
     let inputs = Inputs { drive: Drive::Torque(inputs.torque()), ..inputs.clone() };
     let mesh = Arc::new(wide_mesh(&inputs, solution)?);
@@ -163,6 +165,7 @@ pub(crate) fn over_speed(
         tooth_force,
         resonance: at_resonance,
         work: Meter::new(WORK),
+        go_on,
     };
     let (mut last, mut highest) = (None, [const { None }; 2]);
     let rising = (0..SPEEDS).map(|at| (at, true));
@@ -204,6 +207,7 @@ struct Runs<'a> {
     tooth_force: f64,
     resonance: f64,
     work: Meter,
+    go_on: &'a dyn Fn(f64) -> bool,
 }
 
 impl Runs<'_> {
@@ -232,8 +236,8 @@ impl Runs<'_> {
         let mesh = self.mesh.turning_at(speed);
         let (settings, last_start) = (&self.settings, last.as_ref());
         let found = match self.springs {
-            Some(springs) => motion::steady(springs, settings, mesh.speed, last_start, &|_| true),
-            None => steady(&mesh, settings, last_start, &meter, &|_| true),
+            Some(springs) => motion::steady(springs, settings, mesh.speed, last_start, self.go_on),
+            None => steady(&mesh, settings, last_start, &meter, self.go_on),
         };
         self.work.spend(meter.spent());
         let Ok(steady) = Refusal::unless_stopped(found)? else {
@@ -295,9 +299,15 @@ mod tests {
         let speed = |ratio: f64| inputs.speed / resonance.ratio() * ratio;
         let slowest = speed(ratios[16]) * mesh.base_radii.0;
         let springs = face.as_ref().map(|face| Springs::new(face, &settings, slowest));
-        let (springs, work) = (springs.as_ref(), Meter::new(WORK));
-        let runs =
-            Runs { mesh: &mesh, springs, settings, tooth_force: 1.0, resonance: speed(1.0), work };
+        let runs = Runs {
+            mesh: &mesh,
+            springs: springs.as_ref(),
+            settings,
+            tooth_force: 1.0,
+            resonance: speed(1.0),
+            work: Meter::new(WORK),
+            go_on: &|_| true,
+        };
         let mut last = None;
         let at = |ratio| {
             let found = runs.at(speed(ratio), &mut last).unwrap().unwrap();
