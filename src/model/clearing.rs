@@ -2,12 +2,13 @@
 //! no contact before E; and the gap of a tooth without contact before E.
 
 use std::cell::RefCell;
+use std::sync::Arc;
 
 use super::budget::{Meter, SEARCH_TRIES, SEARCH_WORK};
 use super::dynamic::{Approach, Settings, approach};
 use super::face::FaceInputs;
 use super::inputs::{Inputs, Method};
-use super::mesh::MeshInputs;
+use super::mesh::{Mesh, MeshInputs};
 use super::mesh::build::Meshes;
 use super::position::printed_relief_to_clear;
 use super::relief::Reliefs;
@@ -118,11 +119,13 @@ struct Search<'a> {
     at_exit: bool,
     meter: &'a Meter,
     tries: RefCell<Vec<Tried>>,
+    /// The mesh of the last relief, which is like that of the next.
+    last: RefCell<Option<Arc<Mesh>>>,
 }
 
 impl<'a> Search<'a> {
     fn new(at_exit: bool, meter: &'a Meter) -> Search<'a> {
-        Search { at_exit, meter, tries: RefCell::default() }
+        Search { at_exit, meter, tries: RefCell::default(), last: RefCell::default() }
     }
 
     /// The least additional relief, in m, by the static balance or by a motion.
@@ -168,7 +171,9 @@ impl<'a> Search<'a> {
         let mut relieved = *mesh;
         let Reliefs { driver, driven, .. } = &mut relieved.reliefs;
         (if self.at_exit { driver } else { driven }).tip += relief;
-        Meshes::new(&relieved, solution, solution.mesh.as_ref(), None).find(|mesh| {
+        let last = self.last.take().or_else(|| solution.mesh.clone());
+        Meshes::new(&relieved, solution, last.as_ref(), None).find(|mesh| {
+            self.last.replace(Some(Arc::clone(mesh)));
             let meter = self.meter;
             meter.spend(mesh.work());
             let at_rest = |lead: f64| Approach { lead, contact_lost: false };
