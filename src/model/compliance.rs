@@ -35,6 +35,8 @@ pub struct Elasticity {
     pub given: Option<GivenCompliance>,
     /// Common face width b, in m.
     pub width: f64,
+    /// Whether the force on a pair may displace others.
+    pub has_neighbours: bool,
 }
 
 impl Inputs {
@@ -54,6 +56,7 @@ impl Inputs {
             driven: gear(&self.driven),
             given: self.given_compliance.filter(|_| tooth.reads_table()),
             width: self.common_width(),
+            has_neighbours: self.tooth_coupling && tooth.model().has_coupling,
         }
     }
 }
@@ -241,6 +244,9 @@ impl Teeth {
         earlier: &ContactPlace,
         pitches: i32,
     ) -> Result<f64, Refusal> {
+        if !self.is_coupled() {
+            return Ok(0.0);
+        }
         if let Some((given, one)) = self.given_at(later) {
             let other = self.given_at(earlier).map_or(one, |(_, other)| other);
             return Ok(if pitches.abs() == 1 { given.next(one, other) } else { 0.0 });
@@ -282,7 +288,7 @@ impl Teeth {
 
     /// Whether the force on a pair displaces others.
     pub fn is_coupled(&self) -> bool {
-        self.elasticity.tooth.model().has_coupling
+        self.elasticity.has_neighbours
     }
 
     /// The place on driver and driven gear by which [`Teeth::couplings`] names where a pair

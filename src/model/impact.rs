@@ -285,6 +285,8 @@ impl StiffnessModels {
         Inputs {
             tooth_compliance: Some(self.tooth),
             contact_compliance: self.contact.unwrap_or(inputs.contact_compliance),
+            // Without coupling is only the model of the case.
+            tooth_coupling: inputs.tooth_coupling || self.tooth != model_of(inputs),
             ..inputs.clone()
         }
     }

@@ -339,6 +339,8 @@ pub struct Inputs {
     pub slices: Option<usize>,
     /// Whether a force on a slice displaces the slices beside it.
     pub slice_coupling: bool,
+    /// Whether a force on a tooth displaces its neighbours, if the tooth compliance has it.
+    pub tooth_coupling: bool,
     /// Body of a gear without a given inertia.
     pub inertia: InertiaModel,
     /// Shape of tip and root reliefs along the path of contact.
@@ -395,6 +397,7 @@ impl Default for Inputs {
             given_compliance: None,
             slices: None,
             slice_coupling: true,
+            tooth_coupling: true,
             inertia: InertiaModel::Outline,
             relief_shape: ReliefShape::Linear,
             damping_ratio: 0.07,

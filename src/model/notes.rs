@@ -300,7 +300,7 @@ const ROWS: &[fn(&Context) -> Option<Note>] = &[
     |k| {
         let ratio = k.solution.geometry.contact_ratio;
         let is_coupled =
-            k.inputs.method != Method::Paper && model_of(k.inputs).model().has_coupling;
+            k.inputs.method != Method::Paper && k.inputs.elasticity().has_neighbours;
         let done = match (k.inputs.given_deflection(), is_coupled) {
             (Some(_), _) => "the case gives the deflection",
             (None, true) => {
@@ -459,7 +459,7 @@ fn grade(table: &str, k: &Context, gear: &Gear) -> Option<Note> {
     Some(Note::case("grade", message))
 }
 
-/// The model has independent springs although the method supports coupling.
+/// The pairs are independent springs although the method supports coupling.
 fn without_coupling(k: &Context) -> Option<Note> {
     /// Changes of first contact and peak force in `dynamic` without coupling, with finite elements
     /// over `cases/`.
@@ -470,13 +470,18 @@ fn without_coupling(k: &Context) -> Option<Note> {
         Method::Paper | Method::Auto => false,
     };
     let model = model_of(k.inputs).model();
+    let alone = if model.has_coupling {
+        "the tooth coupling is off".to_owned()
+    } else {
+        format!("`{}` does not couple neighbouring teeth", model.name)
+    };
     let message = format!(
-        "`{}` does not couple neighbouring teeth. Without coupling, the first contact is {} \
+        "{alone}. Without coupling, the first contact is {} \
             earlier and the peak force changes by {} (finite elements with and without \
             coupling, over the examples)",
-        model.name, UNCOUPLED.0, UNCOUPLED.1
+        UNCOUPLED.0, UNCOUPLED.1
     );
-    (is_coupled && !model.has_coupling).then_some(Note::case("no-coupling", message))
+    (is_coupled && !k.inputs.elasticity().has_neighbours).then_some(Note::case("no-coupling", message))
 }
 
 /// No contact before E, but slightly more base pitch deviation or load causes corner contact.

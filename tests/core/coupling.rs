@@ -3,7 +3,6 @@
 //! The couplings are those of the whole gears. The gaps and the compliance of each pair alone are
 //! those of the program: `core::rounded` and `core::reference` check the gaps, `field::tests` the
 //! compliances.
-pub(crate) mod uncoupled;
 mod whole_gear;
 
 use std::fs;
@@ -15,8 +14,7 @@ use tipstrike::model::geometry::{PairShape, geometry};
 use tipstrike::model::inputs::{Drive, Gear, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::position::tip_at;
-use tipstrike::model::static_load::{balance, static_load};
-use tipstrike::model::stations::Spacing;
+use tipstrike::model::static_load::balance;
 use tipstrike::model::{Geometry, Inputs, Outline, Solution, Stage, Stages, notes, solve};
 use tipstrike::numeric::root;
 
@@ -374,12 +372,12 @@ fn coupling_changes_the_cases_as_much_as_the_documentation_says() {
                 drive: Drive::Torque(part * case.torque()),
                 ..case.clone()
             };
-            let solution = solve(&inputs, Stages::EVERY).expect("a solution");
-            let (load, mesh) =
-                (solution.static_load.expect("a load"), solution.mesh.expect("a mesh"));
-            assert!(mesh.is_coupled());
-            let alone = mesh.uncoupled();
-            let springs = static_load(&alone, Spacing::Even(1)).expect("a load");
+            let [(load, mesh), (springs, alone)] = [true, false].map(|tooth_coupling| {
+                let inputs = Inputs { tooth_coupling, ..inputs.clone() };
+                let solution = solve(&inputs, Stages::EVERY).expect("a solution");
+                (solution.static_load.expect("a load"), solution.mesh.expect("a mesh"))
+            });
+            assert!(mesh.is_coupled() && !alone.is_coupled());
             let ratios = [
                 (load.first_contact_angle.zip(springs.first_contact_angle), 0.885..0.996),
                 (Some((load.force_at_start, springs.force_at_start)), 0.94..1.075),
@@ -410,9 +408,10 @@ fn the_error_without_coupling_is_as_the_note_states() {
     for path in crate::table::cases() {
         let inputs =
             Inputs { method: Method::Dynamic, deflection: None, ..crate::table::inputs(&path) };
-        let solution = solve(&inputs, Stages::EVERY).expect("a solution");
-        let coupled = solution.dynamic.as_ref().expect("the method");
-        let alone = uncoupled::motion(&inputs, &solution).expect("a motion");
+        let [coupled, alone] = [true, false].map(|tooth_coupling| {
+            let inputs = Inputs { tooth_coupling, ..inputs.clone() };
+            solve(&inputs, Stages::EVERY).expect("a solution").dynamic.expect("the method")
+        });
         let angles = alone.first_contact_angle.zip(coupled.first_contact_angle);
         let found = [
             angles.map(|(alone, coupled)| alone / coupled),

@@ -15,7 +15,7 @@ use crate::case::units::Dimension::{
     Torque,
 };
 use crate::model::Inputs;
-use crate::model::compliance::contact_of;
+use crate::model::compliance::{contact_of, model_of};
 use crate::model::face::MOST_SLICES;
 use crate::model::inputs::{
     Combination, ContactCompliance, Drive, Hand, InertiaModel, Method, ReliefShape, ToothCompliance,
@@ -524,6 +524,11 @@ const MODEL: &[Field] = &[
             can be some percent off.").reasons(&FACE),
     choice("model.slice_coupling", "", "slice coupling", FLAG, Default("true"), |inputs, value| inputs.slice_coupling = value == 1, "Whether a force on a slice displaces the slices beside it; without it each slice \
             deflects alone.").reasons(&FACE),
+    choice("model.tooth_coupling", "", "tooth coupling", FLAG, Default("true"), |inputs, value| inputs.tooth_coupling = value == 1, "Whether a force on a tooth displaces its neighbours; without it each pair of teeth is \
+            a spring of its own.").reasons(&[Idle(
+        |inputs| !model_of(inputs).model().has_coupling,
+        "the tooth compliance of this case does not couple neighbouring teeth",
+    )]),
     choice("model.inertia", "", "inertia model", &["outline", "base-circle"], Default("outline"), |inputs, value| {
             inputs.inertia = InertiaModel::ALL[value];
         }, "outline: inertia of the true gear outline. base-circle: inertia of a disc up to \

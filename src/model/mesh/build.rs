@@ -210,16 +210,6 @@ impl Mesh {
         Ok(Arc::clone(self.sections.0.get_or_init(sections)))
     }
 
-    /// The mesh without coupling.
-    pub fn uncoupled(&self) -> Mesh {
-        Mesh {
-            couplings: None,
-            mean_stiffness: Arc::default(),
-            back: Arc::default(),
-            ..self.clone()
-        }
-    }
-
     /// Refuses compliances that are not positive definite.
     fn check_couplings(&self) -> Result<(), Refusal> {
         if self.couplings.is_none() {

@@ -7,7 +7,6 @@ use tipstrike::model::{Inputs, Solution, Stages, solve};
 use tipstrike::numeric::decimal::significant;
 
 use super::with_model;
-use crate::coupling::uncoupled;
 use crate::support::inputs;
 
 const PAIRS: [(&str, &str); 3] = [
@@ -25,16 +24,10 @@ const INERTIAS: [(InertiaModel, &str); 2] =
 struct Found([Option<f64>; 4]);
 
 impl Found {
-    fn of(inputs: &Inputs, is_coupled: bool) -> Found {
+    fn of(inputs: &Inputs) -> Found {
         let solution = solve(inputs, Stages::EVERY).unwrap_or_else(|refusal| panic!("{refusal}"));
-        let (motion, relief) = if is_coupled {
-            let relief = solution.clearing.and_then(|clearing| clearing.relief);
-            (solution.dynamic.clone(), relief)
-        } else {
-            let relief = uncoupled::required_relief(inputs, &solution);
-            (uncoupled::motion(inputs, &solution), relief)
-        };
-        let motion = motion.expect("a motion");
+        let relief = solution.clearing.and_then(|clearing| clearing.relief);
+        let motion = solution.dynamic.as_ref().expect("a motion");
         let angle = motion.first_contact_angle;
         Found([
             angle.map(|angle| driver_degrees(&solution, angle)),
@@ -92,10 +85,10 @@ fn pair(name: &str, file: &str) -> String {
         (ToothCompliance::FINITE_ELEMENT, false, " without coupling"),
         (ToothCompliance::FINITE_ELEMENT, true, ""),
     ];
-    let found = kinds.map(|(model, is_coupled, words)| {
+    let found = kinds.map(|(model, tooth_coupling, words)| {
         INERTIAS.map(|(inertia, inertia_name)| {
-            let inputs = Inputs { inertia, ..with_model(&pair, model) };
-            let found = Found::of(&inputs, is_coupled);
+            let inputs = Inputs { inertia, tooth_coupling, ..with_model(&pair, model) };
+            let found = Found::of(&inputs);
             let row = found.row();
             writeln!(text, "| {}{words} | {inertia_name} | {row} |", model.name()).unwrap();
             found

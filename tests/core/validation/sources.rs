@@ -8,8 +8,7 @@ use tipstrike::model::figures::Hertz;
 use tipstrike::model::geometry::{Circles, Geometry, geometry};
 use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Method, ToothCompliance};
 use tipstrike::model::position::tip_at;
-use tipstrike::model::static_load::{StaticLoad, static_load};
-use tipstrike::model::stations::Spacing;
+use tipstrike::model::static_load::StaticLoad;
 use tipstrike::model::{Inputs, Solution, Stage, Stages, Station, solve};
 use tipstrike::numeric::root::greatest_within;
 use tipstrike::numeric::steps;
@@ -181,14 +180,9 @@ fn resonant_factor(inputs: &Inputs) -> Option<f64> {
 
 /// The load at rest, with the coupling of neighbouring teeth or with independent teeth.
 fn at_rest(inputs: &Inputs, is_coupled: bool) -> Option<(Geometry, StaticLoad)> {
-    let solution = solved(inputs, Method::Static)?;
-    let load = if is_coupled {
-        solution.static_load?
-    } else {
-        let mesh = solution.mesh?.uncoupled();
-        static_load(&mesh, Spacing::Even(512)).ok()?
-    };
-    Some((solution.geometry, load))
+    let inputs = Inputs { tooth_coupling: is_coupled, ..inputs.clone() };
+    let solution = solved(&inputs, Method::Static)?;
+    Some((solution.geometry, solution.static_load?))
 }
 
 /// Roll angle of the driver before E at the first contact, in deg.
