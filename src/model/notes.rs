@@ -299,8 +299,7 @@ const ROWS: &[fn(&Context) -> Option<Note>] = &[
     },
     |k| {
         let ratio = k.solution.geometry.contact_ratio;
-        let is_coupled =
-            k.inputs.method != Method::Paper && k.inputs.elasticity().has_neighbours;
+        let is_coupled = k.inputs.method != Method::Paper && k.inputs.elasticity().has_neighbours;
         let done = match (k.inputs.given_deflection(), is_coupled) {
             (Some(_), _) => "the case gives the deflection",
             (None, true) => {
@@ -481,7 +480,8 @@ fn without_coupling(k: &Context) -> Option<Note> {
             coupling, over the examples)",
         UNCOUPLED.0, UNCOUPLED.1
     );
-    (is_coupled && !k.inputs.elasticity().has_neighbours).then_some(Note::case("no-coupling", message))
+    (is_coupled && !k.inputs.elasticity().has_neighbours)
+        .then_some(Note::case("no-coupling", message))
 }
 
 /// No contact before E, but slightly more base pitch deviation or load causes corner contact.

@@ -695,8 +695,6 @@ impl<'a> Passage<'a> {
 
     /// The load from the first to the last contact. `None` without contact.
     pub(super) fn run(&self, spacing: Spacing) -> Result<Option<Passed>, Refusal> {
-        /// Of a base pitch, down to the shortest strike.
-        const HALVINGS: u32 = 20;
         let (face, mesh) = (self.face, &self.face.mesh);
         let Some((first, last)) = self.ends()? else {
             return Ok(None);
@@ -744,46 +742,19 @@ impl<'a> Passage<'a> {
             [Part::All, Part::BeforeStart, Part::AfterEnd].map(line_peak);
         let peaks = [all, before_start, after_end].into_iter().flatten();
         let peak = peaks.max_by(|one, other| one.line_load.total_cmp(&other.line_load));
-        // Reliefs can let the tooth touch after E at its end and before E farther inside; alike at B.
-        // A strike shorter than the steps between the samples is beside its greatest line load.
-        let in_part = |peak: Option<LinePeak>, of: &dyn Fn(&Loads) -> f64| {
-            let found = self.greatest(&samples, of);
-            let Some(LinePeak { place, .. }) = peak.filter(|_| found.1 <= 0.0) else {
-                return found;
-            };
-            let there = place.path - place.z * face.inputs.lead;
-            let ways = (0..HALVINGS).map(|halvings| mesh.base_pitch / f64::from(1_u32 << halvings));
-            let before = ways.clone().map(|way| there - way);
-            let beside = before.chain([there]).chain(ways.rev().map(|way| there + way));
-            let beside: Vec<_> = beside.filter_map(|s| self.loads(s).ok()).collect();
-            self.greatest(&beside, of)
-        };
-        // The greatest force in a part of the path, and that while the slices pass its end.
-        let forces = |part: Part, peak: Option<LinePeak>, end: f64| {
-            let of = |loads: &Loads| face.force(loads, 0, part);
-            let (place, greatest) = in_part(peak, &of);
-            let (from, to) = (end - face.reach, end + face.reach);
-            if greatest <= 0.0 || (from <= place && place <= to) {
-                return Ok((greatest, greatest));
-            }
-            let aside = INSIDE * mesh.length;
-            let inner = samples.iter().filter(|loads| from < loads.s && loads.s < to);
-            let ends = [self.loads(from - aside)?, self.loads(to + aside)?];
-            let [before, after] = ends;
-            let passing: Vec<_> =
-                [before].into_iter().chain(inner.map(Rc::clone)).chain([after]).collect();
-            Ok((greatest, self.greatest(&passing, &of).1.max(0.0)))
-        };
         let strike = |part: Part, peak: Option<LinePeak>, radius: f64| {
-            peak.map(|_| in_part(peak, &|loads| face.deepest(loads, part)).1 / radius)
+            let deepest = |loads: &Loads| face.deepest(loads, part);
+            peak.map(|_| self.greatest_in_part(&samples, peak, &deepest).1 / radius)
         };
         let first_strike = || strike(Part::BeforeStart, before_start, mesh.base_radii.1);
         let last_strike = || strike(Part::AfterEnd, after_end, mesh.base_radii.0);
         let is_apart = |angle: &f64| *angle > 0.0;
         let at_slices =
             |loads: &Rc<Loads>| (0..face.slices.len()).map(|at| loads.at(0, at)).collect();
-        let (approach_force, force_at_start) = forces(Part::BeforeStart, before_start, 0.0)?;
-        let (recess_force, force_at_end) = forces(Part::AfterEnd, after_end, mesh.length)?;
+        let (approach_force, force_at_start) =
+            self.tip_forces(&samples, (Part::BeforeStart, before_start), 0.0)?;
+        let (recess_force, force_at_end) =
+            self.tip_forces(&samples, (Part::AfterEnd, after_end), mesh.length)?;
         let load = StaticLoad {
             first_contact_angle: Some(ahead(&first_place)).filter(is_apart).or_else(first_strike),
             last_contact_angle: Some(behind(&last_place)).filter(is_apart).or_else(last_strike),
@@ -812,6 +783,52 @@ impl<'a> Passage<'a> {
             },
             samples,
         }))
+    }
+
+    /// The greatest value in a part of the path and its place, with the greatest line load there.
+    /// Reliefs can let the tooth touch after E at its end and before E farther inside; alike at B. A strike
+    /// shorter than the steps between the samples is beside its greatest line load.
+    fn greatest_in_part(
+        &self,
+        samples: &[Rc<Loads>],
+        peak: Option<LinePeak>,
+        of: &dyn Fn(&Loads) -> f64,
+    ) -> (f64, f64) {
+        /// Of a base pitch, down to the shortest strike.
+        const HALVINGS: u32 = 20;
+        let found = self.greatest(samples, of);
+        let Some(LinePeak { place, .. }) = peak.filter(|_| found.1 <= 0.0) else {
+            return found;
+        };
+        let there = place.path - place.z * self.face.inputs.lead;
+        let pitch = self.face.mesh.base_pitch;
+        let ways = (0..HALVINGS).map(|halvings| pitch / f64::from(1_u32 << halvings));
+        let before = ways.clone().map(|way| there - way);
+        let beside = before.chain([there]).chain(ways.rev().map(|way| there + way));
+        let beside: Vec<_> = beside.filter_map(|s| self.loads(s).ok()).collect();
+        self.greatest(&beside, of)
+    }
+
+    /// The greatest force in a part of the path that ends at `end`, and the greatest while slices pass
+    /// this end, in N.
+    fn tip_forces(
+        &self,
+        samples: &[Rc<Loads>],
+        (part, peak): (Part, Option<LinePeak>),
+        end: f64,
+    ) -> Result<(f64, f64), Refusal> {
+        let face = self.face;
+        let of = |loads: &Loads| face.force(loads, 0, part);
+        let (place, greatest) = self.greatest_in_part(samples, peak, &of);
+        let (from, to) = (end - face.reach, end + face.reach);
+        if greatest <= 0.0 || (from <= place && place <= to) {
+            return Ok((greatest, greatest));
+        }
+        let aside = INSIDE * face.mesh.length;
+        let inner = samples.iter().filter(|loads| from < loads.s && loads.s < to).map(Rc::clone);
+        let mut passing = vec![self.loads(from - aside)?];
+        passing.extend(inner.chain([self.loads(to + aside)?]));
+        Ok((greatest, self.greatest(&passing, &of).1))
     }
 
     /// The time from the first contact to the first valley of the force, or to the last contact, in s.

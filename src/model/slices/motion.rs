@@ -91,8 +91,7 @@ impl<'a> Springs<'a> {
         // The error of a step is of fourth order.
         let length = (of_steps / OF_SLICES).powf(0.25);
         let turn = (TURN * length).min(MOST_TURN);
-        let step =
-            (turn / frequency * speed).min(mesh.base_pitch / STEPS * length.min(1.0));
+        let step = (turn / frequency * speed).min(mesh.base_pitch / STEPS * length.min(1.0));
         let borders = mesh.borders(0.0, mesh.base_pitch);
         let part = |ends: &[f64]| {
             let steps = ((ends[1] - ends[0]) / step - 1e-9).ceil().max(1.0);
