@@ -831,70 +831,24 @@ impl<'a> Passage<'a> {
         Ok((greatest, self.greatest(&passing, &of).1))
     }
 
-    /// The time from the first contact to the first valley of the force, or to the last contact, in s.
-    /// `None` at rest.
+    /// The time from the first contact to the first valley of the force, in s. `None` at rest.
     pub(super) fn first_minimum(&self, samples: &[Rc<Loads>]) -> Option<f64> {
+        let (course, length) = (self.course?, self.face.mesh.length);
+        let ends = [&samples[0], &samples[samples.len() - 1]].map(|loads| loads.s);
+        // A bounce can be shorter than the distance of the samples, and a valley be a bend at E or B.
+        let inner = course.places(ends[0], ends[1]).chain([0.0, length]);
+        let mut places: Vec<f64> =
+            inner.filter(|s| ends[0] < *s && *s < ends[1]).chain(ends).collect();
+        places.sort_by(f64::total_cmp);
         let of = |loads: &Loads| self.face.pair_force(loads, 0);
-        let force: Vec<f64> = samples.iter().map(|loads| of(loads)).collect();
-        let least = first_valley(force.iter().copied())?;
-        let near = &samples[least - 1..=(least + 1).min(force.len() - 1)];
-        let (s, _) = self.greatest(near, &|loads| -of(loads));
-        Some((s - samples[0].s) / self.course?.speed)
+        let forces = places.iter().map_while(|s| self.loads(*s).ok()).map(|loads| of(&loads));
+        let least = first_valley(forces)?;
+        let near = &places[least - 1..=(least + 1).min(places.len() - 1)];
+        let near: Vec<_> = near.iter().filter_map(|s| self.loads(*s).ok()).collect();
+        let (s, _) = self.greatest(&near, &|loads| -of(loads));
+        Some((s - ends[0]) / course.speed)
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use crate::model::inputs::{Drive, Inputs, Method};
-    use crate::model::sample::standard_pair;
-    use crate::model::{Solution, Stage, Stages, solve};
-
-    #[test]
-    fn the_first_contact_is_between_slices_if_the_gap_is_least_there() {
-        let mut inputs = standard_pair(20, 35, 3e-3);
-        (inputs.method, inputs.drive) = (Method::Static, Drive::Torque(180.0));
-        (inputs.driver.face_width, inputs.driven.face_width) = (25e-3, 25e-3);
-        inputs.helix_angle = 20f64.to_radians();
-        (inputs.driver.crowning, inputs.misalignment) = (15e-6, 32e-6);
-        let [usual, many] = [None, Some(257)].map(|slices| {
-            inputs.slices = slices;
-            let solution = solve(&inputs, Stages::of(Stage::Static)).unwrap();
-            solution.face_load.unwrap().first
-        });
-        assert!(many.z.abs() < 12e-3, "inside the face: {many:?}");
-        assert!((usual.z / many.z - 1.0).abs() < 5e-3, "{usual:?}, {many:?}");
-        assert!((usual.path - many.path).abs() < 1e-6, "{usual:?}, {many:?}");
-    }
-
-    #[test]
-    fn greatest_loads_do_not_depend_on_the_number_of_slices() {
-        let spur = || {
-            let mut inputs = standard_pair(20, 35, 3e-3);
-            (inputs.method, inputs.drive) = (Method::Static, Drive::Torque(180.0));
-            (inputs.driver.face_width, inputs.driven.face_width) = (25e-3, 25e-3);
-            inputs
-        };
-        let helical = |angle: f64| Inputs { helix_angle: angle.to_radians(), ..spur() };
-        let [mut ends, mut tips, mut light] = [spur(), helical(20.0), helical(12.0)];
-        (ends.driver.end_reliefs, ends.misalignment) = ([12e-6, 5e-6], 10e-6);
-        (tips.driver.tip_relief, tips.driven.tip_relief) = (40e-6, 30e-6);
-        (light.drive, light.misalignment) = (Drive::Torque(5.0), 25e-6);
-        (light.driven.end_reliefs, light.driver.crowning) = ([20e-6, 0.0], 4e-6);
-        for (name, pair) in [("end relief", ends), ("tip relief", tips), ("light load", light)] {
-            let [usual, many] = [None, Some(513)].map(|slices| {
-                let inputs = Inputs { slices, ..pair.clone() };
-                solve(&inputs, Stages::of(Stage::StaticSpectrum).with(Stage::Static)).unwrap()
-            });
-            let values = |solution: &Solution| {
-                let face = solution.face_load.as_ref().expect(name);
-                let cycle = solution.face_cycle.as_ref().expect(name);
-                let load = solution.static_load.as_ref().unwrap();
-                let factor = cycle.peak_line_load / cycle.mean_line_load;
-                [face.peak.line_load, factor, load.force_at_start, load.force_at_end]
-            };
-            for (of, other) in values(&usual).into_iter().zip(values(&many)) {
-                assert!((of - other).abs() <= 5e-3 * other.abs(), "{name}: {of} and {other}");
-            }
-        }
-    }
-}
+mod tests;
