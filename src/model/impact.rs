@@ -285,7 +285,7 @@ impl StiffnessModels {
         Inputs {
             tooth_compliance: Some(self.tooth),
             contact_compliance: self.contact.unwrap_or(inputs.contact_compliance),
-            // Without coupling is only the model of the case.
+            // The switch of the case applies to its own tooth model alone.
             tooth_coupling: inputs.tooth_coupling || self.tooth != model_of(inputs),
             ..inputs.clone()
         }
