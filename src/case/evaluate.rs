@@ -2,7 +2,7 @@
 
 use crate::model::inputs::Method;
 use crate::model::solve::{Earlier, Lazy, solve_after};
-use crate::model::{Inputs, Refusal, Solution, Stages};
+use crate::model::{Inputs, Refusal, Solution, Stage, Stages};
 
 /// The last solve by each method.
 #[derive(Debug, Clone, Default)]
@@ -59,19 +59,31 @@ impl Evaluator {
             by_method = Inputs { method, ..inputs.clone() };
             &by_method
         };
-        let by = |solved: &Solved| solved.inputs.method == method;
-        let Some(at) = self.solved.iter().position(by) else {
-            let solution = solve_after(inputs, wanted, None, go_on)?;
-            let at = self.solved.len();
-            self.solved.push(Solved { inputs: inputs.clone(), solution, gears: Lazy::default() });
-            return Ok(&self.solved[at].solution);
+        let own = self.solved.iter().position(|solved| solved.inputs.method == method);
+        let last = own.and_then(|at| self.solved.get(at));
+        let rests = |last: &&Solved| {
+            let mut stages = Stages::of(Stage::Static).iter();
+            stages.all(|stage| stage.has_equal_inputs(&last.inputs, inputs))
         };
-        let Solved { inputs: before, solution, gears } = &mut self.solved[at];
-        let gears = self.has_same_gears.then_some(&*gears);
-        let earlier = Earlier { inputs: before, solution, gears };
-        *solution = solve_after(inputs, wanted, Some(earlier), go_on)?;
-        before.clone_from(inputs);
-        Ok(solution)
+        let earlier = last.filter(rests).or_else(|| self.motion_of(inputs)).or(last);
+        let earlier = earlier.map(|Solved { inputs, solution, gears }| Earlier {
+            inputs,
+            solution,
+            gears: self.has_same_gears.then_some(gears),
+        });
+        let solution = solve_after(inputs, wanted, earlier, go_on)?;
+        let gears = own.map(|at| self.solved.swap_remove(at).gears).unwrap_or_default();
+        self.solved.push(Solved { inputs: inputs.clone(), solution, gears });
+        Ok(&self.solved[self.solved.len() - 1].solution)
+    }
+
+    /// The motion of a pair to be solved at rest, whose mesh and load at rest are those of `static`.
+    fn motion_of(&self, inputs: &Inputs) -> Option<&Solved> {
+        let moving = |solved: &&Solved| {
+            solved.inputs.method == Method::Dynamic
+                && solved.inputs == Inputs { method: Method::Dynamic, ..inputs.clone() }
+        };
+        self.solved.iter().filter(|_| inputs.method == Method::Static).find(moving)
     }
 }
 
@@ -81,7 +93,7 @@ mod tests {
     use crate::case::Case;
     use crate::case::fields::{FIELDS, index_of, keeps_gears};
     use crate::model::inputs::Drive;
-    use crate::model::{QUANTITIES, Stage, solve};
+    use crate::model::{QUANTITIES, solve};
 
     fn edited(key: &str, text: &str) -> Case {
         let mut case = Case::table_1();
@@ -181,6 +193,17 @@ mod tests {
             let fresh = solve(&inputs, wanted).unwrap();
             assert_eq!(kept.dynamic, fresh.dynamic, "{speed}");
         }
+    }
+
+    #[test]
+    fn the_load_at_rest_after_a_motion_is_that_of_the_motion() {
+        let (mut evaluator, case) = (Evaluator::default(), edited("operation.speed", "300 rpm"));
+        let inputs = case.inputs().unwrap();
+        let mut run = |method| evaluator.solve(&inputs, method, Stages::EVERY, &|_| true).unwrap();
+        run(Method::Dynamic);
+        let kept = run(Method::Static);
+        assert!(!kept.ran.has(Stage::Mesh) && !kept.ran.has(Stage::Static));
+        assert_equal(&kept, &run_fresh(Method::Static, &case), "the method");
     }
 
     #[test]

@@ -17,12 +17,12 @@ use super::position::{position, velocity};
 use super::relief::check_reliefs;
 use super::slices::Face;
 use super::slices::motion::{self, Springs};
-use super::speeds::{SPEEDS, over_speed};
+use super::speeds::over_speed;
 use super::stage::{Stage, Stages};
 use super::static_load::{Resonance, static_load, static_spectrum};
 use super::stations::{Spacing, stations};
 use super::{Geometry, Kept, Mesh, Outcome, Position, Refusal, Solution, SpeedCurve, impact};
-use std::cell::{Cell, OnceCell};
+use std::cell::OnceCell;
 use std::sync::Arc;
 use twofloat::TwoFloat;
 
@@ -68,20 +68,21 @@ pub fn solve_after(
 }
 
 /// The steady motion over the speed, rising and falling, by the method `dynamic`. `show` receives the
-/// growing curve and returns whether to continue.
+/// growing curve.
 ///
 /// # Errors
-/// Those of [`solve`], and [`Refusal::Stopped`] if `show` returns false.
+/// Those of [`solve_while`].
 pub fn speeds(
     inputs: &Inputs,
-    show: &mut dyn FnMut(&SpeedCurve) -> bool,
+    show: &mut dyn FnMut(&SpeedCurve),
+    go_on: &dyn Fn(f64) -> bool,
 ) -> Result<SpeedCurve, Refusal> {
     let inputs = Inputs { method: Method::Dynamic, ..inputs.clone() };
     let solution = solve(&inputs, Stages::of(Stage::Deviation))?;
-    over_speed(&inputs, &solution, show, &|_| true)
+    over_speed(&inputs, &solution, show, go_on)
 }
 
-/// An earlier solve by the same method.
+/// An earlier solve, by any method but `auto`, or by `auto` of these inputs.
 #[derive(Debug, Clone, Copy)]
 pub struct Earlier<'a> {
     /// Its inputs.
@@ -92,8 +93,7 @@ pub struct Earlier<'a> {
     pub gears: Option<&'a Lazy>,
 }
 
-/// Solves by the method of the inputs, which is not `auto`. Ignores an earlier solve by another
-/// method.
+/// Solves by the method of the inputs, which is not `auto`.
 ///
 /// # Errors
 /// Those of [`solve_after`].
@@ -111,7 +111,7 @@ pub(crate) fn solve_by_method(
         inputs,
         face,
         wanted: wanted.within(inputs.method.stages()),
-        earlier: earlier.filter(|earlier| earlier.solution.method == inputs.method),
+        earlier,
         go_on,
         changed: Stages::NONE,
         done: Stages::NONE,
@@ -157,7 +157,7 @@ impl<'a> Run<'a> {
         /// The stages that read neither load nor deviations.
         const OF_GEARS: Stages = Stages::of(Stage::Geometry).with(Stage::Masses);
         let Earlier { inputs, solution, gears } = self.earlier?;
-        let is_valid = solution.stages.has(stage)
+        let is_valid = solution.stages.within(self.inputs.method.stages()).has(stage)
             && stage.depends_on().within(self.changed) == Stages::NONE
             && (gears.is_some() && OF_GEARS.has(stage)
                 || stage.has_equal_inputs(self.inputs, inputs));
@@ -374,14 +374,7 @@ impl<'a> Run<'a> {
         let of = |s: &Solution| s.steady.clone();
         solution.steady = self.on_mesh(Stage::SteadyMotion, of, &mut meshes, find)?;
         let find = |mesh: &Arc<Mesh>| {
-            let done = Cell::new(0.0);
-            let mut show = |curve: &SpeedCurve| {
-                let count = curve.up.iter().chain(&curve.down).flatten().count();
-                done.set(count as f64 / (2 * SPEEDS) as f64);
-                go_on(done.get())
-            };
-            let go_on = |_| go_on(done.get());
-            late(mesh, over_speed(inputs, solution, &mut show, &go_on).map(Arc::new))
+            late(mesh, over_speed(inputs, solution, &mut |_| (), go_on).map(Arc::new))
         };
         let of = |s: &Solution| s.over_speed.clone();
         solution.over_speed = self.on_mesh(Stage::SpeedRun, of, &mut meshes, find)?;
@@ -477,8 +470,8 @@ struct Auto<'a> {
 }
 
 impl Auto<'_> {
-    /// Solves by one method after a known solution by it. For `static` its results replace the
-    /// wanted results of `dynamic`.
+    /// Solves by one method after a known solution. For `static` its results replace the wanted
+    /// results of `dynamic`.
     fn solve(
         &self,
         method: Method,
@@ -491,7 +484,9 @@ impl Auto<'_> {
         } else {
             wanted
         };
-        let earlier = known.map(|solution| Earlier { inputs: &inputs, solution, gears: None });
+        let earlier = known.map(|solution| (auto::taken(self.inputs, solution.method), solution));
+        let earlier =
+            earlier.as_ref().map(|(inputs, solution)| Earlier { inputs, solution, gears: None });
         let found = solve_by_method(&inputs, wanted, earlier, self.go_on)?;
         let ran = known.map_or(Stages::NONE, |known| known.ran);
         Ok(Solution { ran: found.ran.and(ran), ..found })
@@ -547,8 +542,7 @@ impl Auto<'_> {
         moved: Solution,
         wanted: Stages,
     ) -> Result<(Solution, Choice), Refusal> {
-        let known = Solution { method: Method::Static, ..moved.clone() };
-        let at_rest = || self.solve(Method::Static, wanted, Some(&known));
+        let at_rest = || self.solve(Method::Static, wanted, Some(&moved));
         let still = moved.face_motion.as_ref().map(|_| at_rest()).transpose()?;
         let adds = auto::added_by_inertia(&moved, still.as_ref());
         let choice = adds.map_or(choice, |adds| choice.tried(self.inputs, adds));

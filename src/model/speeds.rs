@@ -1,5 +1,6 @@
 //! The dynamic factors of a pair over speed, in a run-up and a run-down.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use super::budget::Meter;
@@ -121,16 +122,15 @@ fn greatest(run: &[Option<AtSpeed>]) -> Option<&AtSpeed> {
 }
 
 /// Computes the steady motion of a pair at each of [`SPEEDS`] speeds, first with rising speed, then
-/// with falling speed. Each motion starts from the previous one. `show` receives the growing curve
-/// and returns whether to continue; `go_on` is asked during each motion. The solution has geometry,
-/// load, masses and deviation.
+/// with falling speed. Each motion starts from the previous one. `show` receives the growing curve.
+/// The solution has geometry, load, masses and deviation.
 ///
 /// # Errors
-/// The [`Refusal`] of the pair; [`Refusal::Stopped`] if `show` or `go_on` returns false.
+/// The [`Refusal`] of the pair; [`Refusal::Stopped`] if `go_on` returns false.
 pub(crate) fn over_speed(
     inputs: &Inputs,
     solution: &Solution,
-    show: &mut dyn FnMut(&SpeedCurve) -> bool,
+    show: &mut dyn FnMut(&SpeedCurve),
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<SpeedCurve, Refusal> {
     let inputs = Inputs { drive: Drive::Torque(inputs.torque()), ..inputs.clone() };
@@ -158,6 +158,7 @@ pub(crate) fn over_speed(
         Some(face) => face.cycle()?.1.tooth_force,
         None => static_spectrum(&mesh)?.tooth_force,
     };
+    let done = Cell::new(0);
     let runs = Runs {
         mesh: &mesh,
         springs: springs.as_ref(),
@@ -165,7 +166,7 @@ pub(crate) fn over_speed(
         tooth_force,
         resonance: at_resonance,
         work: Meter::new(WORK),
-        go_on,
+        go_on: &|_| go_on(f64::from(done.get()) / (2 * SPEEDS) as f64),
     };
     let (mut last, mut highest) = (None, [const { None }; 2]);
     let rising = (0..SPEEDS).map(|at| (at, true));
@@ -179,9 +180,8 @@ pub(crate) fn over_speed(
         {
             *highest = Some((found, start.clone()));
         }
-        if !show(&curve) {
-            return Err(Refusal::Stopped);
-        }
+        done.set(done.get() + 1);
+        show(&curve);
     }
     for (peak, highest) in curve.peaks.iter_mut().zip(highest) {
         *peak = highest.map(|highest| runs.summit(highest, step * at_resonance)).transpose()?;

@@ -1,12 +1,13 @@
 //! Harmonics and dynamic factors of the periodic mesh compared with direct sampling and with an
 //! integrator of fixed steps.
+use std::cell::Cell;
 use std::f64::consts::TAU;
 
 use crate::support::{case, range, value};
 use tipstrike::model::inputs::{Drive, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::solve::speeds;
-use tipstrike::model::speeds::SPEEDS;
+use tipstrike::model::speeds::{SPEEDS, SpeedCurve};
 use tipstrike::model::static_load::{HARMONICS, balance};
 use tipstrike::model::{Inputs, Note, Refusal, Solution, Stages, Steady, notes, solve};
 
@@ -173,7 +174,8 @@ fn a_pair_with_little_damping_rattles_across_its_backlash() {
 #[test]
 fn the_run_over_the_speed_passes_through_the_steady_motion_of_the_case() {
     let inputs = case("fzg-type-c");
-    let curve = speeds(&inputs, &mut |_| true).unwrap_or_else(|refusal| panic!("{refusal}"));
+    let curve =
+        speeds(&inputs, &mut |_| (), &|_| true).unwrap_or_else(|refusal| panic!("{refusal}"));
     assert_eq!(curve.up.len(), SPEEDS);
     assert!(!curve.is_cut);
     // If the run-down finds the motion of the run-up, a plain solve finds it too.
@@ -194,15 +196,13 @@ fn the_run_over_the_speed_passes_through_the_steady_motion_of_the_case() {
     let last = curve.speeds[SPEEDS - 1];
     assert!(curve.speeds[0] < curve.resonance && curve.resonance < last);
     // The caller may stop it.
-    let mut shown = 0;
-    let stopped = speeds(&inputs, &mut |_| {
-        shown += 1;
-        shown < 3
-    });
-    assert_eq!(stopped, Err(Refusal::Stopped));
-    assert_eq!(shown, 3);
+    let shown = Cell::new(0);
+    let mut show = |_: &SpeedCurve| shown.set(shown.get() + 1);
+    let stopped = speeds(&inputs, &mut show, &|_| shown.get() < 3);
+    assert_eq!((stopped, shown.get()), (Err(Refusal::Stopped), 3));
     // With little damping and loss of contact, the run-down keeps a motion that the run-up has not.
     let little = Inputs { damping_ratio: 0.02, ..case("zhou-chen-2014") };
-    let curve = speeds(&little, &mut |_| true).unwrap_or_else(|refusal| panic!("{refusal}"));
+    let curve =
+        speeds(&little, &mut |_| (), &|_| true).unwrap_or_else(|refusal| panic!("{refusal}"));
     assert!(curve.jumps().count() > 1, "{}", curve.jumps().count());
 }

@@ -8,6 +8,7 @@ use crate::case::units::System;
 use crate::model::compliance::model_of;
 use crate::model::inputs::Method;
 use crate::model::solve::speeds;
+use crate::model::speeds::SpeedCurve;
 use crate::model::{self, Inputs, Refusal, Stage, Stages, solve_while};
 use crate::report::charts::{chart_of_spectra, spectra, speed_chart, tooth_chart};
 use crate::report::{self, explain as explanation};
@@ -426,15 +427,15 @@ fn compute(tab: usize, request: &ChartRequest, running: &Running<'_>) {
         }
         OwnChart::Speed => {
             let mut sent = Instant::now();
-            let curve = speeds(inputs, &mut |curve| {
+            let mut show = |curve: &SpeedCurve| {
                 if sent.elapsed() >= CHART_STEP {
                     sent = Instant::now();
                     if let Ok(chart) = speed_chart(&[("", curve)]) {
                         send(Ok(chart));
                     }
                 }
-                running.is_wanted()
-            });
+            };
+            let curve = speeds(inputs, &mut show, &|_| running.is_wanted());
             curve.map(|curve| speed_chart(&[("", &curve)]))
         }
         OwnChart::Pattern => return,
