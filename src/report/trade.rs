@@ -233,7 +233,7 @@ pub fn compliance_table(
     Table::of_texts(head, rows)
 }
 
-/// Time and differences of each number of slices, coupled and independent.
+/// Time and differences of each number of slices and coupling.
 fn by_slices(trade: &Trade) -> Vec<String> {
     const SUBJECTS: [(Subject, &str); 6] = [
         (Subject::FirstContact, "contact"),
@@ -244,20 +244,24 @@ fn by_slices(trade: &Trade) -> Vec<String> {
         (Subject::TransmissionError, "TE"),
     ];
     let title = "Time of a solve and difference from the reference in %, by number of slices and \
-        their coupling. >: the setting of the case.";
-    let head = ["  slices", "coupling", "time"].into_iter().chain(SUBJECTS.map(|(_, name)| name));
+        by what is coupled. >: the setting of the case.";
+    let head = ["  slices", "coupled", "time"].into_iter().chain(SUBJECTS.map(|(_, name)| name));
     let rows = shown(trade).map(|measured| {
-        let Setting { coupled, .. } = measured.setting;
         let mark = if measured.is_current { '>' } else { ' ' };
         let slices = format!("{mark} {}", measured.setting.slices_text());
-        let coupling = if coupled { "coupled" } else { "independent" };
+        let coupled = match measured.setting.couplings {
+            [true, true] => "slices, teeth",
+            [false, true] => "teeth",
+            [true, false] => "slices",
+            [false, false] => "nothing",
+        };
         let figures = measured.found.as_ref();
         let time = figures.map_or("refused".to_owned(), |it| duration(it.time.seconds));
         let errors = SUBJECTS.map(|(subject, _)| {
             let total = figures.ok().and_then(|figures| figures.total[subject as usize]);
             total.map_or("-".to_owned(), percent)
         });
-        [slices, coupling.to_owned(), time].into_iter().chain(errors).collect()
+        [slices, coupled.to_owned(), time].into_iter().chain(errors).collect()
     });
     let table = Table::of_texts(head.map(str::to_owned).collect(), rows);
     [item("", title), table.lines()].concat()
@@ -324,7 +328,8 @@ fn setting(trade: &Trade, measured: &MeasuredSetting) -> Json {
         "tolerance": setting.tolerance,
         "accurate": setting.accurate,
         "slices": slices(trade, setting),
-        "slice_coupling": trade.is_over_face.then_some(setting.coupled),
+        "slice_coupling": trade.is_over_face.then_some(setting.couplings[0]),
+        "tooth_coupling": trade.is_over_face.then_some(setting.couplings[1]),
         "current": measured.is_current,
         "seconds": time.map(|time| time.seconds),
         "spread": time.map(|time| time.spread),

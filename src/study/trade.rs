@@ -25,7 +25,7 @@ pub struct Trade {
     pub planned: usize,
     /// The settings measured so far.
     pub settings: Vec<MeasuredSetting>,
-    /// The finest setting of each method, or with coupled and with independent slices.
+    /// The finest setting of each method, or of each coupling over the face width.
     pub finest: Vec<Finest>,
     /// Whether the load varies over the face width: slices are compared in place of methods.
     pub is_over_face: bool,
@@ -38,7 +38,7 @@ pub struct Trade {
 pub type Differences = [Option<f64>; Subject::ALL.len()];
 
 /// The finest setting of a method. That of `dynamic` by the default compliance is the reference: by
-/// finite elements if both gears have them. Over the face width it is that with coupled slices.
+/// finite elements if both gears have them. Over the face width it is that with both couplings.
 #[derive(Debug, Clone)]
 pub struct Finest {
     /// The setting.
@@ -106,7 +106,7 @@ pub fn trade(
     let own = (current.models.is_some() && current.method != Method::Auto).then(|| current.best());
     let is_over_face = inputs.face().is_some();
     let finest = if is_over_face {
-        [true, false].map(|coupled| Setting::finest_slices(inputs, coupled)).to_vec()
+        COUPLINGS.map(|couplings| Setting::finest_slices(inputs, couplings)).to_vec()
     } else {
         METHODS.map(|method| Setting::usual(method, inputs).best()).to_vec()
     };
@@ -308,6 +308,8 @@ pub const METHODS: [Method; 4] = [Method::Paper, Method::Exact, Method::Static, 
 pub const STATIONS: [usize; 3] = [8, 64, 1024];
 /// The compared numbers of slices.
 pub const SLICES: [usize; 5] = [9, 17, 33, 65, 129];
+/// The compared couplings of slices and of teeth.
+const COUPLINGS: [[bool; 2]; 3] = [[true, true], [false, true], [true, false]];
 /// Number of slices of the finest setting.
 const BEST_SLICES: usize = 513;
 /// Number of intervals of the finest setting of a method.
@@ -330,25 +332,27 @@ pub struct Setting {
     pub accurate: bool,
     /// Number of slices of the face width; `None` for as many as the pair needs.
     pub slices: Option<usize>,
-    /// Whether a force on a slice displaces the slices beside it.
-    pub coupled: bool,
+    /// Whether a force on a slice displaces the slices beside it, and whether a force on a tooth its
+    /// neighbours.
+    pub couplings: [bool; 2],
 }
 
 impl Setting {
     /// Every compared setting: each method coarse and fine with the default compliance, then the
     /// default setting of each method with every other compliance that covers the pair. Over the face
-    /// width, each number of slices with and without coupling.
+    /// width, each number of slices with and without coupling, and teeth without coupling.
     pub fn all(inputs: &Inputs) -> Vec<Setting> {
         let usual = |method| Setting::usual(method, inputs);
         if inputs.face().is_some() {
             let counts = || SLICES.into_iter().map(Some).chain([None]);
-            let slices = |coupled| {
-                let usual = usual(Method::Static);
-                counts().map(move |slices| Setting { slices, coupled, ..usual })
-            };
+            let [both, teeth, slices] =
+                COUPLINGS.map(|couplings| Setting { couplings, ..usual(Method::Static) });
+            let with_counts = |of: Setting| counts().map(move |slices| Setting { slices, ..of });
             let others = StiffnessModels::covering(inputs)
                 .map(|models| Setting::of_method(Method::Static, Some(models)));
-            return distinct(slices(true).chain(slices(false)).chain(others));
+            return distinct(
+                with_counts(both).chain(with_counts(teeth)).chain([slices]).chain(others),
+            );
         }
         // With every number of stations, and with as many as the curve needs. The tolerance of `dynamic`
         // changes neither time nor error noticeably, because its steps are exact while the same pairs touch.
@@ -367,10 +371,10 @@ impl Setting {
 
     /// A method and compliance with the default fineness.
     pub fn of_method(method: Method, models: Option<StiffnessModels>) -> Setting {
-        let Inputs { stations, tolerance, slices, slice_coupling, .. } = Inputs::default();
+        let Inputs { stations, tolerance, slices, .. } = Inputs::default();
         let tolerance = (method == Method::Dynamic).then_some(tolerance);
-        let coupled = slice_coupling;
-        Setting { method, models, stations, tolerance, accurate: false, slices, coupled }
+        let [couplings, ..] = COUPLINGS;
+        Setting { method, models, stations, tolerance, accurate: false, slices, couplings }
     }
 
     /// The setting of a case that sets only the method.
@@ -390,19 +394,20 @@ impl Setting {
     }
 
     /// The finest setting over the face width.
-    fn finest_slices(inputs: &Inputs, coupled: bool) -> Setting {
+    fn finest_slices(inputs: &Inputs, couplings: [bool; 2]) -> Setting {
         let usual = Setting::usual(Method::Static, inputs);
-        Setting { slices: Some(BEST_SLICES), coupled, ..usual }
+        Setting { slices: Some(BEST_SLICES), couplings, ..usual }
     }
 
     /// Whether both settings differ only in their fineness.
     pub fn is_finer_or_coarser(&self, other: &Setting) -> bool {
-        (self.method, self.models, self.coupled) == (other.method, other.models, other.coupled)
+        let of = |setting: &Setting| (setting.method, setting.models, setting.couplings);
+        of(self) == of(other)
     }
 
     /// The setting of some inputs.
     pub fn of(inputs: &Inputs) -> Setting {
-        let Inputs { method, stations, accurate, slices, slice_coupling, .. } = *inputs;
+        let Inputs { method, stations, accurate, slices, .. } = *inputs;
         let is_left_to_auto = method == Method::Auto && inputs.tooth_compliance.is_none();
         Setting {
             method,
@@ -411,7 +416,7 @@ impl Setting {
             tolerance: (method == Method::Dynamic).then_some(inputs.tolerance),
             accurate,
             slices,
-            coupled: slice_coupling,
+            couplings: [inputs.slice_coupling, inputs.tooth_coupling],
         }
     }
 
@@ -423,7 +428,8 @@ impl Setting {
             tolerance: self.tolerance.unwrap_or(inputs.tolerance),
             accurate: self.accurate,
             slices: self.slices,
-            slice_coupling: self.coupled,
+            slice_coupling: self.couplings[0],
+            tooth_coupling: self.couplings[1],
             ..match self.models {
                 Some(models) => models.in_place_of(inputs),
                 None => Inputs { tooth_compliance: None, ..inputs.clone() },
@@ -451,10 +457,12 @@ impl Setting {
         let tolerance = self.tolerance.map(|tolerance| format!("{tolerance:e}"));
         write(case, "model.tolerance", tolerance.as_deref());
         let own = case.inputs().ok().map(|inputs| Setting::of(&inputs));
-        if own.is_none_or(|own| (own.slices, own.coupled) != (self.slices, self.coupled)) {
-            let coupled = if self.coupled { "true" } else { "false" };
+        if own.is_none_or(|own| (own.slices, own.couplings) != (self.slices, self.couplings)) {
+            let [slices, teeth] =
+                self.couplings.map(|couples| if couples { "true" } else { "false" });
             write(case, "model.slices", Some(&self.slices_text()));
-            write(case, "model.slice_coupling", Some(coupled));
+            write(case, "model.slice_coupling", Some(slices));
+            write(case, "model.tooth_coupling", Some(teeth));
         }
         if own.and_then(|own| own.models) != self.models {
             let tooth = self.models.map_or("", |models| models.tooth.name());
@@ -485,10 +493,14 @@ impl fmt::Display for Setting {
         if let Some(tolerance) = self.tolerance {
             write!(f, " and tolerance {tolerance:e}")?;
         }
-        match (self.slices, self.coupled) {
+        let [slices, teeth] = self.couplings;
+        match (self.slices, slices) {
             (None, true) => {}
             (_, true) => write!(f, ", {} slices", self.slices_text())?,
             (_, false) => write!(f, ", {} independent slices", self.slices_text())?,
+        }
+        if !teeth {
+            f.write_str(", independent teeth")?;
         }
         if self.accurate { f.write_str(", accurate") } else { Ok(()) }
     }

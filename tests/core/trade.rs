@@ -280,7 +280,7 @@ fn json_has_every_setting_with_its_errors() {
 /// Over the face width slices are compared: coupled slices converge, and independent slices have a
 /// model error of the greatest line load.
 #[test]
-fn slices_of_a_helical_pair_are_compared_coupled_and_independent() {
+fn couplings_of_a_helical_pair_are_compared() {
     let helical = Inputs {
         helix_angle: 20f64.to_radians(),
         tooth_compliance: Some(ToothCompliance::KUANG_YANG),
@@ -293,7 +293,7 @@ fn slices_of_a_helical_pair_are_compared_coupled_and_independent() {
     let trade = traded(&inputs, 0.05);
     let off = |slices: usize, is_coupled: bool| {
         let is_it = |one: &&MeasuredSetting| {
-            (one.setting.slices, one.setting.coupled) == (Some(slices), is_coupled)
+            (one.setting.slices, one.setting.couplings) == (Some(slices), [is_coupled, true])
         };
         let found = trade.settings.iter().find(is_it).expect("a setting");
         let figures = found.found.as_ref().expect("a solve");
@@ -304,9 +304,11 @@ fn slices_of_a_helical_pair_are_compared_coupled_and_independent() {
     assert!(many[0] <= few[0] && many[1] <= few[1] && many[2] < 1e-3, "{few:?} {many:?}");
     assert!(many[1] < 0.02 && off(129, false)[1] > 0.05, "{many:?} {:?}", off(129, false));
     let (text, json) = (text(&trade), json(&trade));
-    assert!(text.contains("independent") && text.lines().all(|line| line.chars().count() <= 80));
+    assert!(text.contains("slices, teeth") && text.lines().all(|line| line.chars().count() <= 80));
     let line = &json["settings"][0];
     assert_eq!((&line["slices"], &line["slice_coupling"]), (&9.into(), &true.into()));
+    let alone = |one: &&MeasuredSetting| one.setting.couplings == [true, false];
+    assert!(trade.settings.iter().any(|one| alone(&one)) && line["tooth_coupling"] == true);
     assert!(line["errors"]["peak_line_load"]["total"].is_number());
     assert_eq!(json["reference"]["slices"], 513);
 }
