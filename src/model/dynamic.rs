@@ -40,7 +40,7 @@ pub struct Dynamic {
     /// Greatest force of the incoming tooth, in N.
     pub peak_force: f64,
     /// Time from a first contact before E to the first valley of the force, or to the loss of contact, in
-    /// s. A fall of less than a hundredth of the peak is no valley.
+    /// s. A fall of less than a hundredth of the greatest force is no valley.
     pub impact_duration: Option<f64>,
     /// Least gap between the incoming tooth and the flank before E, in m. `None` if the tooth
     /// touches before E.

@@ -128,7 +128,7 @@ impl Watch {
             Some((motion.place(t) - mesh.length) / mesh.base_radii.0).filter(|&angle| angle > 0.0)
         };
         let swings = self.swings(motion);
-        let valley = || first_valley(swings.ends.iter().map(|(_, force)| *force));
+        let valley = || first_valley(swings.ends.iter().map(|(_, force)| *force), swings.peak);
         let (stations, rough) = first.zip(last).map_or((Vec::new(), None), |contact| {
             self.stations(motion, &swings, contact, settings.spacing)
         });
@@ -349,16 +349,19 @@ fn at_most(most: usize, times: Vec<f64>) -> (Vec<f64>, Option<Refusal>) {
 }
 
 /// The place of the first valley after the first peak of a force, or of the loss of contact. A fall or
-/// a rise of less than a hundredth of the peak is no valley.
-pub(in crate::model) fn first_valley(forces: impl Iterator<Item = f64>) -> Option<usize> {
-    const RIPPLE: f64 = 0.01;
+/// a rise of less than a hundredth of the greatest force is no valley.
+pub(in crate::model) fn first_valley(
+    forces: impl Iterator<Item = f64>,
+    greatest: f64,
+) -> Option<usize> {
+    let ripple = 0.01 * greatest;
     let (mut peak, mut valley) = (0.0, None);
     for (at, force) in forces.enumerate() {
         match valley {
             None if force >= peak => peak = force,
-            None if force < (1.0 - RIPPLE) * peak => valley = Some((at, force)),
+            None if force < peak - ripple => valley = Some((at, force)),
             Some((_, least)) if force < least => valley = Some((at, force)),
-            Some((_, least)) if force > least + RIPPLE * peak => break,
+            Some((_, least)) if force > least + ripple => break,
             _ => {}
         }
     }

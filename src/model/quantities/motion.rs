@@ -125,7 +125,7 @@ pub(super) const TABLE: &[Quantity] = &[
             |s| s.dynamic.as_ref()?.impact_duration,
             "The time from a first contact before E to the first valley of the force after \
             its first peak, or to the loss of contact if that is earlier. A fall of less than a \
-            hundredth of the peak is no valley.",
+            hundredth of the peak force is no valley.",
             BY_MOTION,
         )
         .corrections(&["Eq. 32"]),

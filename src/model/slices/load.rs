@@ -831,8 +831,9 @@ impl<'a> Passage<'a> {
         Ok((greatest, self.greatest(&passing, &of).1))
     }
 
-    /// The time from the first contact to the first valley of the force, in s. `None` at rest.
-    pub(super) fn first_minimum(&self, samples: &[Rc<Loads>]) -> Option<f64> {
+    /// The time from the first contact to the first valley of the force, in s, with its greatest value in
+    /// N. `None` at rest.
+    pub(super) fn first_minimum(&self, samples: &[Rc<Loads>], greatest: f64) -> Option<f64> {
         let (course, length) = (self.course?, self.face.mesh.length);
         let ends = [&samples[0], &samples[samples.len() - 1]].map(|loads| loads.s);
         // A bounce can be shorter than the distance of the samples, and a valley be a bend at E or B.
@@ -842,7 +843,7 @@ impl<'a> Passage<'a> {
         places.sort_by(f64::total_cmp);
         let of = |loads: &Loads| self.face.pair_force(loads, 0);
         let forces = places.iter().map_while(|s| self.loads(*s).ok()).map(|loads| of(&loads));
-        let least = first_valley(forces)?;
+        let least = first_valley(forces, greatest)?;
         let near = &places[least - 1..=(least + 1).min(places.len() - 1)];
         let near: Vec<_> = near.iter().filter_map(|s| self.loads(*s).ok()).collect();
         let (s, _) = self.greatest(&near, &|loads| -of(loads));

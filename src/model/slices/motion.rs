@@ -374,7 +374,9 @@ pub(in crate::model) fn dynamic(
         last_contact_angle: load.last_contact_angle,
         peak_approach_force: load.approach_force,
         peak_force: load.peak_force,
-        impact_duration: strikes.then(|| passage.first_minimum(&samples)).flatten(),
+        impact_duration: strikes
+            .then(|| passage.first_minimum(&samples, load.peak_force))
+            .flatten(),
         least_gap,
         contact_lost: course.loses_contact(-mesh.base_pitch - face.reach, last),
         rattle: None,
