@@ -418,6 +418,18 @@ mod tests {
     }
 
     #[test]
+    fn a_selection_of_the_motion_has_the_verdict_of_the_exit() {
+        let mut case = Case::table_1();
+        case.set("driven.tip_relief", "80 um").unwrap();
+        case.set("model.method", "dynamic").unwrap();
+        let only = Quantity::find("dynamic_peak_force").into_iter().collect();
+        let selection = Selection { only, stations: false };
+        let (_, solution) = selection.solve(case.inputs().unwrap()).unwrap();
+        let verdict = digest::sentence(&solution, System::Metric, false);
+        assert!(verdict.starts_with("Corner contact at the exit "), "{verdict}");
+    }
+
+    #[test]
     fn every_quantity_is_in_one_group() {
         for method in Method::ALL {
             let mut keys: Vec<_> = quantities(method).map(|quantity| quantity.key).collect();

@@ -91,8 +91,8 @@ impl Case {
 }
 
 impl Variant {
-    /// The variant with the changes from one case to another. If two fields exclude each other, the
-    /// override of one replaces the other.
+    /// The variant with the changes from one case to another, except those of `[about]`. If two fields
+    /// exclude each other, the override of one replaces the other.
     pub fn between(name: &str, from: &Case, to: &Case) -> Variant {
         let changes = between(from, to);
         let is_replaced = |key: &str| {
@@ -104,7 +104,7 @@ impl Variant {
         };
         let overrides = changes
             .iter()
-            .filter(|change| !change.key.starts_with(PREFIX))
+            .filter(|change| ![PREFIX, ABOUT].iter().any(|table| change.key.starts_with(table)))
             .filter(|change| change.to.is_some() || !is_replaced(&change.key))
             .map(|change| Override {
                 key: change.key.clone(),
@@ -366,6 +366,9 @@ mod variant_tests {
             let variant = Variant::between("edited", &base, &case);
             assert_eq!(variant.overrides.len(), edits.len(), "{variant:?}");
             assert_eq!(base.with(&variant), case);
+            let mut described = case.clone();
+            described.write_about("project", "GB 12");
+            assert_eq!(Variant::between("edited", &base, &described), variant);
         }
     }
 

@@ -52,7 +52,7 @@ impl Digest {
                 let by = if own == asked { "" } else { ", chosen by auto" };
                 let mut outcome = sentence(solution, system, false);
                 if lacks_relief(solution) {
-                    outcome.push_str(" The opened case has the tip relief that prevents it.");
+                    outcome.push_str(" Open the case for the required tip relief.");
                 }
                 (verdict::verdicts(case, solution), format!("{own}{by}"), outcome)
             }
@@ -394,8 +394,7 @@ mod tests {
         let at_exit = of("0 um");
         assert!(at_exit.starts_with("Corner contact at the exit, until "), "{at_exit}");
         assert!(
-            at_exit
-                .contains(" um tip relief on the driver prevents it; none at the entry: the tip"),
+            at_exit.contains(" um tip relief on the driver prevents it; none at the entry: a gap"),
             "{at_exit}"
         );
         let closes_gap = |relief| {

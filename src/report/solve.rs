@@ -19,14 +19,17 @@ use crate::study::stiffness::{
 use crate::study::tolerance::{Samples, Size, Tolerance, usual_samples};
 
 impl Selection {
-    /// Solves a case as far as the selection and the outcome of the method need it. Returns the inputs
-    /// of the solve with the solution.
+    /// Solves a case as far as the selection and the outcome of the method need it: beside a motion, the
+    /// load at rest decides the exit. Returns the inputs of the solve with the solution.
     ///
     /// # Errors
     /// The refusal of the model.
     pub fn solve(&self, inputs: Inputs) -> Result<(Inputs, Solution), Refusal> {
         let inputs = inputs.needing(self.only.iter().map(|quantity| quantity.stage));
-        let solution = model::solve(&inputs, self.stages().and(inputs.method.deciding_stages()))?;
+        let deciding = inputs.method.deciding_stages();
+        let at_exit = deciding.has(Stage::Dynamic).then_some(Stages::of(Stage::Static));
+        let wanted = self.stages().and(deciding).and(at_exit.unwrap_or_default());
+        let solution = model::solve(&inputs, wanted)?;
         Ok((inputs, solution))
     }
 }

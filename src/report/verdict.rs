@@ -388,17 +388,20 @@ pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
         format!("{number} {unit}")
     };
     match (solution.method, solution.margin(), solution.lead_at_rest()) {
+        (Method::Exact | Method::Dynamic | Method::Auto, _, Some(lead)) if lead > 0.0 => {
+            format!("{why}; at rest the tooth touches, {} early", printed(lead))
+        }
+        (Method::Static, Some(gap), _) => {
+            format!("a gap of {} remains before E at rest", printed(gap))
+        }
+        (Method::Dynamic, Some(gap), _) => {
+            format!("a gap of {} remains before E in motion", printed(gap))
+        }
         _ if total <= 0.0 => match Quantity::find("total_deviation") {
             Some(quantity) => format!("{why}, Δ = {}", shown_in(quantity, total + 0.0, system)),
             None => why.to_owned(),
         },
         (Method::Paper, ..) => format!("{why} although Δ is {}", printed(total)),
-        (Method::Static, Some(gap), _) => {
-            format!("a gap of {} remains before E at rest", printed(gap))
-        }
-        (Method::Exact | Method::Dynamic | Method::Auto, _, Some(lead)) if lead > 0.0 => {
-            format!("{why}; at rest the tooth touches, {} early", printed(lead))
-        }
         _ => why.to_owned(),
     }
 }

@@ -249,7 +249,7 @@ fn variant_keeps_the_edits_and_without_edits_shows_them_again() {
     assert_eq!(saved, format!("{TABLE_1}{added}"));
     desk.keys(&[":", "variant relieved", "Enter"]);
     assert_eq!(desk.text("driven.tip_relief"), "48 um");
-    desk.keys(&["u", ":", "variant other", "Enter"]).assert_shows("no edits since the last save");
+    desk.keys(&["u", ":", "variant other", "Enter"]).assert_shows("no edits to keep");
 }
 
 #[test]

@@ -6,8 +6,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use super::{edit, key_of, panes};
-use crate::case::fields::FIELDS;
-use crate::case::fields::index_of;
+use crate::case::fields::{FIELDS, index_of};
 use crate::case::{Case, Evaluator, Limit, Problem, Variant};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Solution, Stage};
@@ -21,8 +20,7 @@ use crate::report::trade::conclusion;
 use crate::study::axis::{Axis, Grid};
 use crate::study::batch::{self, Batch, Control, Points, Refusals, solve_all};
 use crate::study::shard::{Format, PointsRequest, Request, Study};
-use crate::study::tolerance::Design;
-use crate::study::tolerance::{Samples, Size, Tolerance, USUAL_RANKED};
+use crate::study::tolerance::{Design, Samples, Size, Tolerance, USUAL_RANKED};
 use crate::study::trade::{Trade, trade};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Choice, Content, Running, Slot, Work};
@@ -390,6 +388,9 @@ pub(super) fn take(app: &mut App) {
 pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
     if is_picture(path) {
         let chart = study::picture(app).ok_or("there is no curve to draw")?;
+        if !app.tab.study.is_over() {
+            return Err("the study still runs: wait for its end, or stop it".to_owned());
+        }
         let caption = Named { name: &app.tab.name(), title: app.tab.case.title() }.caption();
         let draw = move |_: &Running<'_>| Ok(svg::draw(&chart, &caption));
         return Ok((": the picture of the study".to_owned(), Box::new(draw)));
@@ -767,9 +768,7 @@ pub(super) fn keep_variant(app: &mut App, name: &str) {
     if variant.overrides.is_empty() {
         let Ok(variant) = app.tab.case.variant(name) else {
             let key = key_of(app, "variant");
-            return app.say(format!(
-                "no edits since the last save: change a field, then type {key} NAME"
-            ));
+            return app.say(format!("no edits to keep: change a field, then type {key} NAME"));
         };
         let case = app.tab.case.with(variant);
         return edit::replace_saying(app, case, &format!("the form shows variant {name}"));
@@ -781,6 +780,7 @@ pub(super) fn keep_variant(app: &mut App, name: &str) {
     let edits = if count == 1 { "edit" } else { "edits" };
     let mut case = app.tab.document.loaded().clone();
     case.variants.clone_from(&app.tab.case.variants);
+    case.about.clone_from(&app.tab.case.about);
     case.keep_variant(variant);
     edit::replace(app, case);
     app.say(format!(
