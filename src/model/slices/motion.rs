@@ -76,6 +76,8 @@ impl<'a> Springs<'a> {
         const STEPS: f64 = 64.0;
         const TURN: f64 = 0.376;
         const MOST_TURN: f64 = 0.5;
+        /// Deflection over the greatest relief below which the steps are not finer still.
+        const LEAST_LOAD: f64 = 1.0 / 256.0;
         /// A change of the stiffness between steps over the root of the tolerance, and the greatest.
         const SUDDEN: f64 = 25.0;
         const MOST_SUDDEN: f64 = 0.1;
@@ -88,8 +90,12 @@ impl<'a> Springs<'a> {
         let of_slices = if face.inputs.slices.is_none() { differences } else { 0.0 };
         let at_least = |least: f64| settings.tolerance.max(of_slices.min(least));
         let (tolerance, of_steps) = (at_least(OF_SLICES), at_least(least));
-        // The error of a step is of fourth order.
-        let length = (of_steps / OF_SLICES).powf(0.25);
+        // The error of a step is of fourth order, and grows with the relief that moves the pair.
+        let relief =
+            [0.0, mesh.length].map(|s| mesh.incoming(s).0.gap).into_iter().fold(0.0, f64::max);
+        let deflection = mesh.force / mesh.mean_stiffness();
+        let load = if relief > deflection { (deflection / relief).max(LEAST_LOAD) } else { 1.0 };
+        let length = (of_steps / OF_SLICES * load).powf(0.25);
         let turn = (TURN * length).min(MOST_TURN);
         let step = (turn / frequency * speed).min(mesh.base_pitch / STEPS * length.min(1.0));
         let borders = mesh.borders(0.0, mesh.base_pitch);
