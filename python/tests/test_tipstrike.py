@@ -243,7 +243,9 @@ def test_progress_is_reported_on_request_alone(capfd):
 
 @pytest.mark.skipif(os.name != "posix", reason="signals of Unix")
 def test_ctrl_c_ends_a_study():
-    script = ("import tipstrike, numpy as np\nprint('begun', flush=True)\n"
+    # A job in the background of a script ignores the signal.
+    script = ("import signal, tipstrike, numpy as np\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+              "print('begun', flush=True)\n"
               "tipstrike.sweep(tipstrike.example('zhou-chen-2014'), {'operation.speed': np.linspace(100, 300, 10**6)},"
               " method='dynamic', only='dynamic_peak_force')")
     work = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
