@@ -61,11 +61,11 @@ impl Evaluator {
         };
         let own = self.solved.iter().position(|solved| solved.inputs.method == method);
         let last = own.and_then(|at| self.solved.get(at));
-        let rests = |last: &&Solved| {
+        let rests = |last: &Solved| {
             let mut stages = Stages::of(Stage::Static).iter();
             stages.all(|stage| stage.has_equal_inputs(&last.inputs, inputs))
         };
-        let earlier = last.filter(rests).or_else(|| self.motion_of(inputs)).or(last);
+        let earlier = self.motion_of(inputs).filter(|_| !last.is_some_and(rests)).or(last);
         let earlier = earlier.map(|Solved { inputs, solution, gears }| Earlier {
             inputs,
             solution,

@@ -94,7 +94,7 @@ impl<'a> Springs<'a> {
         let relief =
             [0.0, mesh.length].map(|s| mesh.incoming(s).0.gap).into_iter().fold(0.0, f64::max);
         let deflection = mesh.force / mesh.mean_stiffness();
-        let load = if relief > deflection { (deflection / relief).max(LEAST_LOAD) } else { 1.0 };
+        let load = (deflection / relief.max(deflection)).max(LEAST_LOAD);
         let length = (of_steps / OF_SLICES * load).powf(0.25);
         let turn = (TURN * length).min(MOST_TURN);
         let step = (turn / frequency * speed).min(mesh.base_pitch / STEPS * length.min(1.0));
