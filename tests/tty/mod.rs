@@ -245,8 +245,10 @@ impl Tty {
         self.screen().contents().contains(text)
     }
 
+    /// Waits for a text, then for the rest of its frame, which may arrive in parts.
     pub(crate) fn wait_for(&mut self, text: &str) {
         self.wait_until(&format!("{text:?} on the screen"), |tty| tty.shows(text));
+        self.settle(Duration::from_millis(10));
     }
 
     pub(crate) fn type_for(&mut self, keys: impl AsRef<[u8]>, text: &str) {
