@@ -845,8 +845,10 @@ impl<'a> Passage<'a> {
         let forces = places.iter().map_while(|s| self.loads(*s).ok()).map(|loads| of(&loads));
         let least = first_valley(forces, greatest)?;
         let near = &places[least - 1..=(least + 1).min(places.len() - 1)];
-        let near: Vec<_> = near.iter().filter_map(|s| self.loads(*s).ok()).collect();
-        let (s, _) = self.greatest(&near, &|loads| -of(loads));
+        let negative = |s: f64| self.loads(s).map_or(f64::NEG_INFINITY, |loads| -of(&loads));
+        let near: Vec<_> = near.iter().map(|s| (*s, negative(*s))).collect();
+        // The place of a valley needs a much more precise value than its force.
+        let (s, _) = root::greatest(&near, negative);
         Some((s - ends[0]) / course.speed)
     }
 }
