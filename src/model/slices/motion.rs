@@ -78,6 +78,8 @@ impl<'a> Springs<'a> {
         const MOST_TURN: f64 = 0.5;
         /// Deflection over the greatest relief below which the steps are not finer still.
         const LEAST_LOAD: f64 = 1.0 / 256.0;
+        /// Errors of steps of slices that are almost alike, over the tolerance: the sum averages none of them.
+        const ALIKE: f64 = 0.1;
         /// A change of the stiffness between steps over the root of the tolerance, and the greatest.
         const SUDDEN: f64 = 25.0;
         const MOST_SUDDEN: f64 = 0.1;
@@ -88,8 +90,9 @@ impl<'a> Springs<'a> {
         let differences = 2.0 * face.reach / mesh.base_pitch
             + (widest_gap - face.least_gap) * mesh.mean_stiffness() / mesh.force;
         let of_slices = if face.inputs.slices.is_none() { differences } else { 0.0 };
-        let at_least = |least: f64| settings.tolerance.max(of_slices.min(least));
-        let (tolerance, of_steps) = (at_least(OF_SLICES), at_least(least));
+        let of_tolerance = settings.tolerance * if of_slices > 0.0 { ALIKE } else { 1.0 };
+        let tolerance = settings.tolerance.max(of_slices.min(OF_SLICES));
+        let of_steps = of_tolerance.max(of_slices.min(least));
         // The error of a step is of fourth order, and grows with the relief that moves the pair.
         let relief =
             [0.0, mesh.length].map(|s| mesh.incoming(s).0.gap).into_iter().fold(0.0, f64::max);
