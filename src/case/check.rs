@@ -6,6 +6,7 @@ use crate::case::fields::{
 };
 use crate::case::sanitize::{cut, nearest, quoted, sanitize, spelled, suggestion};
 use crate::case::units::{self, Dimension};
+use crate::model::deviation::TOLERANCE_CLASSES;
 use crate::model::inputs::{Gear, GearSide, Method, ToothCompliance};
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
 use crate::numeric::decimal::{shortest, significant};
@@ -211,6 +212,17 @@ fn number(
     let (from, to) = field_range(field);
     let value = units::parse(text, dimension, known.usual_unit()).map_err(|misread| {
         let problem = misread.at(known.key);
+        if let Some(class) = text.trim().strip_prefix("grade")
+            && known.name() == "base_pitch"
+        {
+            let class = class.trim().parse().ok().filter(|class| TOLERANCE_CLASSES.contains(class));
+            let class = class.unwrap_or(7);
+            let fix = match known.table() {
+                "deviations" => format!("set driver.grade = {class} and driven.grade = {class}"),
+                gear => format!("set {gear}.grade = {class}"),
+            };
+            return Problem { fix, ..problem };
+        }
         let likely = likely_units(text, known, dimension, (from, to));
         if !matches!(units::split(text, ""), Ok((_, ""))) {
             return problem;
