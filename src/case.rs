@@ -80,7 +80,11 @@ impl Limit {
             }
             return Ok(Limit { quantity: known, text: owned, value: factor, of: Some(of) });
         }
-        let dimension = units::Dimension::of_unit(known.unit).unwrap_or(units::Dimension::Number);
+        let dimension = match units::split(text, "") {
+            // Zero is the same in every unit.
+            Ok((number, "")) if number.parse() == Ok(0.0) => units::Dimension::Number,
+            _ => units::Dimension::of_unit(known.unit).unwrap_or(units::Dimension::Number),
+        };
         let usual = if matches!(known.shown, "1" | "yes/no") { "" } else { known.shown };
         let value = units::parse(text, dimension, usual).map_err(|misread| {
             let problem = misread.at(&field);

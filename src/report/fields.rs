@@ -262,7 +262,8 @@ fn of_limit(quantity: &Quantity) -> Value {
     let value = if quantity.unit == "1" {
         json!({"type": "number"})
     } else {
-        json!({"type": "string", "pattern": MEASURE})
+        // Zero needs no unit.
+        json!({"anyOf": [{"type": "string", "pattern": MEASURE}, {"enum": [0, "0"]}]})
     };
     let relative = json!({"type": "string", "pattern": r"^\s*[0-9.eE+-]+ x [a-z0-9_]+\s*$"});
     let description = format!("{} {}", quantity.label, quantity.symbol);
