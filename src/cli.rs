@@ -22,6 +22,7 @@ use crate::case::{Acting, Case, Document, Problem, partial_relevance, relevance}
 use crate::model::{Inputs, Quantity, Refusal};
 use crate::report::solve::Unsolved;
 use crate::report::table::{Named, Results};
+use crate::study::seek::distinct;
 use crate::study::shard::Format;
 use crate::system::files::is_same;
 use crate::system::interrupt::Interrupt;
@@ -326,8 +327,15 @@ fn read_model(
     for remark in &imported.remarks {
         streams.say(&format!("{name}: {remark}"));
     }
-    for (field, reason) in &imported.absent {
-        streams.say(&format!("{name}: {field} stays empty: {reason}"));
+    let reasons = distinct(imported.absent.iter().map(|(_, reason)| reason));
+    let empty = reasons.into_iter().map(|reason| {
+        let fields = imported.absent.iter().filter(|(_, own)| own == reason);
+        let fields: Vec<&str> = fields.map(|(field, _)| *field).collect();
+        format!("{} ({reason})", fields.join(", "))
+    });
+    let empty: Vec<String> = empty.collect();
+    if !empty.is_empty() {
+        streams.say(&format!("{name}: fields that stay empty: {}", empty.join("; ")));
     }
     Ok(imported)
 }
