@@ -289,22 +289,23 @@ impl<'a> Page<'a> {
 impl PageCase<'_> {
     fn of(subject: &Subject, units: System) -> Option<PageCase<'_>> {
         let report = subject.own()?;
-        let limits = verdicts(&report.case, &report.solution);
-        let limits = limits.iter().map(|verdict| {
-            let (limit, sentence) = (verdict.limit, verdict.sentence(units));
+        let mut case = report.case.clone();
+        for limit in &mut case.limits {
             // A relative limit by the symbol of its result, whatever name the file has.
-            let symbols = limit.of.zip(limit.text.split_once(" x "));
-            let sentence = symbols.map_or(sentence.clone(), |(of, (factor, _))| {
-                sentence.replace(&limit.shown(), &format!("{factor} x {}", of.symbol))
-            });
-            let sentence = with_labels(&sentence);
+            if let (Some(of), Some((factor, _))) = (limit.of, limit.text.split_once(" x ")) {
+                limit.text = format!("{factor} x {}", of.symbol);
+            }
+        }
+        let limits = verdicts(&case, &report.solution).into_iter().map(|verdict| {
+            let sentence = with_labels(&verdict.sentence(units));
             (verdict.standing.holds(), verdict.standing.word(), sentence)
         });
+        let limits = limits.collect();
         Some(PageCase {
             report,
             title: report.named().heading().trim_end_matches(".toml").to_owned(),
             verdict: verdict(report, units),
-            limits: limits.collect(),
+            limits,
             notes: notes(report),
             studies: tables(subject, &report.case, units),
             lines: without_comments(&subject.file),
