@@ -189,25 +189,26 @@ pub fn common_unit(
     units::unit_for(greatest, quantity.shown, quantity.digits, system)
 }
 
+/// The common unit of a quantity and, for a quantity of one gear, that of the other gear.
+fn unit_of_gears<I: IntoIterator<Item = f64>>(
+    quantity: &Quantity,
+    values: impl Fn(&'static Quantity) -> I,
+    system: System,
+) -> &'static str {
+    let stem = |of: &Quantity| {
+        let key = of.key;
+        key.strip_suffix("_driver").or_else(|| key.strip_suffix("_driven")).unwrap_or(key)
+    };
+    let alike = Quantity::all().filter(|other| stem(other) == stem(quantity));
+    common_unit(quantity, alike.flat_map(values), system)
+}
+
 /// Formats a value in SI in a unit.
 pub fn shown_with(quantity: &Quantity, value: f64, unit: &'static str) -> Shown {
     if quantity.is_flag() {
         return shown(quantity, value);
     }
     Shown { number: units::counted(value, unit, quantity.digits), unit: units::named(unit) }
-}
-
-/// The values of a quantity as numbers in one unit, and this unit; `None` without any value.
-fn numbers(
-    quantity: &Quantity,
-    values: &[Option<f64>],
-    units: System,
-) -> Option<(Vec<Option<String>>, &'static str)> {
-    let unit = common_unit(quantity, values.iter().copied().flatten(), units);
-    let shown = |value| shown_with(quantity, value, unit);
-    let last = shown(*values.iter().flatten().last()?);
-    let number = |value: &Option<f64>| value.map(|value| shown(value).number);
-    Some((values.iter().map(number).collect(), last.unit))
 }
 
 /// The value of a quantity in SI, if any: finite, and zero without a sign.

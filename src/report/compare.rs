@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use super::table::{Cell, Column, Table, text, widths};
 use super::table::{Json, json, measured, object, reason, write_line};
 use super::table::{WIDTH, flow, item, plain_markdown};
-use super::{Report, Selection, common_unit, digest, grouped, shown_with, value, value_as_in};
+use super::{Report, Selection, digest, grouped, shown_with, unit_of_gears, value, value_as_in};
 use crate::case::changes::{between, label, text_of};
 use crate::case::fields::index_of;
 use crate::case::file::FORMAT;
@@ -142,11 +142,14 @@ impl Comparison {
         if !self.is_listed(quantity) {
             return None;
         }
-        let of = |case: &ComparedCase| value_as_in(quantity, case.solution()?, method);
-        let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
-        let known: Vec<Option<f64>> = self.cases.iter().map(of).map(finite).collect();
+        let known = |of| {
+            let value = move |case: &ComparedCase| value_as_in(of, case.solution()?, method);
+            let finite = |value: &f64| value.is_finite();
+            self.cases.iter().map(move |case| value(case).filter(finite))
+        };
+        let unit = unit_of_gears(quantity, |of| known(of).flatten(), units);
+        let known: Vec<Option<f64>> = known(quantity).collect();
         let last = *known.iter().flatten().last()?;
-        let unit = common_unit(quantity, known.iter().copied().flatten(), units);
         let shown = |value| shown_with(quantity, value, unit);
         let [symbol, label] = [quantity.symbol_in(method), quantity.label_in(method)];
         let names = [quantity.key, quantity.unit, symbol, label, shown(last).unit].map(Cell::from);

@@ -1,6 +1,6 @@
 //! A solve as a page of text, as a JSON object on one line, and as rows of CSV.
 
-use super::{Report, case_notes, grouped, is_default, shown};
+use super::{Report, case_notes, grouped, is_default, shown_with, unit_of_gears, value};
 use crate::case::file::FORMAT;
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
@@ -108,7 +108,8 @@ fn quantity_lines(report: &Report) -> Vec<String> {
         Column::text("equation", "").wide(2, 0),
     ];
     let row = |quantity: &'static Quantity| {
-        let shown = shown(quantity, report.selection.value(quantity, solution)?);
+        let unit = unit_of_gears(quantity, |of| value(of, solution), System::Metric);
+        let shown = shown_with(quantity, report.selection.value(quantity, solution)?, unit);
         // With every quantity the headings of the groups say this.
         let beside = match subject(quantity, method) {
             Some("free-impact") if !is_whole => ", free impact",

@@ -2,7 +2,7 @@
 //! verdict, the inputs, the main results and charts; the appendix has the rest.
 
 use super::data::{self, subject, verdict};
-use super::{Report, common_unit, grouped, is_default, numbers, shown_with, value};
+use super::{Report, common_unit, grouped, is_default, shown_with, unit_of_gears, value};
 use crate::case::fields::{Absent, Field, Kind, index_of};
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
@@ -512,9 +512,14 @@ fn results(cases: &[PageCase], units: System) -> (Vec<Table>, Vec<Table>) {
         return (vec![main], Vec::new());
     };
     let row = |quantity: &'static Quantity| {
-        let values = cases.iter().map(|case| value(quantity, &case.report.solution));
-        let (texts, unit) = numbers(quantity, &values.collect::<Vec<_>>(), units)?;
-        let texts = texts.into_iter().map(|text| text.map_or(Cell::None("–".into()), Cell::Text));
+        let values = |of| cases.iter().map(move |case| value(of, &case.report.solution));
+        let unit = unit_of_gears(quantity, |of| values(of).flatten(), units);
+        let shown = |value| shown_with(quantity, value, unit);
+        let unit = shown(values(quantity).flatten().last()?).unit;
+        let text = |value: Option<f64>| {
+            value.map_or(Cell::None("–".into()), |value| Cell::Text(shown(value).number))
+        };
+        let texts = values(quantity).map(text);
         let names = [quantity.label_in(method).trim(), quantity.symbol_in(method)].map(Cell::from);
         let source = [unit, quantity.equation].map(Cell::from);
         Some(names.into_iter().chain(texts).chain(source).collect())
