@@ -3,7 +3,7 @@
 use crate::case::fields::{AUTO, Absent, FIELDS, Field, GROUPS, Kind};
 use crate::case::file::FORMAT;
 use crate::case::spread::Shape;
-use crate::case::units::Dimension;
+use crate::case::units::{Dimension, named};
 use crate::model::inputs::Method;
 use crate::model::{Outcome, QUANTITIES, Quantity, Stage};
 use crate::report::stations::COLUMNS;
@@ -15,37 +15,19 @@ use std::io::{self, Write};
 const TO_EXPLAIN: &str =
     "`tipstrike explain KEY [CASE]` shows the formula of a quantity with the numbers of a case.";
 
-/// Every field, for a reader.
-fn field_table() -> Table {
-    let rows = FIELDS.iter().map(|field| {
-        let range = field.range().map_or(String::new(), |range| {
-            format!("{}..{} {}", end(range.from), end(range.to), range.unit).trim_end().to_owned()
-        });
-        [field.key, field.symbol, &joined([&meaning(field), &range, &absence(field)])]
-            .map(Cell::from)
-            .to_vec()
+/// Writes a list of keys for a reader: key, symbol and the parts of the meaning.
+fn write_list(
+    rows: impl Iterator<Item = (&'static str, &'static str, [String; 3])>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let mut columns = ["key", "symbol", "meaning"].map(|key| Column::text(key, key)).to_vec();
+    columns[0].gap = 0;
+    let rows = rows.map(|(key, symbol, parts)| {
+        let parts = parts.into_iter().filter(|part| !part.is_empty());
+        [key, symbol, &parts.collect::<Vec<_>>().join("; ")].map(Cell::from).to_vec()
     });
-    list().with(rows)
-}
-
-/// A list of keys for a reader.
-fn list() -> Table {
-    let columns = ["key", "symbol", "meaning"].map(|key| Column::text(key, key));
-    Table::new("", columns.to_vec())
-}
-
-fn joined(parts: [&str; 3]) -> String {
-    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ")
-}
-
-/// Every quantity; the stage is for scripts alone.
-fn quantity_table() -> Table {
-    let columns = ["key", "symbol", "label", "unit", "equation", "stage"];
-    let rows =
-        QUANTITIES.iter().map(|Quantity { key, symbol, label, unit, equation, stage, .. }| {
-            [key, symbol, label.trim_start(), unit, equation, stage.name()].map(Cell::from).to_vec()
-        });
-    Table::new("", columns.map(|key| Column::text(key, key)).to_vec()).with(rows)
+    let lines = Table::new("", columns).with(rows).wrapped(WIDTH);
+    lines.iter().try_for_each(|line| writeln!(out, "{line}"))
 }
 
 /// Writes every field as a table, or as JSON with one object per line.
@@ -54,7 +36,15 @@ fn quantity_table() -> Table {
 /// Errors of the writer.
 pub fn write_fields(is_json: bool, out: &mut dyn Write) -> io::Result<()> {
     if !is_json {
-        return write_list(field_table(), out);
+        let row = |field: &Field| {
+            let range = field.range().map(|range| {
+                let text = format!("{}..{} {}", end(range.from), end(range.to), range.unit);
+                text.trim_end().to_owned()
+            });
+            let parts = [meaning(field), range.unwrap_or_default(), absence(field)];
+            (field.key, field.symbol, parts)
+        };
+        return write_list(FIELDS.iter().map(row), out);
     }
     FIELDS.iter().try_for_each(|field| {
         let (from, to) = field.range().map(|range| (range.from, range.to)).unzip();
@@ -82,20 +72,19 @@ pub fn write_fields(is_json: bool, out: &mut dyn Write) -> io::Result<()> {
 /// Errors of the writer.
 pub fn write_quantities(is_json: bool, out: &mut dyn Write) -> io::Result<()> {
     if is_json {
-        return quantity_table().objects().iter().try_for_each(|line| write_line(line, out));
+        return QUANTITIES.iter().try_for_each(|quantity| {
+            let Quantity { key, symbol, label, unit, equation, stage, .. } = quantity;
+            let (label, stage) = (label.trim_start(), stage.name());
+            let line = json!({"key": key, "symbol": symbol, "label": label, "unit": unit, "equation": equation, "stage": stage});
+            write_line(&line, out)
+        });
     }
     let rows = QUANTITIES.iter().map(|Quantity { key, symbol, label, unit, equation, .. }| {
-        let unit = if *unit == "1" { "" } else { *unit };
-        [*key, *symbol, &joined([label.trim_start(), unit, equation])].map(Cell::from).to_vec()
+        (*key, *symbol, [label.trim_start(), named(unit), equation].map(str::to_owned))
     });
-    write_list(list().with(rows), out)?;
+    write_list(rows, out)?;
     writeln!(out)?;
     item("", TO_EXPLAIN).iter().try_for_each(|line| writeln!(out, "{line}"))
-}
-
-fn write_list(mut table: Table, out: &mut dyn Write) -> io::Result<()> {
-    table.columns[0].gap = 0;
-    table.wrapped(WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))
 }
 
 fn meaning(field: &Field) -> String {
