@@ -20,7 +20,7 @@ use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stage, Stages};
 use crate::report::charts::{Picture, find, pictures};
 use crate::report::compare::ComparedCase;
-use crate::report::digest::{Digest, STAGES, sentence};
+use crate::report::digest::{STAGES, sentence};
 use crate::report::explain::{explain, render, stages_of, write_json};
 use crate::report::page::render as render_report;
 use crate::report::solve::{self, compared, comparison};
@@ -445,7 +445,12 @@ fn write_case(file: Option<&Path>, text: &str, streams: &mut Streams) -> Done {
 fn list(out: &mut dyn Write) -> io::Result<()> {
     let width = EXAMPLES.iter().map(|example| example.name.len()).max().unwrap_or(0);
     for example in EXAMPLES {
-        let digest = digest(example);
+        let case = example.document().case;
+        let digest = case
+            .inputs()
+            .ok()
+            .and_then(|inputs| solve::digest(&case, &inputs, System::Metric, &|_| true))
+            .unwrap_or_default();
         writeln!(out, "{:width$}  {}", example.name, digest.title)?;
         let limits = digest.limits.iter();
         let limits = limits.map(|(standing, limit)| format!("{} {limit}", standing.word()));
@@ -456,14 +461,6 @@ fn list(out: &mut dyn Write) -> io::Result<()> {
         }
     }
     Ok(())
-}
-
-fn digest(example: &Example) -> Digest {
-    let case = example.document().case;
-    let inputs = case.inputs().ok();
-    inputs
-        .and_then(|inputs| solve::digest(&case, &inputs, System::Metric, &|_| true))
-        .unwrap_or_default()
 }
 
 fn examples() -> impl TypedValueParser<Value = &'static Example> {
@@ -571,17 +568,14 @@ impl Man {
             ))
         })?;
         let source = format!("tipstrike {}", env!("CARGO_PKG_VERSION"));
-        clap_mangen::Man::new(page).source(source).render(&mut streams.output)?;
-        exit_status(streams.output.as_mut())?;
+        let out = &mut streams.output;
+        clap_mangen::Man::new(page).source(source).render(out)?;
+        writeln!(out, ".SH \"EXIT STATUS\"")?;
+        for (exit, meaning) in Exit::MEANINGS {
+            writeln!(out, ".TP\n\\fB{}\\fR\n{meaning}", exit as u8)?;
+        }
         Ok(Exit::Done)
     }
-}
-
-fn exit_status(out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, ".SH \"EXIT STATUS\"")?;
-    Exit::MEANINGS
-        .iter()
-        .try_for_each(|&(exit, meaning)| writeln!(out, ".TP\n\\fB{}\\fR\n{meaning}", exit as u8))
 }
 
 fn page(name: Option<&str>) -> Option<clap::Command> {
