@@ -340,11 +340,6 @@ mod tests {
         assert_ne!(label("driver.teeth"), label("driven.teeth"));
         assert_eq!(label("limits.impact_force"), "limit of impact force");
     }
-}
-
-#[cfg(test)]
-mod variant_tests {
-    use super::*;
 
     fn edited(edits: &[(&str, &str)]) -> Case {
         let mut case = Case::table_1();

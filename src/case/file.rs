@@ -835,11 +835,6 @@ mod tests {
             "format = 1\nnotes = \"\"\"one\n# two\n\n[three]\n\"\"\"\n[driver]\nteeth = 20"
         );
     }
-}
-
-#[cfg(test)]
-mod stamp_tests {
-    use super::*;
 
     #[test]
     fn the_hash_never_changes() {

@@ -148,7 +148,7 @@ pub(crate) fn suggestion<'n>(
 
 #[cfg(test)]
 mod tests {
-    use super::{quoted, sanitize};
+    use super::{nearest, quoted, sanitize};
 
     #[test]
     fn no_control_character_passes() {
@@ -165,11 +165,6 @@ mod tests {
     fn a_long_text_is_cut() {
         assert_eq!(quoted(&"x".repeat(1000)).chars().count(), 63);
     }
-}
-
-#[cfg(test)]
-mod suggest_tests {
-    use super::nearest;
 
     #[test]
     fn a_misspelling_finds_its_name_and_another_word_finds_none() {

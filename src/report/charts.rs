@@ -806,6 +806,8 @@ pub fn pattern_chart(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::examples::Example;
+    use crate::model::{Stage, Stages, solve};
 
     #[test]
     fn every_picture_has_a_key_of_its_own() {
@@ -816,11 +818,6 @@ mod tests {
         }
         assert!(["force", "spectrum", "speed", "teeth"].iter().all(|key| keys.contains(key)));
     }
-}
-
-#[cfg(test)]
-mod charts_tests {
-    use super::*;
 
     fn pieces_of(points: &[(f64, Option<f64>)]) -> Vec<Vec<Point>> {
         pieces(points.iter().copied(), 1.5)
@@ -857,13 +854,6 @@ mod charts_tests {
         assert_eq!(pieces_of(&[(0.0, one), (1.0, Some(f64::NAN)), (2.0, one)]).len(), 2);
         assert_eq!(pieces_of(&[]), Vec::<Vec<Point>>::new());
     }
-}
-
-#[cfg(test)]
-mod pattern_tests {
-    use super::*;
-    use crate::case::examples::Example;
-    use crate::model::{Stage, Stages, solve};
 
     #[test]
     fn the_load_is_on_the_contact_lines_and_the_parts_outside_e_and_b_are_apart() {

@@ -757,11 +757,6 @@ mod tests {
         let long = Table { title: "A title to the end".to_owned(), ..table() };
         assert_eq!(long.lines()[..2], ["A title to the end", "             A"]);
     }
-}
-
-#[cfg(test)]
-mod json_tests {
-    use super::*;
 
     #[test]
     fn members_keep_their_order_and_absent_values_are_omitted() {
@@ -780,11 +775,6 @@ mod json_tests {
         assert_eq!(line, "\"a\\u001b[2J\\u007f\\u009b\\u202e\\udb40\\udc41\\\"\\\\\\n é\"\n");
         assert_eq!(serde_json::from_str::<String>(&line).unwrap(), text);
     }
-}
-
-#[cfg(test)]
-mod layout_tests {
-    use super::*;
 
     #[test]
     fn no_line_is_wider_than_asked() {
