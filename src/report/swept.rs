@@ -20,32 +20,6 @@ fn are_geometric(numbers: &[f64]) -> bool {
         && numbers.windows(2).all(|pair| are_near(pair[1] / pair[0], second / first))
 }
 
-/// The chart of a sweep.
-#[derive(Debug, Clone)]
-pub struct SweepChart {
-    /// The chart.
-    pub chart: Chart,
-    /// The quantities with another unit than the first one, which the chart leaves out.
-    pub omitted: Vec<&'static Quantity>,
-    /// Why points have no value, for the caption; empty if every point has a value.
-    pub gaps: String,
-}
-
-impl SweepChart {
-    /// The picture with the caption.
-    pub fn svg(&self, caption: &str) -> String {
-        let gaps = Some(&self.gaps).filter(|gaps| !gaps.is_empty());
-        let gaps = gaps.map_or_else(String::new, |gaps| format!("\nno curve: {gaps}"));
-        svg::draw(&self.chart, &(caption.to_owned() + &gaps))
-    }
-
-    /// The quantities that the chart leaves out, if any.
-    pub fn remark(&self) -> Option<String> {
-        let keys = self.omitted.iter().map(|quantity| quantity.key).collect::<Vec<_>>().join(",");
-        (!keys.is_empty()).then(|| format!("another unit, not drawn: {keys}; --only selects"))
-    }
-}
-
 /// Curves of at most so many points have marks at them.
 const FEW_POINTS: usize = 21;
 /// A sweep of two fields with at least so many numbers each is a map.
@@ -99,14 +73,29 @@ pub fn map_chart(
     }
 }
 
-/// The chart of a sweep from its CSV: the quantities, or the selected ones, with the unit of the first,
-/// over the varied field with the most values, with a curve for each combination of the other fields. A
-/// single quantity over two fields with at least five numbers each is a map.
+/// The picture of a sweep from its CSV: the quantities, or the selected ones, with the unit of the
+/// first, over the varied field with the most values, with a curve for each combination of the other
+/// fields. A single quantity over two fields with at least five numbers each is a map. The second text
+/// names the quantities that the picture leaves out.
 ///
 /// # Errors
 /// The reason if the text is no sweep or has no values.
-pub fn drawn(text: &str, only: &[&Quantity]) -> Result<SweepChart, String> {
+pub fn picture(
+    text: &str,
+    only: &[&Quantity],
+    caption: &str,
+) -> Result<(String, Option<String>), String> {
     let sweep = Sweep::read(text, only)?;
+    let (chart, gaps) = drawn(&sweep)?;
+    let gaps = if gaps.is_empty() { gaps } else { format!("\nno curve: {gaps}") };
+    let keys = sweep.omitted.join(",");
+    let remark = format!("another unit, not drawn: {keys}; --only selects");
+    let drawn = svg::draw(&chart, &(caption.to_owned() + &gaps));
+    Ok((drawn, Some(remark).filter(|_| !keys.is_empty())))
+}
+
+/// The chart of a sweep, and why points have no value, empty if every point has a value.
+fn drawn(sweep: &Sweep) -> Result<(Chart, String), String> {
     // The first of equal numbers of values.
     let across = sweep.fields.iter().rev().max_by_key(|&&at| sweep.distinct(&[at]).len()).copied();
     let across = across.ok_or(NONE)?;
@@ -118,11 +107,10 @@ pub fn drawn(text: &str, only: &[&Quantity]) -> Result<SweepChart, String> {
         [other] => sweep.map([across.max(other), across.min(other)]),
         _ => None,
     };
-    let (chart, gaps) = match map {
+    Ok(match map {
         Some(chart) => (chart, String::new()),
         None => (sweep.curves(across, &others)?, sweep.gaps()),
-    };
-    Ok(SweepChart { chart, omitted: sweep.omitted, gaps })
+    })
 }
 
 const NONE: &str = "this is no CSV of `tipstrike sweep` with a varied field and the quantity";
@@ -142,9 +130,10 @@ struct Sweep {
     rows: Vec<StringRecord>,
     fields: Vec<usize>,
     outcome: Option<usize>,
-    /// The drawn quantities with their columns, all with a unit, and those with another one.
+    /// The drawn quantities with their columns, all with a unit, and the keys of those with another
+    /// one.
     known: Vec<(usize, &'static Quantity)>,
-    omitted: Vec<&'static Quantity>,
+    omitted: Vec<&'static str>,
     /// The unit that is shown.
     unit: &'static str,
 }
@@ -170,7 +159,7 @@ impl Sweep {
             unit: common_unit(first, values, System::Metric),
             fields: fields.collect(),
             outcome: columns().find(|(_, key)| *key == "outcome").map(|(at, _)| at),
-            omitted: omitted.into_iter().map(|(_, quantity)| quantity).collect(),
+            omitted: omitted.into_iter().map(|(_, quantity)| quantity.key).collect(),
             known,
             head,
             rows,
@@ -311,7 +300,8 @@ mod tests {
             500,20,1500.0,corner-contact\n500,30,,no-corner-contact\n\
             1000,20,2500.0,corner-contact\n1000,30,1000.0,corner-contact\n\
             1500,20,3500.0,corner-contact\n1500,30,1100.0,corner-contact\n";
-        let SweepChart { chart: found, gaps, .. } = drawn(text, &[]).unwrap();
+        let of = |text: &str| drawn(&Sweep::read(text, &[])?);
+        let (found, gaps) = of(text).unwrap();
         assert_eq!(
             (gaps.as_str(), found.across.least),
             ("no corner contact", Some(Span::new(500.0, 1500.0)))
@@ -322,8 +312,8 @@ mod tests {
         assert_eq!(found.series[0].pieces[0].len(), 3);
         assert_eq!(found.series[1].pieces, [vec![(1000.0, 1000.0), (1500.0, 1100.0)]]);
         let choices = "model.method,impact_force [N],outcome\nexact,2.0,x\npaper,1.0,x\n";
-        assert_eq!(drawn(choices, &[]).unwrap().chart.across.labels[1], (1.0, "paper".to_owned()));
-        assert!(drawn("a,b\n1,2\n", &[]).is_err() && drawn("", &[]).is_err());
+        assert_eq!(of(choices).unwrap().0.across.labels[1], (1.0, "paper".to_owned()));
+        assert!(of("a,b\n1,2\n").is_err() && of("").is_err());
     }
 
     #[test]
@@ -337,7 +327,7 @@ mod tests {
             };
             text.push_str(&line);
         }
-        let SweepChart { chart: found, gaps, .. } = drawn(&text, &[]).unwrap();
+        let (found, gaps) = drawn(&Sweep::read(&text, &[]).unwrap()).unwrap();
         let map = found.map.unwrap();
         assert_eq!((map.places[0].len(), map.places[1].len(), gaps.as_str()), (6, 5, ""));
         assert_eq!((found.across.unit.as_str(), found.across.labels[1].1.as_str()), ("um", "2"));

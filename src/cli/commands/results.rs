@@ -330,12 +330,10 @@ impl Plot {
             let only: Vec<&Quantity> = self.only.iter().flatten().copied().collect();
             let name = source.display().to_string();
             let caption = Named { name: &name, title: "" }.caption();
-            let drawn = swept::drawn(&String::from_utf8_lossy(&bytes), &only);
-            let drawn = drawn.map_err(|reason| Failure::of_case(&name, &reason))?;
-            if let Some(remark) = drawn.remark() {
-                streams.say(&format!("{name}: {remark}"));
-            }
-            drawn.svg(&caption)
+            let drawn = swept::picture(&String::from_utf8_lossy(&bytes), &only, &caption);
+            let (drawn, remark) = drawn.map_err(|reason| Failure::of_case(&name, &reason))?;
+            streams.say_all(remark.map(|remark| format!("{name}: {remark}")));
+            drawn
         } else {
             let opened = cli::open(source, &self.changes.edits(), &[], streams)?;
             let source = opened.unsolved();

@@ -268,13 +268,12 @@ fn write_study(
         refusals = studies::write(study, rows, &mut text)?;
         if is_drawn {
             let name = study.request.name.as_str();
-            let drawn = swept::drawn(&String::from_utf8_lossy(&text), &study.quantities);
-            let drawn = drawn.map_err(|reason| Failure::of_case(name, &reason))?;
             let caption = Named { name, title: study.case.title() }.caption();
-            if let Some(remark) = drawn.remark() {
-                streams.say(&format!("{name}: {remark}"));
-            }
-            text = drawn.svg(&caption).into_bytes();
+            let csv = String::from_utf8_lossy(&text);
+            let drawn = swept::picture(&csv, &study.quantities, &caption);
+            let (drawn, remark) = drawn.map_err(|reason| Failure::of_case(name, &reason))?;
+            streams.say_all(remark.map(|remark| format!("{name}: {remark}")));
+            text = drawn.into_bytes();
         }
         write_to(out, streams, |sink| sink.write_all(&text))?;
     }
