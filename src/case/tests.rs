@@ -2,7 +2,7 @@
 #![expect(clippy::float_cmp, reason = "a value is read to the last bit")]
 
 use super::fields::index_of;
-use super::{Case, Document, Problem};
+use super::{Case, Document, Limit, Problem};
 use crate::model::Quantity;
 use crate::model::inputs::Drive;
 
@@ -173,4 +173,22 @@ fn a_form_accepts_an_incomplete_limit() {
     assert_eq!(case.limits.len(), 2);
     case.drop_empty(None);
     assert_eq!(case.limits.len(), 1);
+}
+
+#[test]
+fn a_limit_of_zero_needs_no_unit_and_a_written_grade_has_its_keys_as_the_fix() {
+    let zeros = |known: &Quantity| ["0", " -0.0 ", "0e3"].map(|text| Limit::new(known.key, text));
+    assert!(Quantity::all().flat_map(zeros).all(|limit| limit.unwrap().value == 0.0));
+    let text = crate::case::EXAMPLES[0].text;
+    for zero in ["0", "\"0\""] {
+        let text = text.replace("\"2500 N\"", zero);
+        assert_eq!(Document::parse("zero", &text).unwrap().case.limits[0].value, 0.0);
+    }
+    let mut case = Case::table_1();
+    for (key, fix) in [
+        ("deviations.base_pitch", "set driver.grade = 6 and driven.grade = 6"),
+        ("driven.base_pitch", "set driven.grade = 6"),
+    ] {
+        assert_eq!(case.set(key, "grade 6").unwrap_err().fix, fix);
+    }
 }
