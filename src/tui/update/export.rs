@@ -1,24 +1,31 @@
 //! Export of the report or a picture to a file, and copies to the clipboard of the user's terminal.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::{key_of, studies};
-use crate::case::Document;
 use crate::case::file::{self, SaveError};
 use crate::case::units::System;
+use crate::case::{Document, Problem};
 use crate::model::Refusal;
 use crate::report::charts::{Picture, find};
 use crate::report::page as exports;
 use crate::report::page::{Page, Settings};
 use crate::report::solve::{Subject, Unsolved};
+use crate::report::studies::{Take, table_of, write as write_study};
+use crate::report::svg;
+use crate::report::table::{Named, Table};
 use crate::report::{self, Report, Selection};
-use crate::study::shard::Format;
+use crate::study::batch;
+use crate::study::shard::{Format, Kind, PointsRequest, Request, Study};
+use crate::study::tolerance::USUAL_RANKED;
 use crate::tui::app::App;
 use crate::tui::app::actions::{Choice, Content, Effect, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::page::Page as TextPage;
 use crate::tui::app::dialogs::question::{PathDialog, Question};
 use crate::tui::app::panes::chart;
+use crate::tui::app::panes::study::{self, Layer, LayerFound, StudyParameters, range};
 use crate::tui::layout::Pane;
 use crate::tui::rows::{self, Row};
 use crate::tui::store::at_home;
@@ -98,7 +105,7 @@ fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
     let has_focus = app.layout.focus == Pane::Study;
     let is_alone = picture.is_none() && app.layout.plan().shows(Pane::Study);
     if has_focus && (is_picture || is_data) || is_picture && is_alone {
-        return studies::content(app, path);
+        return study_content(app, path);
     }
     if is_picture && picture.is_none() {
         let [chart, teeth] = ["chart", "teeth"].map(|name| key_of(app, name));
@@ -124,6 +131,158 @@ fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
         }
     };
     Ok((subject, Box::new(content)))
+}
+
+/// What `tipstrike sweep` or `tipstrike tolerance` writes for the shown study, or its picture.
+fn study_content(app: &App, path: &Path) -> Result<(String, Content), String> {
+    if exports::is_picture(path) {
+        let chart = study::picture(app).ok_or("there is no curve to draw")?;
+        if !app.tab.study.is_over() {
+            return Err("the study still runs: wait for its end, or stop it".to_owned());
+        }
+        let caption = Named { name: &app.tab.name(), title: app.tab.case.title() }.caption();
+        let draw = move |_: &Running<'_>| Ok(svg::draw(&chart, &caption));
+        return Ok((": the picture of the study".to_owned(), Box::new(draw)));
+    }
+    let format = exports::format_of(path).unwrap_or(Format::Csv);
+    let (request, _) = repeated(app, format)?;
+    let mut case = app.tab.case.clone();
+    case.drop_empty(None);
+    let (spread, mut curves) = (case.spread, app.tab.study.curves());
+    curves.truncate(if format == Format::Csv { usize::MAX } else { 1 });
+    let content = move |running: &Running<'_>| {
+        let refused = |problem: Problem| format!("{}: {}", problem.cause, problem.fix);
+        let mut study = Study::restore(&request).map_err(refused)?;
+        if let Kind::Tolerance(tolerance) = &study.kind {
+            // The samples have the quantities of the limits too.
+            study.quantities.clone_from(&tolerance.quantities);
+        }
+        let needed = study.quantities.iter().map(|quantity| quantity.stage);
+        study.inputs = study.inputs.needing(needed);
+        let mut out = Vec::new();
+        let written = match &curves[..] {
+            [curve] => {
+                // Samples depend on the order of the distributions.
+                let known = if study.case.spread == spread { &curve.rows[..] } else { &[] };
+                let rows = |take: Take| rows_of(&study, running, known, take);
+                write_study(&study, rows, &mut out).map(drop)
+            }
+            curves => {
+                table_of_curves(study, curves, running).and_then(|table| table.write_csv(&mut out))
+            }
+        };
+        written.map_err(|error| error.to_string())?;
+        String::from_utf8(out).map_err(|error| error.to_string())
+    };
+    let lines = if format == Format::Json { " as JSON Lines, one object per line" } else { "" };
+    Ok((format!(": the study{lines} (y copies its command)"), Box::new(content)))
+}
+
+/// The rows of a study; those that the pane has solved are not solved again.
+fn rows_of(
+    study: &Study,
+    running: &Running<'_>,
+    known: &[batch::Row],
+    take: Take,
+) -> io::Result<()> {
+    let count = study.points().count();
+    if known.len() == count {
+        return take(0, known);
+    }
+    let mut written = Ok(());
+    let solved = studies::solve(&study.batch(), count, running, &mut |first, rows| {
+        written = take(first, rows);
+        written.is_ok()
+    });
+    written?;
+    solved.map_err(|_| io::ErrorKind::Interrupted.into())
+}
+
+/// The points of a study, with a column of each other curve behind that of the study, and its
+/// outcome and method at the end. These, and a name that the table has already, have the name of the
+/// curve before them.
+fn table_of_curves(
+    mut study: Study,
+    curves: &[LayerFound],
+    running: &Running<'_>,
+) -> io::Result<Table> {
+    let own = study.points().columns().len();
+    let mut table: Option<Table> = None;
+    for (at, LayerFound { layer, rows, .. }) in curves.iter().enumerate() {
+        study.quantities = layer.quantity().into_iter().collect();
+        let needed = study.quantities.iter().map(|quantity| quantity.stage);
+        study.inputs = layer.inputs.clone().needing(needed);
+        let mut all = Vec::new();
+        rows_of(&study, running, rows, &mut |_, rows| {
+            all.extend_from_slice(rows);
+            Ok(())
+        })?;
+        let other = table_of(&study, 0, &all);
+        let Some(table) = &mut table else {
+            table = Some(other);
+            continue;
+        };
+        for (index, mut column) in other.columns.into_iter().enumerate().skip(own) {
+            if index > own || table.columns.iter().any(|known| known.key == column.key) {
+                column.key = format!("{} {}", layer.name(), column.key).into();
+            }
+            let place = if index == own { own + at } else { table.columns.len() };
+            table.columns.insert(place, column);
+            for (row, other) in table.rows.iter_mut().zip(&other.rows) {
+                row.insert(place, other[index].clone());
+            }
+        }
+    }
+    Ok(table.unwrap_or_default())
+}
+
+/// The commands that repeat the curves of the shown study, one per line.
+fn command(app: &App) -> Result<String, String> {
+    Ok(repeated(app, Format::Csv)?.1)
+}
+
+/// The request of the shown study, and its commands.
+fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
+    let study = app.tab.study.request.as_ref().filter(|_| app.tab.study.obstacle.is_none());
+    // Of the other curves, the baseline is another case.
+    let mut others = Vec::new();
+    let (quantity, points, options) = match &study.ok_or("there is no study")?.parameters {
+        StudyParameters::Grid(grid) => {
+            let quantity = grid.layers.first().map_or("", |layer| layer.quantity);
+            others.extend(grid.layers.iter().skip(1).filter(|layer| !layer.is_baseline));
+            // One option for all ranges.
+            let is_log = grid.axes.iter().any(|axis| axis.is_log);
+            let vary = grid.axes.iter().map(|axis| range::vary(axis, is_log));
+            let (vary, points): (Vec<_>, Vec<_>) = vary.unzip();
+            let points: Vec<usize> = points.into_iter().flatten().collect();
+            let varied = vary.iter().map(|text| format!(" --vary '{text}'"));
+            let counted = points.iter().map(|count| format!(" --points {count}"));
+            let log = is_log.then(|| " --log".to_owned());
+            let options = varied.chain(counted).chain(log).collect::<String>();
+            (quantity, PointsRequest::Sweep { vary, points, log: is_log }, options)
+        }
+        StudyParameters::Tolerance(of) => {
+            let (samples, ranked) = (of.samples, USUAL_RANKED.min(of.samples));
+            let points = PointsRequest::Tolerance { samples, seed: 1, ranked };
+            (of.quantity, points, format!(" --samples {samples}"))
+        }
+    };
+    let word = if app.tab.study.state.is_tolerance { "tolerance" } else { "sweep" };
+    let ending = if format == Format::Json { "json" } else { "csv" };
+    let (name, case) = (app.tab.name(), app.tab.as_edited().render());
+    let shell_name = name.replace('\'', r"'\''");
+    let command = |method: &str, quantity: &str| {
+        format!(
+            "tipstrike {word}{options}{method} --only {quantity} --format {ending} '{shell_name}'"
+        )
+    };
+    let of_layer = |layer: &Layer| {
+        command(&format!(" --method {}", layer.inputs.method.name()), layer.quantity)
+    };
+    let commands = [command("", quantity)].into_iter().chain(others.into_iter().map(of_layer));
+    let commands = commands.collect::<Vec<_>>().join("\n");
+    let quantities = vec![quantity.to_owned()];
+    Ok((Request { name, case, quantities, format, points }, commands))
 }
 
 fn refused(refusal: &Refusal) -> String {
@@ -225,7 +384,7 @@ pub(super) fn copy_value(app: &mut App) {
 
 /// Copies the command that repeats the study, and shows it.
 fn copy_command(app: &mut App) {
-    let command = match studies::command(app) {
+    let command = match command(app) {
         Ok(command) => command,
         Err(reason) => return app.complain(reason),
     };

@@ -1,8 +1,6 @@
 //! Studies and comparisons of the case: its requests, their computation, and the use of what they
 //! find; the benchmark of every setting; the variants and the baseline.
 
-use std::io;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use super::{edit, key_of, panes};
@@ -10,20 +8,15 @@ use crate::case::fields::{FIELDS, index_of};
 use crate::case::{Case, Evaluator, Limit, Problem, Variant};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Solution, Stage};
-use crate::report::page::{format_of, is_picture};
 use crate::report::solve::common_method;
-use crate::report::studies::{Take, table_of, write};
-use crate::report::svg;
-use crate::report::table::{Named, Table};
 use crate::report::tolerance::ToleranceReport;
 use crate::report::trade::conclusion;
 use crate::study::axis::{Axis, Grid};
 use crate::study::batch::{self, Batch, Control, Points, Refusals, solve_all};
-use crate::study::shard::{Format, PointsRequest, Request, Study};
-use crate::study::tolerance::{Design, Samples, Size, Tolerance, USUAL_RANKED};
+use crate::study::tolerance::{Design, Samples, Size, Tolerance};
 use crate::study::trade::{Trade, trade};
 use crate::tui::app::App;
-use crate::tui::app::actions::{Choice, Content, Running, Slot, Work};
+use crate::tui::app::actions::{Choice, Running, Slot, Work};
 use crate::tui::app::dialogs::Prompt;
 use crate::tui::app::dialogs::picker::{Item, Picker};
 use crate::tui::app::dialogs::question::PathDialog;
@@ -384,153 +377,6 @@ pub(super) fn take(app: &mut App) {
     edit::set_values(app, &values.collect::<Vec<_>>(), &worded);
 }
 
-/// What `tipstrike sweep` or `tipstrike tolerance` writes for the shown study, or its picture.
-pub(super) fn content(app: &App, path: &Path) -> Result<(String, Content), String> {
-    if is_picture(path) {
-        let chart = study::picture(app).ok_or("there is no curve to draw")?;
-        if !app.tab.study.is_over() {
-            return Err("the study still runs: wait for its end, or stop it".to_owned());
-        }
-        let caption = Named { name: &app.tab.name(), title: app.tab.case.title() }.caption();
-        let draw = move |_: &Running<'_>| Ok(svg::draw(&chart, &caption));
-        return Ok((": the picture of the study".to_owned(), Box::new(draw)));
-    }
-    let format = format_of(path).unwrap_or(Format::Csv);
-    let (request, _) = repeated(app, format)?;
-    let mut curves = app.tab.study.curves();
-    curves.truncate(if format == Format::Csv { usize::MAX } else { 1 });
-    let content = move |running: &Running<'_>| {
-        let refused = |problem: Problem| format!("{}: {}", problem.cause, problem.fix);
-        let mut study = Study::restore(&request).map_err(refused)?;
-        let needed = study.quantities.iter().map(|quantity| quantity.stage);
-        study.inputs = study.inputs.needing(needed);
-        let text = match &curves[..] {
-            [_, _, ..] => text_of_curves(study, &curves, running),
-            [curve] => text_of(&study, &curve.rows, running),
-            [] => text_of(&study, &[], running),
-        };
-        text.map_err(|error| error.to_string())
-    };
-    let lines = if format == Format::Json { " as JSON Lines, one object per line" } else { "" };
-    Ok((format!(": the study{lines} (y copies its command)"), Box::new(content)))
-}
-
-/// The rows of a study; those of a curve that the pane has solved are not solved again.
-fn rows_of(
-    study: &Study,
-    running: &Running<'_>,
-    known: &[batch::Row],
-    take: Take,
-) -> io::Result<()> {
-    let count = study.points().count();
-    if known.len() == count {
-        return take(0, known);
-    }
-    let mut written = Ok(());
-    let solved = solve(&study.batch(), count, running, &mut |first, rows| {
-        written = take(first, rows);
-        written.is_ok()
-    });
-    written?;
-    solved.map_err(|_| io::ErrorKind::Interrupted.into())
-}
-
-/// The points of a study as CSV, with a column of each other curve behind that of the study, and its
-/// outcome and method at the end. These, and a name that the table has already, have the name of the
-/// curve before them.
-fn text_of_curves(
-    mut study: Study,
-    curves: &[LayerFound],
-    running: &Running<'_>,
-) -> io::Result<String> {
-    let own = study.points().columns().len();
-    let mut table: Option<Table> = None;
-    for (at, LayerFound { layer, rows, .. }) in curves.iter().enumerate() {
-        study.quantities = layer.quantity().into_iter().collect();
-        let needed = study.quantities.iter().map(|quantity| quantity.stage);
-        study.inputs = layer.inputs.clone().needing(needed);
-        let mut all = Vec::new();
-        rows_of(&study, running, rows, &mut |_, rows| {
-            all.extend_from_slice(rows);
-            Ok(())
-        })?;
-        let other = table_of(&study, 0, &all);
-        let Some(table) = &mut table else {
-            table = Some(other);
-            continue;
-        };
-        for (index, mut column) in other.columns.into_iter().enumerate().skip(own) {
-            if index > own || table.columns.iter().any(|known| known.key == column.key) {
-                column.key = format!("{} {}", layer.name(), column.key).into();
-            }
-            let place = if index == own { own + at } else { table.columns.len() };
-            table.columns.insert(place, column);
-            for (row, other) in table.rows.iter_mut().zip(&other.rows) {
-                row.insert(place, other[index].clone());
-            }
-        }
-    }
-    let mut out = Vec::new();
-    table.unwrap_or_default().write_csv(&mut out)?;
-    String::from_utf8(out).map_err(io::Error::other)
-}
-
-/// The commands that repeat the curves of the shown study, one per line.
-pub(super) fn command(app: &App) -> Result<String, String> {
-    Ok(repeated(app, Format::Csv)?.1)
-}
-
-/// The request of the shown study, and its commands.
-fn repeated(app: &App, format: Format) -> Result<(Request, String), String> {
-    let study = app.tab.study.request.as_ref().filter(|_| app.tab.study.obstacle.is_none());
-    // Of the other curves, the baseline is another case.
-    let mut others = Vec::new();
-    let (quantity, points, options) = match &study.ok_or("there is no study")?.parameters {
-        StudyParameters::Grid(grid) => {
-            let quantity = grid.layers.first().map_or("", |layer| layer.quantity);
-            others.extend(grid.layers.iter().skip(1).filter(|layer| !layer.is_baseline));
-            // One option for all ranges.
-            let is_log = grid.axes.iter().any(|axis| axis.is_log);
-            let vary = grid.axes.iter().map(|axis| range::vary(axis, is_log));
-            let (vary, points): (Vec<_>, Vec<_>) = vary.unzip();
-            let points: Vec<usize> = points.into_iter().flatten().collect();
-            let varied = vary.iter().map(|text| format!(" --vary '{text}'"));
-            let counted = points.iter().map(|count| format!(" --points {count}"));
-            let log = is_log.then(|| " --log".to_owned());
-            let options = varied.chain(counted).chain(log).collect::<String>();
-            (quantity, PointsRequest::Sweep { vary, points, log: is_log }, options)
-        }
-        StudyParameters::Tolerance(of) => {
-            let (samples, ranked) = (of.samples, USUAL_RANKED.min(of.samples));
-            let points = PointsRequest::Tolerance { samples, seed: 1, ranked };
-            (of.quantity, points, format!(" --samples {samples}"))
-        }
-    };
-    let word = if app.tab.study.state.is_tolerance { "tolerance" } else { "sweep" };
-    let ending = if format == Format::Json { "json" } else { "csv" };
-    let (name, case) = (app.tab.name(), app.tab.as_edited().render());
-    let shell_name = name.replace('\'', r"'\''");
-    let command = |method: &str, quantity: &str| {
-        format!(
-            "tipstrike {word}{options}{method} --only {quantity} --format {ending} '{shell_name}'"
-        )
-    };
-    let of_layer = |layer: &Layer| {
-        command(&format!(" --method {}", layer.inputs.method.name()), layer.quantity)
-    };
-    let commands = [command("", quantity)].into_iter().chain(others.into_iter().map(of_layer));
-    let commands = commands.collect::<Vec<_>>().join("\n");
-    let quantities = vec![quantity.to_owned()];
-    Ok((Request { name, case, quantities, format, points }, commands))
-}
-
-/// The output of the command of a study, from the known points if they are complete.
-fn text_of(of: &Study, known: &[batch::Row], running: &Running<'_>) -> io::Result<String> {
-    let mut out = Vec::new();
-    write(of, |take| rows_of(of, running, known, take), &mut out)?;
-    String::from_utf8(out).map_err(io::Error::other)
-}
-
 /// Changes the results of the study of a tab.
 fn change(app: &mut App, tab: usize, change: impl FnOnce(&mut StudyResults)) {
     if let Some(results) = app.tab_with(tab).and_then(|tab| tab.study.results()) {
@@ -560,7 +406,7 @@ fn compute(tab: usize, parameters: &StudyParameters, running: &Running<'_>) {
 }
 
 /// Solves the points of a study while it is wanted.
-fn solve(
+pub(super) fn solve(
     batch: &Batch,
     count: usize,
     running: &Running<'_>,
@@ -651,9 +497,10 @@ fn sample(
     };
     let needing = &inputs.clone().needing(only.iter().map(|of| of.stage));
     let batch = Batch { inputs: needing, points: &study.design, quantities: &study.quantities };
-    let (mut samples, mut sent) = (Samples::of(&study), Instant::now());
+    let (mut samples, mut all, mut sent) = (Samples::of(&study), Vec::new(), Instant::now());
     let solved = solve(&batch, count, running, &mut |first, rows| {
         samples.add(first, rows);
+        all.extend_from_slice(rows);
         if sent.elapsed() > PAGE_STEP {
             sent = Instant::now();
             send(&samples);
@@ -661,6 +508,9 @@ fn sample(
         true
     });
     send(&samples);
+    running.send(move |app| {
+        change(app, tab, |results| results.layers[0].rows = all);
+    });
     Ok(solved)
 }
 

@@ -15,7 +15,6 @@ use super::plot::{Look as SeriesLook, NO_CONTACT, REFUSED, TerminalChart};
 use crate::case::units::{self, System};
 use crate::case::{Case, FIELDS};
 use crate::model::explanation::tidy;
-use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Quantity};
 use crate::report::chart::{Axis, Cell as MapCell, Chart, Kind, Labels, Point, Series, Span};
 use crate::report::charts::pieces;
@@ -171,7 +170,7 @@ pub struct Study {
 pub struct StudyResults {
     /// The request.
     pub request: StudyRequest,
-    /// The points of each layer.
+    /// The points of each layer; of a tolerance, those of all samples once they are solved.
     pub layers: Vec<LayerFound>,
     /// Whether base pitch deviations add by their signs, see [`ADDED`].
     are_added: bool,
@@ -297,10 +296,7 @@ impl Study {
 impl StudyResults {
     /// The quantity of the study: that of its first curve.
     pub fn quantity(&self) -> Option<&'static Quantity> {
-        match &self.request.parameters {
-            StudyParameters::Grid(grid) => grid.layers.first()?.quantity(),
-            StudyParameters::Tolerance(parameters) => Quantity::find(parameters.quantity),
-        }
+        self.layers.first()?.layer.quantity()
     }
 
     /// The axes of a curve or a map.
@@ -313,20 +309,14 @@ impl StudyResults {
         self.axes().iter().map(|axis| axis.points.len()).product()
     }
 
-    /// The method of the first curve.
-    pub(crate) fn method(&self) -> Method {
-        match &self.request.parameters {
-            StudyParameters::Grid(grid) => {
-                grid.layers.first().map_or(Method::Exact, |layer| layer.inputs.method)
-            }
-            StudyParameters::Tolerance(parameters) => parameters.inputs.method,
-        }
-    }
-
     fn of(request: StudyRequest) -> StudyResults {
         let layers: Vec<LayerFound> = match &request.parameters {
             StudyParameters::Grid(grid) => grid.layers.iter().map(LayerFound::of).collect(),
-            StudyParameters::Tolerance(_) => Vec::new(),
+            StudyParameters::Tolerance(of) => vec![LayerFound::of(&Layer {
+                is_baseline: false,
+                inputs: of.inputs.clone(),
+                quantity: of.quantity,
+            })],
         };
         let is_added =
             |found: &LayerFound| add_by_sign(request.parameters.axes(), &found.layer.inputs);
@@ -786,7 +776,10 @@ fn map(
 
 /// The axis of the values.
 fn up_axis(shown: &StudyResults, unit: &str) -> Axis {
-    let symbol = shown.quantity().map_or("", |known| known.symbol_in(shown.method()));
+    let layer = shown.layers.first().map(|found| &found.layer);
+    let symbol = layer
+        .and_then(|layer| Some(layer.quantity()?.symbol_in(layer.inputs.method)))
+        .unwrap_or("");
     Axis::new(symbol, unit)
 }
 
