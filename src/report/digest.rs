@@ -91,30 +91,44 @@ fn text(case: &Case, key: &str) -> String {
     index_of(key).and_then(|field| case.effective(field)).map(sanitize).unwrap_or_default()
 }
 
-/// The remarks in brackets of the verdict, in the order in which a narrow screen leaves them out.
-pub(crate) const REMARKS: [&str; 3] = [EACH, OF_REST, OF_MESH];
-const EACH: &str = "each with the other gear unchanged";
-const OF_REST: &str = "times that at rest";
-const OF_MESH: &str = "times the mesh force";
+/// The remarks in brackets of a verdict: all of them, then fewer in a narrower screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Remarks {
+    All,
+    Ratios,
+    OfMesh,
+    None,
+}
 
 /// The verdict in one sentence: whether the tip strikes, its force before E, the greatest force of
 /// a tooth, and the relief that prevents the contact, each if its stage ran; `is_pending` while the
 /// relief is being computed.
 pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String {
+    remarked(solution, system, is_pending, Remarks::All)
+}
+
+/// The verdict of [`sentence`] with some of its remarks.
+pub(crate) fn remarked(
+    solution: &Solution,
+    system: System,
+    is_pending: bool,
+    remarks: Remarks,
+) -> String {
     let most = match solution.method {
         Method::Static => printed("static_peak_force", solution, system),
         Method::Dynamic => printed("dynamic_peak_force", solution, system),
         Method::Paper | Method::Exact | Method::Auto => None,
     };
-    let ratio = of("peak_force_ratio", solution).filter(|_| solution.method == Method::Dynamic);
-    let ratio = ratio.map(|ratio| format!(" ({ratio:.2} {OF_REST})"));
+    let has_ratio = remarks <= Remarks::Ratios && solution.method == Method::Dynamic;
+    let ratio = of("peak_force_ratio", solution).filter(|_| has_ratio);
+    let ratio = ratio.map(|ratio| format!(" ({ratio:.2} times that at rest)"));
     let ratio = ratio.unwrap_or_default();
     let at_rest = if solution.method == Method::Static { " at rest" } else { "" };
     let most = most.map(|most| format!("{most} on a tooth{at_rest}{ratio}"));
     if solution.outcome == Outcome::NoCornerContact {
         let why = without_contact_in_full(solution, system);
         let up_to = |before| most.as_ref().map(|most| format!("{before} up to {most}"));
-        return at_exit(solution, &up_to(",").unwrap_or_default(), system).map_or_else(
+        return at_exit(solution, &up_to(",").unwrap_or_default(), system, remarks).map_or_else(
             || format!("No corner contact: {why}{}.", up_to(";").unwrap_or_default()),
             |exit| format!("{exit}; none at the entry: {why}."),
         );
@@ -127,8 +141,7 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
         let greatest =
             at_rest.map_or_else(|| value(force, solution), |load| Some(load.approach_force));
         let ratio = value(own("dynamic_factor", solution)?, solution)?;
-        let ratio = format!(" ({ratio:.2} {OF_MESH})");
-        Some((shown_in(force, greatest?, system).to_string(), ratio))
+        Some((shown_in(force, greatest?, system).to_string(), of_mesh(ratio, remarks)))
     });
     let forces = match (tip, most) {
         (Some((tip, ratio)), Some(most)) => {
@@ -145,27 +158,33 @@ pub fn sentence(solution: &Solution, system: System, is_pending: bool) -> String
         (Some((tip, ratio)), None) => format!(": free impact {tip}{ratio}"),
         _ => String::new(),
     };
-    let exit = at_exit(solution, "", system).unwrap_or_default();
+    let exit = at_exit(solution, "", system, remarks).unwrap_or_default();
     let relief = relief(solution, system, is_pending).map(|relief| format!("; {relief}"));
     format!("Corner contact{angle}{forces}{}{exit}.", relief.unwrap_or_default())
 }
 
 /// The corner contact at the exit with its remedy; the whole verdict, with the greatest force of a
 /// tooth, if there is none at the entry.
-fn at_exit(solution: &Solution, greatest: &str, system: System) -> Option<String> {
+fn at_exit(
+    solution: &Solution,
+    greatest: &str,
+    system: System,
+    remarks: Remarks,
+) -> Option<String> {
     let shown = |key| printed(key, solution, system);
     let load = solution.having(Stage::Static).static_load.as_ref()?;
     let most = Some(load.recess_force).filter(|most| *most > 0.0)?;
     let force = shown_in(Quantity::find("static_force_at_end")?, most, system);
     let angle = shown("static_last_contact_angle")?;
     let clearing = solution.clearing;
-    let relief_of_entry = clearing.and_then(|clearing| clearing.relief);
     let relief = clearing.and_then(|clearing| clearing.at_exit);
     let required = |on| relief.map(|(given, more)| required(more, given, on, system));
     let at_rest = if solution.method == Method::Dynamic { " (at rest)" } else { "" };
     if solution.outcome == Outcome::CornerContact {
         let required = required("on the driver").map(|required| {
-            let each = relief_of_entry.map_or(String::new(), |_| format!(" ({EACH})"));
+            let of_entry = clearing.and_then(|clearing| clearing.relief);
+            let of_entry = of_entry.filter(|_| remarks == Remarks::All);
+            let each = of_entry.map_or("", |_| " (each with the other gear unchanged)");
             format!(", {required}{each}")
         });
         return Some(format!("; {force} at the exit{at_rest}{}", required.unwrap_or_default()));
@@ -176,10 +195,15 @@ fn at_exit(solution: &Solution, greatest: &str, system: System) -> Option<String
     let closes_gap = clearing.is_some_and(|clearing| clearing.closes_gap);
     let but = if closes_gap { ", but would cause contact at the entry" } else { "" };
     Some(format!(
-        "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's tip \
-            ({:.2} {OF_MESH}){greatest}; {required} prevents it{but}",
-        most / solution.mesh_force
+        "Corner contact at the exit{at_rest}, until {angle} after B: {force} on the driver's \
+            tip{}{greatest}; {required} prevents it{but}",
+        of_mesh(most / solution.mesh_force, remarks)
     ))
+}
+
+fn of_mesh(ratio: f64, remarks: Remarks) -> String {
+    let ratio = Some(ratio).filter(|_| remarks <= Remarks::OfMesh);
+    ratio.map_or(String::new(), |ratio| format!(" ({ratio:.2} times the mesh force)"))
 }
 
 /// A quantity of the free impact, or its counterpart in the method.

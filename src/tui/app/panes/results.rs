@@ -19,9 +19,10 @@ use crate::model::inputs::Method;
 use crate::model::quantities::Need;
 use crate::model::{QUANTITIES, Quantity, Solution, Stage, Stages};
 use crate::report::compare::{self, difference};
+use crate::report::digest::{self, Remarks};
 use crate::report::trade::duration;
 use crate::report::verdict::{Beside, Standing, Verdict, verdict, verdicts};
-use crate::report::{self, digest, value_as_in};
+use crate::report::{self, value_as_in};
 use crate::tui::app::App;
 use crate::tui::layout::{NEXT_FAULT, Pane};
 use crate::tui::rows;
@@ -206,8 +207,8 @@ struct Sentence {
 /// Where a sentence is shown besides the page of notes.
 #[derive(PartialEq, Eq)]
 enum Place {
-    /// Always; a long sentence ends after one of its clauses.
-    Pane,
+    /// Always; a long sentence becomes one of these texts or ends after one of its clauses.
+    Pane(Vec<String>),
     /// If there is room, also for the sentences before it.
     Room,
     /// Nowhere else.
@@ -225,18 +226,22 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
     for Sentence { text, style, place } in sentences(app) {
         let (mut lines, left) = (text::wrap(&text, width), room - head.len());
         // The last line names the page of the hidden sentences.
-        let is_shown = match place {
-            Place::Pane => left > 0,
+        let is_shown = match &place {
+            Place::Pane(_) => left > 0,
             Place::Room => !has_more && lines.len() < left,
             Place::Page => false,
         };
         has_more |= !is_shown;
-        if is_shown && lines.len() > left {
+        if let Place::Pane(shorter) = place
+            && is_shown
+            && lines.len() > left
+        {
             has_more = true;
             is_cut = true;
             // A key and its prefix stay in one line.
             let end = format!(" … ({}n)", app.leave().replace(' ', "\u{a0}"));
-            lines = shortened(text, &symbol(&end, app.look.ascii), width, left);
+            let texts = [vec![text], shorter].concat();
+            lines = shortened(&texts, &symbol(&end, app.look.ascii), width, left);
         }
         let lines = lines.into_iter().filter(|_| is_shown);
         head.extend(lines.map(|line| Line::styled(line.replace('\u{a0}', " "), style)));
@@ -259,21 +264,18 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
     (head, rows)
 }
 
-/// A text of at most `rows` lines without the remarks in brackets that need more, otherwise up to its
-/// last clause that fits, unless that leaves more than one line.
-fn shortened(mut text: String, end: &str, width: usize, rows: usize) -> Vec<String> {
+/// The first of some texts that has at most `rows` lines, otherwise the last one up to its last clause
+/// that fits, unless that leaves more than one line.
+fn shortened(texts: &[String], end: &str, width: usize, rows: usize) -> Vec<String> {
     let wrapped = |text: &str| text::wrap(&format!("{text}{end}"), width);
-    for remark in digest::REMARKS {
-        let Some((before, after)) = text.split_once(remark) else { continue };
-        let (before, after) = (before.rsplit_once(" ("), after.split_once(')'));
-        text = before.zip(after).map_or(text.clone(), |(kept, rest)| kept.0.to_owned() + rest.1);
-        if wrapped(&text).len() <= rows {
-            return wrapped(&text);
-        }
+    let mut forms = texts.iter().map(|text| wrapped(text));
+    if let Some(lines) = forms.find(|lines| lines.len() <= rows) {
+        return lines;
     }
+    let text = texts.last().map_or("", String::as_str);
     let mut ends = text.rmatch_indices([',', ';']).map(|(at, _)| wrapped(&text[..at]));
     let to_clause = ends.find(|lines| lines.len() <= rows).filter(|lines| lines.len() + 1 >= rows);
-    to_clause.unwrap_or_else(|| to_word(text::wrap(&text, width), end, width, rows))
+    to_clause.unwrap_or_else(|| to_word(text::wrap(text, width), end, width, rows))
 }
 
 /// The first `rows` lines, the last one with as many words as fit before the end.
@@ -313,7 +315,7 @@ fn sentences(app: &App) -> Vec<Sentence> {
     let faults = faults(app);
     let has_fault = !faults.is_empty();
     for (fault, style) in faults.into_iter().zip([theme.problem, Style::new()]) {
-        add(fault, style, Place::Pane);
+        add(fault, style, Place::Pane(Vec::new()));
     }
     let Some(answer) = &app.tab.answer else { return all };
     let fresh = |style: Style| if app.tab.is_stale() { theme.faint } else { style };
@@ -345,13 +347,17 @@ fn sentences(app: &App) -> Vec<Sentence> {
         let named = [(Standing::Exceeded, &exceeded), (Standing::Unknown, &unknown)];
         let named: Vec<String> = named.into_iter().filter_map(symbols).collect();
         if !named.is_empty() {
-            add(format!("! Limit {}.", named.join("; ")), theme.problem, Place::Pane);
+            add(format!("! Limit {}.", named.join("; ")), theme.problem, Place::Pane(Vec::new()));
         }
-        let place = if has_fault { Place::Room } else { Place::Pane };
         let age = age(app, answer);
         let is_pending = answer.strikes() && app.tab.lacks(Stage::Clearing);
-        let verdict = digest::sentence(solution, app.settings.units, is_pending);
-        add(format!("{age}{verdict}"), fresh(theme.focus), place);
+        let verdict = |remarks| {
+            let verdict = digest::remarked(solution, app.settings.units, is_pending, remarks);
+            symbol(&format!("{age}{verdict}"), app.look.ascii).into_owned()
+        };
+        let shorter = [Remarks::Ratios, Remarks::OfMesh, Remarks::None].map(verdict).to_vec();
+        let place = if has_fault { Place::Room } else { Place::Pane(shorter) };
+        add(verdict(Remarks::All), fresh(theme.focus), place);
         for verdict in exceeded.into_iter().chain(unknown) {
             add(format!("! {}", limit(verdict)), theme.problem, Place::Room);
         }
