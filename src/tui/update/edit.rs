@@ -443,32 +443,35 @@ fn names(app: &App) -> &'static [&'static str] {
     rows::names(&app.tab.case, app.tab.form.focus)
 }
 
-// Selects the first choice that begins with the letters typed so far. They are the part of the line
-// before its selection. A letter that fits no choice is ignored, but after a single one it is the first.
+// Selects the choice that begins with the letters typed so far, which are the part of the line before
+// its selection; otherwise the next choice that begins with the typed letter alone.
 fn choose_by_name(app: &mut App, typed: &str) {
     if typed.is_empty() {
         return;
     }
-    let (line, typed) = (&app.tab.form.input, typed.to_lowercase());
+    let (field, names, typed) = (app.tab.form.focus, names(app), typed.to_lowercase());
+    let line = &app.tab.form.input;
     let count = line.selected().map_or(0, |rest| rest.start);
     let begun = line.value().chars().take(count).collect::<String>() + &typed;
-    let mut starts = [Some(&begun), Some(&typed).filter(|_| count < 2)].into_iter().flatten();
-    let named = |start: &String| names(app).iter().find(|name| name.starts_with(start.as_str()));
-    let found = starts.find_map(|start| Some((named(start)?, start.chars().count())));
-    match (found, typed.parse().ok().and_then(Pane::of_digit)) {
-        (Some((name, typed)), _) => {
-            set(app, app.tab.form.focus, name);
-            app.tab.form.input = Line::begun(name, typed);
-        }
-        (None, Some(pane)) => app.say(format!(
-            "no choice begins with {typed}. Esc leaves the field; then {typed} shows {}",
-            pane.name()
-        )),
-        (None, None) => app.complain(format!(
-            "no choice begins with {}: {}",
-            text::printable(&begun),
-            names(app).join(", ")
-        )),
+    let now = names.iter().position(|name| *name == chosen(app, field)).unwrap_or(0);
+    let named = |start: &str, from: usize| {
+        names.iter().cycle().skip(from).take(names.len()).find(|name| name.starts_with(start))
+    };
+    let longer = named(&begun, now).filter(|_| count > 0).map(|name| (name, &begun));
+    let alone = || Some((named(&typed, now + 1)?, &typed)).filter(|_| count < 2);
+    if let Some((name, typed)) = longer.or_else(alone) {
+        set(app, field, name);
+        app.tab.form.input = Line::begun(name, typed.chars().count());
+    } else if let Some(pane) = typed.parse().ok().and_then(Pane::of_digit) {
+        let pane = pane.name();
+        app.say(format!(
+            "no choice begins with {typed}. Esc leaves the field; then {typed} shows {pane}"
+        ));
+    } else {
+        let start = text::printable(&begun);
+        app.complain(format!(
+            "no choice begins with {start}: a first letter selects a choice, Space the next one"
+        ));
     }
 }
 
