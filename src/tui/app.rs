@@ -412,23 +412,13 @@ impl App {
         Some(self.tab.request())
     }
 
-    /// Whether every requested result is present.
-    pub(super) fn has_results(&self) -> bool {
-        self.has_stages(self.tab.requested.stages)
-    }
-
-    /// Whether every requested result is present, except the run over the speed, which takes many
-    /// frames.
-    pub(super) fn has_quick_results(&self) -> bool {
-        self.has_stages(self.tab.requested.stages.without(Stage::SpeedRun))
-    }
-
-    fn has_stages(&self, stages: Stages) -> bool {
+    /// Whether every requested result is present, apart from those of some stages.
+    pub(super) fn has_results(&self, apart: Stages) -> bool {
         let Tab { answer, serial, requested, .. } = &self.tab;
         answer.as_ref().is_some_and(|answer| {
             let has_stiffness = answer.stiffness.is_some() >= requested.stiffness;
             let is_present = answer.serial == *serial && answer.pending.is_none();
-            is_present && answer.stages.covers(stages) && has_stiffness
+            is_present && answer.stages.covers(requested.stages.except(apart)) && has_stiffness
         })
     }
 

@@ -25,6 +25,7 @@ use super::store::{self, State, WatchedFile};
 use super::terminal::Screen;
 use super::update::update;
 use crate::case::rexs;
+use crate::model::{Stage, Stages};
 use crate::system::changes::{Changes, Places};
 use crate::system::files;
 use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
@@ -158,8 +159,9 @@ impl Workbench {
                 Ok(changed) => has_changed |= changed,
                 Err(end) => return Ok(Some(end)),
             }
-            let waits = self.app.is_busy(Slot::Solve) && !self.app.has_quick_results();
-            let waits = waits && Instant::now() < quick;
+            // The run over the speed takes many frames.
+            let has_results = self.app.has_results(Stages::NONE.with(Stage::SpeedRun));
+            let waits = self.app.is_busy(Slot::Solve) && !has_results && Instant::now() < quick;
             batch = if waits { self.events.batch(None, Some(quick)) } else { Vec::new() };
         }
         if self.keep()? || has_changed {

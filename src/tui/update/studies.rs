@@ -7,7 +7,7 @@ use super::{edit, key_of, panes};
 use crate::case::fields::{FIELDS, index_of};
 use crate::case::{Case, Evaluator, Limit, Problem, Variant};
 use crate::model::inputs::Method;
-use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Solution, Stage};
+use crate::model::{Inputs, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
 use crate::report::solve::common_method;
 use crate::report::tolerance::ToleranceReport;
 use crate::report::trade::conclusion;
@@ -737,7 +737,7 @@ pub(super) fn toggle_baseline(app: &mut App) {
 
 /// Pins the requested results as soon as they are complete.
 pub(super) fn pin_baseline(app: &mut App) {
-    let is_whole = app.has_results() && app.tab.requested.covers(app.wanted());
+    let is_whole = app.has_results(Stages::NONE) && app.tab.requested.covers(app.wanted());
     let answer = app.tab.answer.as_ref().filter(|_| app.is_pinning && is_whole);
     if let Some(answer) = answer {
         let baseline = Baseline { name: app.tab.short_name(), answer: answer.clone() };
