@@ -470,7 +470,7 @@ fn choose_by_name(app: &mut App, typed: &str) {
     } else {
         let start = text::printable(&begun);
         app.complain(format!(
-            "no choice begins with {start}: a first letter selects a choice, Space the next one"
+            "no choice begins with {start}: a first letter or Space selects a choice"
         ));
     }
 }
