@@ -19,7 +19,7 @@ use crate::model::static_load::Fourier;
 use crate::numeric::root::greatest_within;
 
 /// Steps of a motion times slices: some ten seconds of computation.
-const MOST_WORK: f64 = 4e6;
+const MOST_WORK: f64 = 8e6;
 
 /// Smaller errors of the balances and of the peaks are lost among those of the usual number of slices.
 const OF_SLICES: f64 = 1e-4;
