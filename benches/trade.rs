@@ -94,9 +94,7 @@ fn main() {
     let of_methods = METHODS.into_iter().zip(&methods);
     let mut series: Vec<Series> =
         of_methods.map(|(method, settings)| marks(method.name(), settings, &spur)).collect();
-    let is_slices = |setting: &&Setting| {
-        setting.couplings == over_face[0].couplings && setting.models == over_face[0].models
-    };
+    let is_slices = |setting: &&Setting| setting.is_finer_or_coarser(&over_face[0]);
     let slices: Vec<Setting> = over_face.iter().filter(is_slices).copied().collect();
     series.push(marks("static, helical: slices", &slices, &helical));
     for (name, table) in &tables {

@@ -249,11 +249,12 @@ fn by_slices(trade: &Trade) -> Vec<String> {
     let rows = shown(trade).map(|measured| {
         let mark = if measured.is_current { '>' } else { ' ' };
         let slices = format!("{mark} {}", measured.setting.slices_text());
-        let coupled = match measured.setting.couplings {
-            [true, true] => "slices, teeth",
-            [false, true] => "teeth",
-            [true, false] => "slices",
-            [false, false] => "nothing",
+        let Setting { slice_coupling, tooth_coupling, .. } = measured.setting;
+        let coupled = match (slice_coupling, tooth_coupling) {
+            (true, true) => "slices, teeth",
+            (false, true) => "teeth",
+            (true, false) => "slices",
+            (false, false) => "nothing",
         };
         let figures = measured.found.as_ref();
         let time = figures.map_or("refused".to_owned(), |it| duration(it.time.seconds));
@@ -328,8 +329,8 @@ fn setting(trade: &Trade, measured: &MeasuredSetting) -> Json {
         "tolerance": setting.tolerance,
         "accurate": setting.accurate,
         "slices": slices(trade, setting),
-        "slice_coupling": trade.is_over_face.then_some(setting.couplings[0]),
-        "tooth_coupling": trade.is_over_face.then_some(setting.couplings[1]),
+        "slice_coupling": trade.is_over_face.then_some(setting.slice_coupling),
+        "tooth_coupling": trade.is_over_face.then_some(setting.tooth_coupling),
         "current": measured.is_current,
         "seconds": time.map(|time| time.seconds),
         "spread": time.map(|time| time.spread),

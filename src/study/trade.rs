@@ -106,7 +106,8 @@ pub fn trade(
     let own = (current.models.is_some() && current.method != Method::Auto).then(|| current.best());
     let is_over_face = inputs.face().is_some();
     let finest = if is_over_face {
-        COUPLINGS.map(|couplings| Setting::finest_slices(inputs, couplings)).to_vec()
+        let slices = Some(BEST_SLICES);
+        Setting::coupled(inputs).map(|setting| Setting { slices, ..setting }).to_vec()
     } else {
         METHODS.map(|method| Setting::usual(method, inputs).best()).to_vec()
     };
@@ -308,8 +309,6 @@ pub const METHODS: [Method; 4] = [Method::Paper, Method::Exact, Method::Static, 
 pub const STATIONS: [usize; 3] = [8, 64, 1024];
 /// The compared numbers of slices.
 pub const SLICES: [usize; 5] = [9, 17, 33, 65, 129];
-/// The compared couplings of slices and of teeth.
-const COUPLINGS: [[bool; 2]; 3] = [[true, true], [false, true], [true, false]];
 /// Number of slices of the finest setting.
 const BEST_SLICES: usize = 513;
 /// Number of intervals of the finest setting of a method.
@@ -332,9 +331,10 @@ pub struct Setting {
     pub accurate: bool,
     /// Number of slices of the face width; `None` for as many as the pair needs.
     pub slices: Option<usize>,
-    /// Whether a force on a slice displaces the slices beside it, and whether a force on a tooth its
-    /// neighbours.
-    pub couplings: [bool; 2],
+    /// Whether a force on a slice displaces the slices beside it.
+    pub slice_coupling: bool,
+    /// Whether a force on a tooth displaces its neighbours.
+    pub tooth_coupling: bool,
 }
 
 impl Setting {
@@ -345,8 +345,7 @@ impl Setting {
         let usual = |method| Setting::usual(method, inputs);
         if inputs.face().is_some() {
             let counts = || SLICES.into_iter().map(Some).chain([None]);
-            let [both, teeth, slices] =
-                COUPLINGS.map(|couplings| Setting { couplings, ..usual(Method::Static) });
+            let [both, teeth, slices] = Setting::coupled(inputs);
             let with_counts = |of: Setting| counts().map(move |slices| Setting { slices, ..of });
             let others = StiffnessModels::covering(inputs)
                 .map(|models| Setting::of_method(Method::Static, Some(models)));
@@ -371,10 +370,7 @@ impl Setting {
 
     /// A method and compliance with the default fineness.
     pub fn of_method(method: Method, models: Option<StiffnessModels>) -> Setting {
-        let Inputs { stations, tolerance, slices, .. } = Inputs::default();
-        let tolerance = (method == Method::Dynamic).then_some(tolerance);
-        let [couplings, ..] = COUPLINGS;
-        Setting { method, models, stations, tolerance, accurate: false, slices, couplings }
+        Setting::with(&Inputs { method, ..Inputs::default() }, models)
     }
 
     /// The setting of a case that sets only the method.
@@ -393,30 +389,35 @@ impl Setting {
         }
     }
 
-    /// The finest setting over the face width.
-    fn finest_slices(inputs: &Inputs, couplings: [bool; 2]) -> Setting {
+    /// The settings over the face width with both couplings, of teeth alone and of slices alone.
+    fn coupled(inputs: &Inputs) -> [Setting; 3] {
         let usual = Setting::usual(Method::Static, inputs);
-        Setting { slices: Some(BEST_SLICES), couplings, ..usual }
+        let teeth = Setting { slice_coupling: false, ..usual };
+        [usual, teeth, Setting { tooth_coupling: false, ..usual }]
     }
 
     /// Whether both settings differ only in their fineness.
     pub fn is_finer_or_coarser(&self, other: &Setting) -> bool {
-        let of = |setting: &Setting| (setting.method, setting.models, setting.couplings);
+        let of = |one: &Setting| (one.method, one.models, one.slice_coupling, one.tooth_coupling);
         of(self) == of(other)
     }
 
     /// The setting of some inputs.
     pub fn of(inputs: &Inputs) -> Setting {
-        let Inputs { method, stations, accurate, slices, .. } = *inputs;
-        let is_left_to_auto = method == Method::Auto && inputs.tooth_compliance.is_none();
+        let is_left_to_auto = inputs.method == Method::Auto && inputs.tooth_compliance.is_none();
+        Setting::with(inputs, (!is_left_to_auto).then(|| StiffnessModels::of(inputs)))
+    }
+
+    fn with(inputs: &Inputs, models: Option<StiffnessModels>) -> Setting {
         Setting {
-            method,
-            models: (!is_left_to_auto).then(|| StiffnessModels::of(inputs)),
-            stations,
-            tolerance: (method == Method::Dynamic).then_some(inputs.tolerance),
-            accurate,
-            slices,
-            couplings: [inputs.slice_coupling, inputs.tooth_coupling],
+            method: inputs.method,
+            models,
+            stations: inputs.stations,
+            tolerance: (inputs.method == Method::Dynamic).then_some(inputs.tolerance),
+            accurate: inputs.accurate,
+            slices: inputs.slices,
+            slice_coupling: inputs.slice_coupling,
+            tooth_coupling: inputs.tooth_coupling,
         }
     }
 
@@ -428,8 +429,8 @@ impl Setting {
             tolerance: self.tolerance.unwrap_or(inputs.tolerance),
             accurate: self.accurate,
             slices: self.slices,
-            slice_coupling: self.couplings[0],
-            tooth_coupling: self.couplings[1],
+            slice_coupling: self.slice_coupling,
+            tooth_coupling: self.tooth_coupling,
             ..match self.models {
                 Some(models) => models.in_place_of(inputs),
                 None => Inputs { tooth_compliance: None, ..inputs.clone() },
@@ -450,19 +451,18 @@ impl Setting {
     /// Writes the setting into a case. If the case names no compliance and the setting has the
     /// default compliance, the case still names none.
     pub fn apply(&self, case: &mut Case) {
-        let accurate = if self.accurate { "true" } else { "false" };
+        let flag = |is_set| Some(if is_set { "true" } else { "false" });
         write(case, "model.method", Some(self.method.name()));
         write(case, "model.stations", Some(&self.stations_text()));
-        write(case, "model.accurate", Some(accurate));
+        write(case, "model.accurate", flag(self.accurate));
         let tolerance = self.tolerance.map(|tolerance| format!("{tolerance:e}"));
         write(case, "model.tolerance", tolerance.as_deref());
         let own = case.inputs().ok().map(|inputs| Setting::of(&inputs));
-        if own.is_none_or(|own| (own.slices, own.couplings) != (self.slices, self.couplings)) {
-            let [slices, teeth] =
-                self.couplings.map(|couples| if couples { "true" } else { "false" });
+        let of_face = |one: &Setting| (one.slices, one.slice_coupling, one.tooth_coupling);
+        if own.as_ref().map(of_face) != Some(of_face(self)) {
             write(case, "model.slices", Some(&self.slices_text()));
-            write(case, "model.slice_coupling", Some(slices));
-            write(case, "model.tooth_coupling", Some(teeth));
+            write(case, "model.slice_coupling", flag(self.slice_coupling));
+            write(case, "model.tooth_coupling", flag(self.tooth_coupling));
         }
         if own.and_then(|own| own.models) != self.models {
             let tooth = self.models.map_or("", |models| models.tooth.name());
@@ -493,13 +493,12 @@ impl fmt::Display for Setting {
         if let Some(tolerance) = self.tolerance {
             write!(f, " and tolerance {tolerance:e}")?;
         }
-        let [slices, teeth] = self.couplings;
-        match (self.slices, slices) {
+        match (self.slices, self.slice_coupling) {
             (None, true) => {}
             (_, true) => write!(f, ", {} slices", self.slices_text())?,
             (_, false) => write!(f, ", {} independent slices", self.slices_text())?,
         }
-        if !teeth {
+        if !self.tooth_coupling {
             f.write_str(", independent teeth")?;
         }
         if self.accurate { f.write_str(", accurate") } else { Ok(()) }
