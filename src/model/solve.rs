@@ -68,14 +68,14 @@ pub fn solve_after(
 }
 
 /// The steady motion over the speed, rising and falling, by the method `dynamic`. `show` receives the
-/// growing curve.
+/// growing curve, `go_on` the number of computed motions and the total.
 ///
 /// # Errors
 /// Those of [`solve_while`].
 pub fn speeds(
     inputs: &Inputs,
     show: &mut dyn FnMut(&SpeedCurve),
-    go_on: &dyn Fn(f64) -> bool,
+    go_on: &dyn Fn(usize, usize) -> bool,
 ) -> Result<SpeedCurve, Refusal> {
     let inputs = Inputs { method: Method::Dynamic, ..inputs.clone() };
     let solution = solve(&inputs, Stages::of(Stage::Deviation))?;
@@ -374,7 +374,8 @@ impl<'a> Run<'a> {
         let of = |s: &Solution| s.steady.clone();
         solution.steady = self.on_mesh(Stage::SteadyMotion, of, &mut meshes, find)?;
         let find = |mesh: &Arc<Mesh>| {
-            late(mesh, over_speed(inputs, solution, &mut |_| (), go_on).map(Arc::new))
+            let go_on = |done: usize, of: usize| go_on(done as f64 / of as f64);
+            late(mesh, over_speed(inputs, solution, &mut |_| (), &go_on).map(Arc::new))
         };
         let of = |s: &Solution| s.over_speed.clone();
         solution.over_speed = self.on_mesh(Stage::SpeedRun, of, &mut meshes, find)?;

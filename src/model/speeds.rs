@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::budget::Meter;
 use super::dynamic::Settings;
 use super::dynamic::steady::{Start, steady};
-use super::inputs::Drive;
 use super::mesh::Mesh;
 use super::slices::Face;
 use super::slices::motion::{self, Springs};
@@ -123,7 +122,8 @@ fn greatest(run: &[Option<AtSpeed>]) -> Option<&AtSpeed> {
 
 /// Computes the steady motion of a pair at each of [`SPEEDS`] speeds, first with rising speed, then
 /// with falling speed. Each motion starts from the previous one. `show` receives the growing curve.
-/// The solution has geometry, load, masses and deviation.
+/// The solution has geometry, load, masses and deviation. `go_on` receives the number of computed motions
+/// and the total.
 ///
 /// # Errors
 /// The [`Refusal`] of the pair; [`Refusal::Stopped`] if `go_on` returns false.
@@ -131,25 +131,37 @@ pub(crate) fn over_speed(
     inputs: &Inputs,
     solution: &Solution,
     show: &mut dyn FnMut(&SpeedCurve),
-    go_on: &dyn Fn(f64) -> bool,
+    go_on: &dyn Fn(usize, usize) -> bool,
 ) -> Result<SpeedCurve, Refusal> {
-    let inputs = Inputs { drive: Drive::Torque(inputs.torque()), ..inputs.clone() };
-    let mesh = Arc::new(wide_mesh(&inputs, solution)?);
+    let range = |present: f64| (FROM, TO.max(BEYOND_PRESENT * present), SPEEDS);
+    over_range(inputs, solution, range, show, go_on)
+}
+
+/// Like [`over_speed`], from a least to a greatest resonance ratio at a number of speeds, which depend on
+/// the ratio of the case.
+fn over_range(
+    inputs: &Inputs,
+    solution: &Solution,
+    range: impl FnOnce(f64) -> (f64, f64, usize),
+    show: &mut dyn FnMut(&SpeedCurve),
+    go_on: &dyn Fn(usize, usize) -> bool,
+) -> Result<SpeedCurve, Refusal> {
+    let mesh = Arc::new(wide_mesh(inputs, solution)?);
     let resonance = Resonance::of(inputs.speed, &mesh, solution.reduced_mass);
     let at_resonance = inputs.speed / resonance.ratio();
-    let most = TO.max(BEYOND_PRESENT * resonance.ratio());
-    let step = (most - FROM) / (SPEEDS - 1) as f64;
-    let speeds = (0..SPEEDS).map(|at| (FROM + step * at as f64) * at_resonance);
+    let (from, to, count) = range(resonance.ratio());
+    let step = (to - from) / (count - 1) as f64;
+    let speeds = (0..count).map(|at| (from + step * at as f64) * at_resonance);
     let mut curve = SpeedCurve {
         speeds: speeds.collect(),
-        up: vec![None; SPEEDS],
-        down: vec![None; SPEEDS],
+        up: vec![None; count],
+        down: vec![None; count],
         peaks: [None; 2],
         present: inputs.speed,
         resonance: at_resonance,
         is_cut: false,
     };
-    let settings = Settings::steady(&inputs, solution.reduced_mass);
+    let settings = Settings::steady(inputs, solution.reduced_mass);
     let face = inputs.face().map(|face| Face::new(&face, &solution.geometry, &mesh)).transpose()?;
     let springs = face
         .as_ref()
@@ -166,10 +178,10 @@ pub(crate) fn over_speed(
         tooth_force,
         resonance: at_resonance,
         work: Meter::new(WORK),
-        go_on: &|_| go_on(f64::from(done.get()) / (2 * SPEEDS) as f64),
+        go_on: &|_| go_on(done.get(), 2 * count),
     };
     let (mut last, mut highest) = (None, [const { None }; 2]);
-    let rising = (0..SPEEDS).map(|at| (at, true));
+    let rising = (0..count).map(|at| (at, true));
     for (at, rises) in rising.clone().chain(rising.rev().map(|(at, _)| (at, false))) {
         let found = runs.at(curve.speeds[at], &mut last)?;
         let run = if rises { &mut curve.up } else { &mut curve.down };
@@ -287,33 +299,15 @@ mod tests {
         }
     }
 
-    /// The greatest tooth force at falling speeds near resonance, and whether contact is lost.
+    /// The dynamic factor of a tooth at falling speeds near resonance, and whether contact is lost.
     fn falling(inputs: &Inputs) -> Vec<(f64, bool)> {
-        let ratios: Vec<f64> = (0..17).map(|at| 1.05 - 0.025 * f64::from(at)).collect();
         let inputs = Inputs { method: Method::Dynamic, ..inputs.clone() };
         let solution = solve(&inputs, Stages::of(Stage::Mesh).with(Stage::Masses)).unwrap();
-        let mesh = Arc::new(wide_mesh(&inputs, &solution).unwrap());
-        let resonance = Resonance::of(inputs.speed, &mesh, solution.reduced_mass);
-        let settings = Settings::steady(&inputs, solution.reduced_mass);
-        let face = inputs.face().map(|face| Face::new(&face, &solution.geometry, &mesh).unwrap());
-        let speed = |ratio: f64| inputs.speed / resonance.ratio() * ratio;
-        let slowest = speed(ratios[16]) * mesh.base_radii.0;
-        let springs = face.as_ref().map(|face| Springs::new(face, &settings, slowest));
-        let runs = Runs {
-            mesh: &mesh,
-            springs: springs.as_ref(),
-            settings,
-            tooth_force: 1.0,
-            resonance: speed(1.0),
-            work: Meter::new(WORK),
-            go_on: &|_| true,
-        };
-        let mut last = None;
-        let at = |ratio| {
-            let found = runs.at(speed(ratio), &mut last).unwrap().unwrap();
-            (found.tooth_factor, found.contact_lost)
-        };
-        ratios.into_iter().map(at).collect()
+        let range = |_| (0.65, 1.05, 17);
+        let curve = over_range(&inputs, &solution, range, &mut |_| (), &|_, _| true).unwrap();
+        let all = curve.down.into_iter().rev();
+        all.map(|found| found.map(|found| (found.tooth_factor, found.contact_lost)).unwrap())
+            .collect()
     }
 
     #[test]

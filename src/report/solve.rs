@@ -8,7 +8,7 @@ use crate::case::units::System;
 use crate::case::{Case, Evaluator, Problem};
 use crate::model::inputs::Method;
 use crate::model::solve::speeds;
-use crate::model::speeds::{SPEEDS, SpeedCurve};
+use crate::model::speeds::SpeedCurve;
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
 use crate::study::batch::Control;
 use crate::study::seek::{distinct, headline};
@@ -254,7 +254,8 @@ impl Unsolved<'_> {
     /// The refusal of the model; [`Refusal::Stopped`] if `go_on` returns false.
     pub fn part(&self, part: Part, go_on: GoOn) -> Result<Subject, Refusal> {
         if part == Part::Speeds {
-            return Ok(Subject { speeds: Some(self.speeds(go_on)?), ..Subject::default() });
+            let speeds = Some(speeds(self.inputs, &mut |_| (), go_on)?);
+            return Ok(Subject { speeds, ..Subject::default() });
         }
         let stations = Subject::of(self.solve_for_picture()?, String::new()).with_other_method();
         let path = (part == Part::Path).then(|| compare_path(self.inputs, PATH_POINTS));
@@ -290,14 +291,9 @@ impl Unsolved<'_> {
             return Ok(page);
         }
         // A pair without steady motion has no chart over speed.
-        let speeds = Refusal::unless_stopped(self.speeds(go_on))?.ok();
+        let speeds = Refusal::unless_stopped(speeds(self.inputs, &mut |_| (), go_on))?.ok();
         let path = Some(compare_path(self.inputs, PATH_POINTS));
         Ok(Subject { path, speeds, ..page.with_other_method() })
-    }
-
-    fn speeds(&self, go_on: GoOn) -> Result<SpeedCurve, Refusal> {
-        let of = |part: f64| (part * (2 * SPEEDS) as f64).round() as usize;
-        speeds(self.inputs, &mut |_| (), &|part| go_on(of(part), 2 * SPEEDS))
     }
 
     fn variants(&self, go_on: GoOn) -> Result<Option<Comparison>, Refusal> {

@@ -175,7 +175,7 @@ fn a_pair_with_little_damping_rattles_across_its_backlash() {
 fn the_run_over_the_speed_passes_through_the_steady_motion_of_the_case() {
     let inputs = case("fzg-type-c");
     let curve =
-        speeds(&inputs, &mut |_| (), &|_| true).unwrap_or_else(|refusal| panic!("{refusal}"));
+        speeds(&inputs, &mut |_| (), &|_, _| true).unwrap_or_else(|refusal| panic!("{refusal}"));
     assert_eq!(curve.up.len(), SPEEDS);
     assert!(!curve.is_cut);
     // If the run-down finds the motion of the run-up, a plain solve finds it too.
@@ -198,11 +198,11 @@ fn the_run_over_the_speed_passes_through_the_steady_motion_of_the_case() {
     // The caller may stop it.
     let shown = Cell::new(0);
     let mut show = |_: &SpeedCurve| shown.set(shown.get() + 1);
-    let stopped = speeds(&inputs, &mut show, &|_| shown.get() < 3);
+    let stopped = speeds(&inputs, &mut show, &|_, _| shown.get() < 3);
     assert_eq!((stopped, shown.get()), (Err(Refusal::Stopped), 3));
     // With little damping and loss of contact, the run-down keeps a motion that the run-up has not.
     let little = Inputs { damping_ratio: 0.02, ..case("zhou-chen-2014") };
     let curve =
-        speeds(&little, &mut |_| (), &|_| true).unwrap_or_else(|refusal| panic!("{refusal}"));
+        speeds(&little, &mut |_| (), &|_, _| true).unwrap_or_else(|refusal| panic!("{refusal}"));
     assert!(curve.jumps().count() > 1, "{}", curve.jumps().count());
 }

@@ -180,7 +180,7 @@ fn a_growing_curve_is_marked_as_unfinished() {
     desk.app.tab.chart_work.request = None;
     assert!(requested(desk.effects("h"), Slot::Chart).is_some());
     let inputs = desk.app.tab.case.inputs().expect("a valid case");
-    let mut curve = speeds(&inputs, &mut |_| (), &|_| true).expect("a curve");
+    let mut curve = speeds(&inputs, &mut |_| (), &|_, _| true).expect("a curve");
     curve.up[60..].fill(None);
     curve.down.fill(None);
     let work = &mut desk.app.tab.chart_work;

@@ -435,7 +435,7 @@ fn compute(tab: usize, request: &ChartRequest, running: &Running<'_>) {
                     }
                 }
             };
-            let curve = speeds(inputs, &mut show, &|_| running.is_wanted());
+            let curve = speeds(inputs, &mut show, &|_, _| running.is_wanted());
             curve.map(|curve| speed_chart(&[("", &curve)]))
         }
         OwnChart::Pattern => return,
