@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::model::dynamic::Settings;
 use crate::model::inputs::{GearSide, Method};
 use crate::model::masses::Inertia;
-use crate::model::pair_forces::Touching;
+use crate::model::pair_forces::{PairSet, Touching};
 use crate::model::slices::Face;
 use crate::model::slices::balance::Until;
 use crate::model::static_load::pieces;
@@ -21,9 +21,6 @@ pub const VALUES: usize = 6;
 pub const STIFFNESS: usize = 0;
 const ERROR: usize = 1;
 const DISPLACEMENT: usize = 2;
-const FORCE: usize = 3;
-const TOOTH_STIFFNESS: usize = 4;
-const TOOTH_FORCE: usize = 5;
 
 /// Least, usual and greatest number of places in a base pitch.
 pub const POINTS: [usize; 3] = [8, 256, 4096];
@@ -301,51 +298,48 @@ fn in_plane(mesh: &Mesh, s: f64, inside: f64) -> [f64; VALUES] {
     let (displacement, forces) = pairs.shared(mesh.force);
     let carries = (0..forces.len()).filter(|&at| forces[at] > 0.0);
     let touching = carries.fold(Touching::NONE, Touching::with);
+    let [stiffness, of_tooth] = stiffnesses(&pairs, touching);
+    let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0);
+    let force = incoming.map_or(0.0, |at| forces[at]);
+    [stiffness, displacement, 0.0, forces.iter().sum(), of_tooth, force]
+}
+
+/// Slope and value at 0 of the lead of each pair over the displacement.
+fn leads(pairs: &PairSet, touching: Touching) -> Vec<[f64; 2]> {
+    if touching.is_none() {
+        return pairs.pairs().iter().map(|pair| [1.0, 0.0 - pair.gap]).collect();
+    }
     let [held, moved] = [0.0, 1.0].map(|x| pairs.leads(touching, x));
-    let mut values = [0.0; VALUES];
-    values[ERROR] = displacement;
-    for (index, pair) in pairs.pairs().iter().enumerate().filter(|&(at, _)| touching.has(at)) {
-        let slope = (moved[index] - held[index]) * pair.stiffness;
-        values[STIFFNESS] += pair.weight * slope;
-        values[FORCE] += forces[index];
+    held.into_iter().zip(moved).map(|(held, moved)| [moved - held, held]).collect()
+}
+
+/// Stiffness of the mesh and of the incoming tooth, in N/m.
+fn stiffnesses(pairs: &PairSet, touching: Touching) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    let all = pairs.pairs().iter().zip(leads(pairs, touching)).enumerate();
+    for (_, (pair, [slope, _])) in all.filter(|&(at, _)| touching.has(at)) {
+        let stiffness = slope * pair.stiffness;
+        sum[0] += pair.weight * stiffness;
         if pair.ahead == 0 {
-            (values[TOOTH_STIFFNESS], values[TOOTH_FORCE]) = (slope, forces[index]);
+            sum[1] = stiffness;
         }
     }
-    values
+    sum
 }
 
 /// The springs of the pairs that begin to carry up to the displacement `most`, each by its pair.
 fn springs(mesh: &Mesh, s: f64, inside: f64, most: f64) -> Vec<(i32, Spring)> {
     let pairs = mesh.pair_set(s, inside);
-    // Slope and value at 0 of the lead of each pair over the displacement.
-    let leads = |touching: Touching| -> Vec<[f64; 2]> {
-        if touching.is_none() {
-            return pairs.pairs().iter().map(|pair| [1.0, 0.0 - pair.gap]).collect();
-        }
-        let [held, moved] = [0.0, 1.0].map(|x| pairs.leads(touching, x));
-        held.into_iter().zip(moved).map(|(held, moved)| [moved - held, held]).collect()
-    };
     let (mut touching, mut before, mut found) = (Touching::NONE, [0.0; 2], Vec::new());
     loop {
-        let known = leads(touching);
+        let known = leads(&pairs, touching);
         let apart = (0..known.len()).filter(|&at| !touching.has(at));
         let gaps = apart.map(|at| (0.0 - known[at][1] / known[at][0], at));
         let next =
             gaps.filter(|(gap, _)| *gap <= most).min_by(|one, other| one.0.total_cmp(&other.0));
         let Some((gap, at)) = next else { return found };
         touching = touching.with(at);
-        let known = leads(touching);
-        let mut now = [0.0; 2];
-        for (index, pair) in pairs.pairs().iter().enumerate() {
-            if touching.has(index) {
-                let slope = known[index][0] * pair.stiffness;
-                now[0] += pair.weight * slope;
-                if pair.ahead == 0 {
-                    now[1] = slope;
-                }
-            }
-        }
+        let now = stiffnesses(&pairs, touching);
         found.push((pairs.pairs()[at].ahead, [gap, now[0] - before[0], now[1] - before[1]]));
         before = now;
     }
@@ -359,11 +353,7 @@ fn over_face(face: &Face, mesh: &Mesh, s: f64) -> Result<[f64; VALUES], Refusal>
     let x = loads.displacement;
     let further = face.loads(s, mesh.error, Until::Displacement(x * (1.0 + STEP)))?;
     let tooth = face.pair_force(&loads, 0);
-    let mut values = [0.0; VALUES];
-    values[STIFFNESS] = loads.stiffness;
-    values[ERROR] = x;
-    values[FORCE] = loads.pairs.all().map(|ahead| face.pair_force(&loads, ahead)).sum();
-    values[TOOTH_STIFFNESS] = (face.pair_force(&further, 0) - tooth) / (x * STEP);
-    values[TOOTH_FORCE] = tooth;
-    Ok(values)
+    let force = loads.pairs.all().map(|ahead| face.pair_force(&loads, ahead)).sum();
+    let of_tooth = (face.pair_force(&further, 0) - tooth) / (x * STEP);
+    Ok([loads.stiffness, x, 0.0, force, of_tooth, tooth])
 }
