@@ -198,28 +198,18 @@ pub fn stations(
     position: &Position,
     peak: f64,
 ) -> (Vec<Station>, Option<Refusal>) {
-    let mut refused = None;
-    let spacing = Spacing::of(inputs);
-    let mut found = Vec::with_capacity(spacing.count().map_or(0, |count| count + 1));
     let teeth = match Teeth::of(&inputs.elasticity(), geometry) {
         Ok(teeth) => teeth,
-        Err(refusal) => return (found, Some(refusal)),
+        Err(refusal) => return (Vec::new(), Some(refusal)),
     };
     let at = |angle: f64| {
         let station = station(inputs, &teeth, masses, angle);
         (station.as_ref().map_or(f64::NAN, |station| station.force), station)
     };
-    let rough = spacing.walk(
-        &[position.approach_angle_driven, 0.0],
-        peak,
-        CURVE_WORK / IMPACT_WORK,
-        at,
-        |station| match station {
-            Ok(station) => found.push(station),
-            Err(refusal) => refused = refused.or(Some(refusal)),
-        },
-    );
-    (found, refused.or(rough))
+    let ends = [position.approach_angle_driven, 0.0];
+    let (all, rough) = Spacing::of(inputs).stations(&ends, peak, CURVE_WORK / IMPACT_WORK, at);
+    let refused = all.iter().find_map(|station| station.as_ref().err().copied());
+    (all.into_iter().filter_map(Result::ok).collect(), refused.or(rough))
 }
 
 /// The impact as if it occurred at the driven gear's angle `angle` before E, in rad.
@@ -285,32 +275,10 @@ impl Spacing {
         ends: &[f64],
         peak: f64,
         most: usize,
-        at: impl FnMut(f64) -> (f64, T),
-    ) -> (Vec<T>, Option<Refusal>) {
-        let mut found = Vec::with_capacity(self.count().map_or(0, |count| count + 1));
-        let rough = self.walk(ends, peak, most, at, |value| found.push(value));
-        (found, rough)
-    }
-
-    /// The number of intervals if it is given.
-    pub fn count(self) -> Option<usize> {
-        match self {
-            Spacing::Even(count) => Some(count.max(1)),
-            Spacing::AsNeeded(_) => None,
-        }
-    }
-
-    /// Passes each station to `keep`, in order.
-    pub fn walk<T>(
-        self,
-        ends: &[f64],
-        peak: f64,
-        most: usize,
         mut at: impl FnMut(f64) -> (f64, T),
-        mut keep: impl FnMut(T),
-    ) -> Option<Refusal> {
+    ) -> (Vec<T>, Option<Refusal>) {
         let (Some(&from), Some(&to)) = (ends.first(), ends.last()) else {
-            return None;
+            return (Vec::new(), None);
         };
         match self {
             Spacing::AsNeeded(part) => {
@@ -324,18 +292,15 @@ impl Spacing {
                 let longest = (to - from).abs() / Spacing::LEAST as f64;
                 let needed = filled(&samples, &needed(&samples, LEFT_OUT * allowed), longest);
                 let values = samples.into_iter().enumerate();
-                values
-                    .filter(|(at, _)| needed.binary_search(at).is_ok())
-                    .for_each(|(_, sample)| keep(sample.value));
-                rough
+                let values = values.filter(|(at, _)| needed.binary_search(at).is_ok());
+                (values.map(|(_, sample)| sample.value).collect(), rough)
             }
             Spacing::Even(count) => {
                 let count = count.max(1);
                 let place = |step| {
                     if step == count { to } else { from + (to - from) * step as f64 / count as f64 }
                 };
-                (0..=count).map(|step| at(place(step)).1).for_each(keep);
-                None
+                ((0..=count).map(|step| at(place(step)).1).collect(), None)
             }
         }
     }

@@ -333,7 +333,7 @@ pub fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, longest: f64) ->
 fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
     match solution.position {
         Some(position) if solution.stations_withheld.is_some() => {
-            let count = Spacing::of(inputs).count().unwrap_or(Spacing::LEAST) as f64;
+            let count = inputs.stations.unwrap_or(Spacing::LEAST).max(1) as f64;
             LEFT_OUT * position.approach_angle_driver.to_degrees() / count
         }
         _ => f64::INFINITY,

@@ -240,7 +240,7 @@ impl Watch {
         spacing: Spacing,
     ) -> (Vec<Station>, Option<Refusal>) {
         let (peak, turns) = (swings.peak, &*swings.turns);
-        let is_given = spacing.count().is_some();
+        let is_given = matches!(spacing, Spacing::Even(_));
         let (stations, rough) = Station::through_start(first, last, |from, to| {
             let ends = if is_given { vec![from, to] } else { self.ends(motion, turns, (from, to)) };
             let (times, rough) = spacing.stations(&ends, peak, CURVE_WORK, |t| {
