@@ -100,7 +100,8 @@ impl Mesh {
         bends.extend(lines);
         bends.extend(run_out.zones(&relief, force, after, length, &mut zones)?);
         zones.sort_by(|one, other| one.from.total_cmp(&other.from));
-        check_pairs(length_of(&zones) / geometry.base_pitch)?;
+        let ends = (zones[0].from, zones[zones.len() - 1].to);
+        check_pairs((ends.1 - ends.0) / geometry.base_pitch)?;
         let levers =
             zones.iter().flat_map(|zone| [zone.from, zone.to].map(|s| zone.series.one(LEVER, s)));
         let friction = inputs.friction;
@@ -108,14 +109,7 @@ impl Mesh {
         if friction >= limit {
             return Err(Refusal::FrictionLocks { friction, limit });
         }
-        let way = Way {
-            ends: (
-                zones.first().map_or(0.0, |zone| zone.from),
-                zones.last().map_or(0.0, |zone| zone.to),
-            ),
-            bends,
-            base_pitch: geometry.base_pitch,
-        };
+        let way = Way { ends, bends, base_pitch: geometry.base_pitch };
         let place = |s: f64| match s {
             s if s < 0.0 => run_in.place(-s / geometry.driven.base),
             s if s > length => run_out.place((s - length) / geometry.driver.base).swapped(),
@@ -225,11 +219,6 @@ impl Mesh {
         }
         Ok(())
     }
-}
-
-/// Length of the line of action over which a pair may touch, in m.
-fn length_of(zones: &[Zone]) -> f64 {
-    zones.last().map_or(0.0, |zone| zone.to) - zones.first().map_or(0.0, |zone| zone.from)
 }
 
 /// Refuses more pairs in contact than a set can contain. `pitches` is the length of contact in base
