@@ -249,23 +249,13 @@ pub struct PathPoint {
 /// As [`compare_flanks`].
 pub fn compare_path(inputs: &Inputs, points: usize) -> Result<PathComparison, Refusal> {
     let (geometry, mesh_force) = loaded(inputs)?;
-    Ok(compare_along_path(inputs, &geometry, mesh_force, points))
-}
-
-/// Compares the models at `points` places from E to B, with the contact under the mesh force.
-fn compare_along_path(
-    inputs: &Inputs,
-    geometry: &Geometry,
-    mesh_force: f64,
-    points: usize,
-) -> PathComparison {
     let models = ToothCompliance::ALL.to_vec();
     let teeth: Vec<_> = models
         .iter()
         .map(|&tooth| {
             let inputs = Inputs { tooth_compliance: Some(tooth), ..inputs.clone() };
             let covers = (tooth.model().covers)(&inputs);
-            covers.then(|| Teeth::of(&inputs.elasticity(), geometry).ok()).flatten()
+            covers.then(|| Teeth::of(&inputs.elasticity(), &geometry).ok()).flatten()
         })
         .collect();
     let length = geometry.end - geometry.start;
@@ -279,12 +269,12 @@ fn compare_along_path(
             mesh: teeth.iter().map(|teeth| whole(teeth.as_ref()?, way, mesh_force)).collect(),
         }
     };
-    PathComparison {
+    Ok(PathComparison {
         base_radius: geometry.driver.base,
         width: inputs.common_width(),
         models,
         points: (0..=last).map(at).collect(),
-    }
+    })
 }
 
 impl PathComparison {
@@ -394,11 +384,7 @@ mod tests {
     #[test]
     fn the_pair_at_the_end_of_the_path_carries_for_any_number_of_points() {
         let inputs = standard_pair(17, 19, 5e-3);
-        let geometry = geometry::<f64>(&inputs.shape()).unwrap();
-        let last = |points| {
-            let found = compare_along_path(&inputs, &geometry, 2e3, points);
-            found.points.last().unwrap().clone()
-        };
+        let last = |points| compare_path(&inputs, points).unwrap().points.last().unwrap().clone();
         let expected = last(9);
         for points in 10..=60 {
             assert_eq!(last(points), expected, "{points} points");
@@ -408,29 +394,23 @@ mod tests {
     #[test]
     fn a_mesh_is_stiffer_than_a_pair_and_neighbours_make_it_softer_than_the_sum() {
         let inputs = standard_pair(22, 34, 5e-3);
-        let geometry = geometry::<f64>(&inputs.shape()).unwrap();
-        let found = compare_along_path(&inputs, &geometry, 2e3, 9);
+        let (geometry, force) = loaded(&inputs).unwrap();
+        let found = compare_path(&inputs, 9).unwrap();
         let of = |model: ToothCompliance| found.models.iter().position(|&own| own == model);
         let [beam, field] = [ToothCompliance::BEAM, ToothCompliance::FINITE_ELEMENT]
             .map(|model| of(model).unwrap());
         // At E a second pair is one base pitch ahead.
         let (first, length) = (&found.points[0], geometry.end - geometry.start);
         assert!(length > geometry.base_pitch);
-        let second = compare_at(&inputs, &geometry, geometry.base_pitch);
+        let second = |tooth: ToothCompliance| {
+            let inputs = Inputs { tooth_compliance: Some(tooth), ..inputs.clone() };
+            pair(&Teeth::of(&inputs.elasticity(), &geometry).unwrap(), geometry.base_pitch, force)
+        };
         for (model, is_coupled) in [(beam, false), (field, true)] {
             let (mesh, pair) = (first.mesh[model].unwrap(), first.pair[model].unwrap());
-            let sum = pair + second[model].unwrap();
+            let sum = pair + second(found.models[model]).unwrap();
             assert!(mesh > pair, "{mesh} {pair}");
             assert_eq!(mesh < 0.99 * sum, is_coupled, "{mesh} {sum}");
         }
-    }
-
-    /// Stiffness of the pair at one place by each model.
-    fn compare_at(inputs: &Inputs, geometry: &Geometry, way: f64) -> Vec<Option<f64>> {
-        let by = |tooth: ToothCompliance| {
-            let inputs = Inputs { tooth_compliance: Some(tooth), ..inputs.clone() };
-            pair(&Teeth::of(&inputs.elasticity(), geometry).ok()?, way, 2e3)
-        };
-        ToothCompliance::ALL.into_iter().map(by).collect()
     }
 }
