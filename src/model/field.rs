@@ -392,11 +392,6 @@ impl ElasticGear {
         *self.entry().check.get_or_init(check)
     }
 
-    /// Whether the field of the gear is built.
-    pub fn is_field_built(&self) -> bool {
-        self.entry().field.get().is_some()
-    }
-
     fn input(&self) -> Result<FieldInput, Refusal> {
         let (module, alpha) = (self.rack.module, self.rack.pressure_angle);
         let circles = geometry::circles(module, alpha, &self.shape)?;

@@ -7,11 +7,8 @@ use crate::model::Stage::{Friction, Impact, Velocity};
 use crate::model::explanation::Formula::{Cases, Difference, Text};
 use crate::model::explanation::{Step, step};
 
-/// A ratio.
-const RATIO: Quantity = Quantity { ..PLAIN };
-
 pub(super) const TABLE: &[Quantity] = &[
-    RATIO
+    PLAIN
         .row(
             ["friction_ratio", "f", "friction ratio"],
             ("1", "1", 4),
@@ -45,7 +42,7 @@ pub(super) const TABLE: &[Quantity] = &[
             ),
             Variant::meaning(always, "the position of the same tip at u', after the time T_S,32."),
         ]),
-    RATIO
+    PLAIN
         .row(
             ["stick_limit", "μ_stick", "stick limit"],
             ("1", "1", 4),
@@ -66,7 +63,7 @@ pub(super) const TABLE: &[Quantity] = &[
             the flank.",
         )
         .checks(&[checks::coulomb]),
-    RATIO
+    PLAIN
         .row(
             ["impulse_ratio", "κ", "impulse ratio"],
             ("1", "1", 4),
