@@ -48,25 +48,22 @@ impl Slice {
     /// The slice at z without its width.
     fn at(inputs: &FaceInputs, z: f64) -> Slice {
         let ends = [0, 1].map(|gear| inputs.end_factor(gear, z));
-        let none = [0.0; 2];
-        let (ahead, gap) = (inputs.lead * z, inputs.gap(z));
-        let (borders, bend, mean_gap, border_gaps) = ([z; 2], None, gap, [gap; 2]);
-        let (width, step, exchange, tail, spread) = (0.0, 0.0, none, none, 0.0);
+        let gap = inputs.gap(z);
         Slice {
             z,
-            width,
-            step,
-            exchange,
-            tail,
-            spread,
-            borders,
-            bend,
-            ahead,
+            width: 0.0,
+            step: 0.0,
+            exchange: [0.0; 2],
+            tail: [0.0; 2],
+            spread: 0.0,
+            borders: [z; 2],
+            bend: None,
+            ahead: inputs.lead * z,
             gap,
-            mean_gap,
-            border_gaps,
+            mean_gap: gap,
+            border_gaps: [gap; 2],
             ends,
-            end_changes: none,
+            end_changes: [0.0; 2],
         }
     }
 
@@ -164,8 +161,45 @@ impl Face {
     ) -> Result<Face, Refusal> {
         let sections = mesh.sections(geometry)?;
         let places = inputs.places(inputs.count(mesh.base_pitch));
-        let line = (geometry.start, geometry.tangent_length);
-        Ok(Face { line, ..Face::at(inputs, (mesh, &sections), &places) })
+        let square = inputs.coupling_length * inputs.coupling_length;
+        let step = inputs.width / (places.len() - 1).max(1) as f64;
+        let excess = Face::excess(inputs, (mesh, &sections), step);
+        let slice = |number: usize| {
+            let z = places[number];
+            let before = number.checked_sub(1).map_or(z, |before| places[before]);
+            let after = places.get(number + 1).copied().unwrap_or(z);
+            let exchange =
+                |step: f64| if step > 0.0 { square / (1.0 + excess) / step } else { 0.0 };
+            let borders = [before, after].map(|beside| f64::midpoint(z, beside));
+            Slice {
+                step: after - z,
+                exchange: [exchange(z - before), exchange(after - z)],
+                ..Slice::between(inputs, z, borders)
+            }
+        };
+        let mut slices: Vec<Slice> = (0..places.len()).map(slice).collect();
+        for side in [0, 1] {
+            let mut pivot = f64::INFINITY;
+            for at in 0..slices.len() {
+                let at = if side == 0 { at } else { slices.len() - 1 - at };
+                let slice = &mut slices[at];
+                slice.tail[side] = slice.exchange[side] / pivot;
+                let own = slice.width + slice.exchange[0] + slice.exchange[1];
+                pivot = own - slice.exchange[side] * slice.tail[side];
+            }
+        }
+        Ok(Face {
+            inputs: *inputs,
+            mesh: Arc::clone(mesh),
+            sections,
+            excess,
+            stiffening: 12.0 * excess / ((1.0 + excess) * step * step),
+            edges: mesh.edges().collect(),
+            reach: 0.5 * inputs.width * inputs.lead.abs(),
+            least_gap: slices.iter().map(|slice| slice.gap).fold(f64::INFINITY, f64::min),
+            slices,
+            line: (geometry.start, geometry.tangent_length),
+        })
     }
 
     /// ε of [`Face::new`] for slices of a width, in m.
@@ -192,51 +226,5 @@ impl Face {
         let most = MOST_EXCESS.min(MOST_TAKEN / softest);
         let excess = width * width / (12.0 * square - width * width);
         if excess > 0.0 { excess.min(most) } else { most }
-    }
-
-    fn at(
-        inputs: &FaceInputs,
-        (mesh, sections): (&Arc<Mesh>, &Arc<Series<6>>),
-        places: &[f64],
-    ) -> Face {
-        let square = inputs.coupling_length * inputs.coupling_length;
-        let step = inputs.width / (places.len() - 1).max(1) as f64;
-        let excess = Face::excess(inputs, (mesh, sections), step);
-        let slice = |number: usize| {
-            let z = places[number];
-            let before = number.checked_sub(1).map_or(z, |before| places[before]);
-            let after = places.get(number + 1).copied().unwrap_or(z);
-            let exchange =
-                |step: f64| if step > 0.0 { square / (1.0 + excess) / step } else { 0.0 };
-            let borders = [before, after].map(|beside| f64::midpoint(z, beside));
-            Slice {
-                step: after - z,
-                exchange: [exchange(z - before), exchange(after - z)],
-                ..Slice::between(inputs, z, borders)
-            }
-        };
-        let mut slices: Vec<Slice> = (0..places.len()).map(slice).collect();
-        for side in [0, 1] {
-            let mut pivot = f64::INFINITY;
-            for at in 0..slices.len() {
-                let at = if side == 0 { at } else { slices.len() - 1 - at };
-                let slice = &mut slices[at];
-                slice.tail[side] = slice.exchange[side] / pivot;
-                let own = slice.width + slice.exchange[0] + slice.exchange[1];
-                pivot = own - slice.exchange[side] * slice.tail[side];
-            }
-        }
-        Face {
-            inputs: *inputs,
-            mesh: Arc::clone(mesh),
-            sections: Arc::clone(sections),
-            excess,
-            stiffening: 12.0 * excess / ((1.0 + excess) * step * step),
-            edges: mesh.edges().collect(),
-            reach: 0.5 * inputs.width * inputs.lead.abs(),
-            least_gap: slices.iter().map(|slice| slice.gap).fold(f64::INFINITY, f64::min),
-            slices,
-            line: (0.0, 0.0),
-        }
     }
 }
