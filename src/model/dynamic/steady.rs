@@ -117,31 +117,22 @@ pub fn steady(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Steady, Refusal> {
     let mesh = mesh.without_error();
-    across_backlash(&mesh, settings, |motion| repeated(motion, settings, from, meter, go_on))
-}
-
-/// Like [`steady`]. `None` if the driver reaches back flanks that the motion does not include.
-fn repeated(
-    motion: &Motion<'_>,
-    settings: &Settings,
-    from: Option<&Start>,
-    meter: &Meter,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Result<Option<Steady>, Refusal> {
-    if motion.back.is_none() && from.is_some_and(Start::is_at_back) {
-        return Ok(None);
-    }
-    let mut round = Round::begin(motion, settings, from, meter)?;
-    let found = periodic(round.start(), (motion.scale(), EXACT), go_on, |start| {
+    across_backlash(&mesh, settings, |motion| {
+        if motion.back.is_none() && from.is_some_and(Start::is_at_back) {
+            return Ok(None);
+        }
+        let mut round = Round::begin(motion, settings, from, meter)?;
+        let found = periodic(round.start(), (motion.scale(), EXACT), go_on, |start| {
+            round.run.y = start.state;
+            round.lap(|_, _, _| ())?;
+            Ok((!round.run.misses_back).then(|| round.start()))
+        })?;
+        let Some((start, periods)) = found else {
+            return Ok(None);
+        };
         round.run.y = start.state;
-        round.lap(|_, _, _| ())?;
-        Ok((!round.run.misses_back).then(|| round.start()))
-    })?;
-    let Some((start, periods)) = found else {
-        return Ok(None);
-    };
-    round.run.y = start.state;
-    round.measured(periods).map(Some)
+        round.measured(periods).map(Some)
+    })
 }
 
 /// Greatest change of the state in a repetition of exact steps, relative to the scale of the motion.
