@@ -73,9 +73,4 @@ impl Meter {
     pub fn spent(&self) -> u64 {
         self.spent.get()
     }
-
-    /// The limit.
-    pub fn limit(&self) -> u64 {
-        self.limit
-    }
 }

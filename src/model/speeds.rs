@@ -244,7 +244,7 @@ impl Runs<'_> {
 
     /// The steady motion at a speed, starting from the motion at the previous speed.
     fn at(&self, speed: f64, last: &mut Option<Start>) -> Result<Option<AtSpeed>, Refusal> {
-        let meter = Meter::new(WORK_OF_SPEED.min(self.work.limit() - self.work.spent().min(WORK)));
+        let meter = Meter::new(WORK_OF_SPEED.min(WORK.saturating_sub(self.work.spent())));
         let mesh = self.mesh.turning_at(speed);
         let (settings, last_start) = (&self.settings, last.as_ref());
         let found = match self.springs {
