@@ -644,7 +644,7 @@ impl WholeSolves<'_> {
     fn errors(&self, reliefs: &TipReliefs, misalignment: f64) -> Result<Vec<f64>, NoRelief> {
         let error = |&(part, _): &(f64, f64)| {
             let inputs = Inputs { misalignment, ..reliefs.of(&loaded(self.inputs, part)) };
-            let solution = self.solve(&inputs, Stage::StaticSpectrum)?;
+            let solution = self.solve(&inputs, Stages::of(Stage::StaticSpectrum))?;
             let found = solution.static_spectrum.transpose()?;
             Ok(found.map_or(0.0, |found| found.spectrum.peak_to_peak))
         };
@@ -661,7 +661,7 @@ impl WholeSolves<'_> {
         let errors = self.errors(&reliefs, own)?;
         let factor = if self.is_in_motion {
             // A motion that does not become steady has no factor.
-            let solution = self.solve(&self.moving(&reliefs), Stage::SteadyMotion)?;
+            let solution = self.solve(&self.moving(&reliefs), Stages::of(Stage::SteadyMotion))?;
             let steady = solution.steady.and_then(Result::ok);
             steady.map(|steady| steady.mesh_force / solution.mesh_force)
         } else {
@@ -669,7 +669,7 @@ impl WholeSolves<'_> {
         };
         let stages = Stages::of(Stage::Static).and(Stages::of(Stage::StaticSpectrum));
         let inputs = reliefs.of(self.inputs);
-        let solution = self.solve_all(&inputs, stages)?;
+        let solution = self.solve(&inputs, stages)?;
         let relief = Relief::of(&inputs.reliefs(), &solution.geometry);
         let unloaded_contact_ratio = relief.unrelieved_contact_ratio(&solution.geometry);
         let ideal = solution.static_spectrum.transpose()?;
@@ -716,7 +716,7 @@ impl WholeSolves<'_> {
         in_motion: bool,
     ) -> Result<Figures, NoRelief> {
         let inputs = Inputs { misalignment, ..reliefs.of(&loaded(self.at_most, times)) };
-        let solution = self.solve(&inputs, Stage::Static)?;
+        let solution = self.solve(&inputs, Stages::of(Stage::Static))?;
         // Over the face width the contact after B is known without its lead.
         let (leads, strikes_after) = match (&solution.mesh, inputs.face()) {
             (Some(mesh), Some(face)) => {
@@ -743,7 +743,7 @@ impl WholeSolves<'_> {
         if !in_motion {
             return Ok(at_rest);
         }
-        let solution = self.solve(&self.moving(reliefs), Stage::Dynamic)?;
+        let solution = self.solve(&self.moving(reliefs), Stages::of(Stage::Dynamic))?;
         Ok(solution.dynamic.map_or(at_rest, |found| Figures {
             strikes: at_rest.strikes
                 || found.first_contact_angle.is_some()
@@ -758,11 +758,7 @@ impl WholeSolves<'_> {
         reliefs.of(&Inputs { method: Method::Dynamic, ..self.at_most.clone() })
     }
 
-    fn solve(&self, inputs: &Inputs, stage: Stage) -> Result<Solution, NoRelief> {
-        self.solve_all(inputs, Stages::of(stage))
-    }
-
-    fn solve_all(&self, inputs: &Inputs, stages: Stages) -> Result<Solution, NoRelief> {
+    fn solve(&self, inputs: &Inputs, stages: Stages) -> Result<Solution, NoRelief> {
         Ok(solve_while(inputs, stages, &|_| (self.go_on)(self.part.get()))?)
     }
 
@@ -774,17 +770,15 @@ impl WholeSolves<'_> {
         if let Some(bench) = self.bench {
             return Ok(bench.overlap_under(reliefs, times)? <= 0.0);
         }
-        let mut limits = self.smallest().into_iter();
-        limits.try_fold(true, |clears, (off, misalignment)| {
-            if !clears {
+        for (off, misalignment) in self.smallest() {
+            let found = self.figures_at(&reliefs.off(off), misalignment, times, false);
+            let is_refused =
+                matches!(found, Err(NoRelief::Refused(refusal)) if refusal != Refusal::Stopped);
+            if is_refused || found?.strikes {
                 return Ok(false);
             }
-            let found = self.figures_at(&reliefs.off(off), misalignment, times, false);
-            match found {
-                Err(NoRelief::Refused(refusal)) if refusal != Refusal::Stopped => Ok(false),
-                found => Ok(!found?.strikes),
-            }
-        })
+        }
+        Ok(true)
     }
 
     /// The greatest load without overlap at rest, relative to the load of the case. `None` if even
