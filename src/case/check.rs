@@ -268,7 +268,9 @@ fn likely_units(
 
 fn outside(known: &Field, text: &str, side: &str, end: &str) -> Problem {
     let cause = format!("{} is {side} the limit of {}", quoted(text), end.trim_end());
-    Problem::new(known.key, cause, format!("write a value from {}", known.range_text()))
+    let hand =
+        if known.key == "pair.helix_angle" { "; pair.driver_hand gives the hand" } else { "" };
+    Problem::new(known.key, cause, format!("write a value from {}{hand}", known.range_text()))
 }
 
 fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> {
@@ -390,7 +392,10 @@ fn face_rules(inputs: &Inputs) -> impl Iterator<Item = Problem> {
     });
     let slopes = slopes.map(|(member, value, width)| (member, value, width, MOST[0]));
     let steep = slopes.into_iter().chain(modified);
-    let steep = steep.filter(|(_, value, width, most)| *width > 0.0 && value.abs() > most * width);
+    // A conversion to another unit rounds.
+    let steep = steep.filter(|(_, value, width, most)| {
+        *width > 0.0 && value.abs() > most * width * (1.0 + 1e-12)
+    });
     let steep = steep.map(|(member, value, width, most)| {
         let (value, most) = (in_mm(value), in_mm(most * width));
         let cause =

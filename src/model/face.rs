@@ -239,7 +239,8 @@ pub(super) fn check_face(inputs: &FaceInputs, geometry: &Geometry) -> Result<(),
     for (side, flank) in sides.into_iter().zip(&inputs.flanks) {
         let ends = flank.end_reliefs.iter().filter(|relief| **relief > 0.0).count() as f64;
         let (length, width) = (ends * flank.end_relief_length, flank.width);
-        if length > width {
+        // A conversion to another unit rounds.
+        if length > width * (1.0 + 1e-12) {
             return Err(Refusal::EndReliefsOverlap { gear: side, length, width });
         }
     }

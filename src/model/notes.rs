@@ -519,7 +519,7 @@ fn earliest_on_face(k: &Context) -> Option<Note> {
     let ahead = earliness(k.inputs);
     let (_, _, z) = k.inputs.face()?.gaps();
     let message = format!(
-        "by misalignment and flank lines the tip is earliest at z = {} mm, by {} um, if the pair ahead \
+        "by misalignment and flank lines the tip is farthest ahead at z = {} mm, by {} um, if the pair ahead \
          touches over the whole face; method static balances the face",
         milli(z),
         micro(ahead)

@@ -11,6 +11,7 @@ use std::cell::Cell;
 use std::cmp::Ordering::Equal;
 
 use crate::case::units::System;
+use crate::case::violated_rule;
 use crate::model::geometry::Geometry;
 use crate::model::helix::Helix;
 use crate::model::inputs::{Drive, Gear, Method, ReliefShape};
@@ -348,6 +349,11 @@ pub fn specify(
     let (asked, torque) = (inputs.method, inputs.torque());
     let inputs = Inputs { drive: Drive::Torque(torque), ..inputs.clone() };
     let is_over_face = inputs.face().is_some() || demand.misalignment > 0.0;
+    let tilt = demand.misalignment.copysign(inputs.misalignment);
+    let tilted = Inputs { misalignment: inputs.misalignment + tilt, ..inputs.clone() };
+    if let Some(problem) = violated_rule(&tilted) {
+        return Err(NoRelief::Misaligned(Box::new(problem)));
+    }
     let method = if is_over_face { Method::Static } else { governing(&inputs, go_on)? };
     // No figure reads the stations.
     let at_rest = Inputs { method: Method::Static, stations: Some(1), ..inputs };

@@ -147,8 +147,8 @@ fn check(opened: &Opened, format: Format, out: &mut dyn Write) -> Done {
     Ok(if holds { Exit::Done } else { Exit::Exceeded })
 }
 
-/// Solves the stages of the limits and, unless the model refuses the other stages, of the verdict on
-/// the contact.
+/// Solves the stages of the limits and of the verdict on the contact. If the model refuses those of the
+/// verdict, the limits alone.
 fn solve_limited(case: &Case, inputs: &Inputs) -> Result<(Solution, Option<String>), Refusal> {
     let needed = stages(case);
     match model::solve(inputs, needed.and(STAGES).and(Stages::of(Stage::Clearing))) {
@@ -156,6 +156,7 @@ fn solve_limited(case: &Case, inputs: &Inputs) -> Result<(Solution, Option<Strin
             let outcome = sentence(&solution, System::Metric, false);
             Ok((solution, Some(outcome)))
         }
+        Err(refusal) if case.limits.is_empty() => Err(refusal),
         Err(_) => Ok((model::solve(inputs, needed)?, None)),
     }
 }

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::Demand;
+use crate::case::Problem;
 use crate::case::units::System;
 use crate::model::Refusal;
 use crate::numeric::decimal::shortest;
@@ -38,10 +39,12 @@ impl Conditions {
 }
 
 /// Why there is no relief.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum NoRelief {
     /// The model refuses the pair.
     Refused(Refusal),
+    /// With its deviation the misalignment is beyond its limit.
+    Misaligned(Box<Problem>),
     /// The relief without corner contact exceeds the thickness that the tip can lose.
     ThinTip {
         /// The conditions of the search.
@@ -90,6 +93,13 @@ impl fmt::Display for NoRelief {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (of, reason) = match self {
             NoRelief::Refused(refusal) => return write!(f, "{refusal}; {}", refusal.fix()),
+            NoRelief::Misaligned(problem) => {
+                return write!(
+                    f,
+                    "the misalignment with its deviation: {}; {}",
+                    problem.cause, problem.fix
+                );
+            }
             NoRelief::ThinTip { of, gear, most, overlap } => {
                 let [most, overlap] = [most, overlap].map(|amount| of.um(*amount));
                 let reason = format!(
