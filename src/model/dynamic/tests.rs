@@ -311,5 +311,7 @@ fn an_impact_ends_at_a_valley_and_not_at_a_ripple() {
     let valley = |forces: &[f64]| first_valley(forces.iter().copied(), most(forces));
     assert_eq!(valley(&[0.0, 5.0, 10.0, 9.95, 12.0, 6.0, 6.05, 5.5, 7.0]), Some(7));
     assert_eq!(valley(&[0.0, 3.0, 0.0, 0.0, 2.0]), Some(2));
+    // Where contact is lost the force is 0 but for its rounding.
+    assert_eq!(valley(&[0.0, 3.0, 1e-13, 0.0, 2.0]), Some(2));
     assert_eq!(valley(&[0.0, 1.0, 2.0]), None);
 }

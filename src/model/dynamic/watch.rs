@@ -354,13 +354,13 @@ pub(in crate::model) fn first_valley(
     forces: impl Iterator<Item = f64>,
     greatest: f64,
 ) -> Option<usize> {
-    let ripple = 0.01 * greatest;
+    let [ripple, rounding] = [0.01, 1e-9].map(|part| part * greatest);
     let (mut peak, mut valley) = (0.0, None);
     for (at, force) in forces.enumerate() {
         match valley {
             None if force >= peak => peak = force,
             None if force < peak - ripple => valley = Some((at, force)),
-            Some((_, least)) if force < least => valley = Some((at, force)),
+            Some((_, least)) if force < least - rounding => valley = Some((at, force)),
             Some((_, least)) if force > least + ripple => break,
             _ => {}
         }
