@@ -100,6 +100,11 @@ pub(crate) enum Remarks {
     None,
 }
 
+impl Remarks {
+    /// Fewer than all, most remarks first.
+    pub(crate) const FEWER: [Remarks; 3] = [Remarks::Ratios, Remarks::OfMesh, Remarks::None];
+}
+
 /// The verdict in one sentence: whether the tip strikes, its force before E, the greatest force of
 /// a tooth, and the relief that prevents the contact, each if its stage ran; `is_pending` while the
 /// relief is being computed.

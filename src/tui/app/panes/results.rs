@@ -207,8 +207,10 @@ struct Sentence {
 /// Where a sentence is shown besides the page of notes.
 #[derive(PartialEq, Eq)]
 enum Place {
-    /// Always; a long sentence becomes one of these texts or ends after one of its clauses.
-    Pane(Vec<String>),
+    /// Always; a long sentence ends after one of its clauses.
+    Pane,
+    /// Always; a long verdict loses remarks first.
+    Verdict,
     /// If there is room, also for the sentences before it.
     Room,
     /// Nowhere else.
@@ -226,22 +228,19 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
     for Sentence { text, style, place } in sentences(app) {
         let (mut lines, left) = (text::wrap(&text, width), room - head.len());
         // The last line names the page of the hidden sentences.
-        let is_shown = match &place {
-            Place::Pane(_) => left > 0,
+        let is_shown = match place {
+            Place::Pane | Place::Verdict => left > 0,
             Place::Room => !has_more && lines.len() < left,
             Place::Page => false,
         };
         has_more |= !is_shown;
-        if let Place::Pane(shorter) = place
-            && is_shown
-            && lines.len() > left
-        {
-            has_more = true;
-            is_cut = true;
+        if is_shown && lines.len() > left {
+            (has_more, is_cut) = (true, true);
             // A key and its prefix stay in one line.
             let end = format!(" … ({}n)", app.leave().replace(' ', "\u{a0}"));
-            let texts = [vec![text], shorter].concat();
-            lines = shortened(&texts, &symbol(&end, app.look.ascii), width, left);
+            let fewer = Remarks::FEWER.into_iter().filter(|_| place == Place::Verdict);
+            let texts = [text].into_iter().chain(fewer.filter_map(|fewer| remarked(app, fewer)));
+            lines = shortened(texts, &symbol(&end, app.look.ascii), width, left);
         }
         let lines = lines.into_iter().filter(|_| is_shown);
         head.extend(lines.map(|line| Line::styled(line.replace('\u{a0}', " "), style)));
@@ -266,16 +265,21 @@ fn parts(app: &App) -> (Vec<Line<'static>>, usize) {
 
 /// The first of some texts that has at most `rows` lines, otherwise the last one up to its last clause
 /// that fits, unless that leaves more than one line.
-fn shortened(texts: &[String], end: &str, width: usize, rows: usize) -> Vec<String> {
+fn shortened(
+    texts: impl Iterator<Item = String>,
+    end: &str,
+    width: usize,
+    rows: usize,
+) -> Vec<String> {
     let wrapped = |text: &str| text::wrap(&format!("{text}{end}"), width);
-    let mut forms = texts.iter().map(|text| wrapped(text));
+    let mut text = String::new();
+    let mut forms = texts.inspect(|next| text.clone_from(next)).map(|text| wrapped(&text));
     if let Some(lines) = forms.find(|lines| lines.len() <= rows) {
         return lines;
     }
-    let text = texts.last().map_or("", String::as_str);
     let mut ends = text.rmatch_indices([',', ';']).map(|(at, _)| wrapped(&text[..at]));
     let to_clause = ends.find(|lines| lines.len() <= rows).filter(|lines| lines.len() + 1 >= rows);
-    to_clause.unwrap_or_else(|| to_word(text::wrap(text, width), end, width, rows))
+    to_clause.unwrap_or_else(|| to_word(text::wrap(&text, width), end, width, rows))
 }
 
 /// The first `rows` lines, the last one with as many words as fit before the end.
@@ -298,6 +302,15 @@ fn folded(app: &App, answer: &Answer) -> Option<String> {
     is_folded.then(|| format!("{name} ({}f)", app.leave()))
 }
 
+/// The verdict of the active method with some of its remarks.
+fn remarked(app: &App, remarks: Remarks) -> Option<String> {
+    let answer = app.tab.answer.as_ref()?;
+    let is_pending = answer.strikes() && app.tab.lacks(Stage::Clearing);
+    let solution = answer.of(answer.active)?;
+    let verdict = digest::remarked(solution, app.settings.units, is_pending, remarks);
+    Some(symbol(&format!("{}{verdict}", age(app, answer)), app.look.ascii).into_owned())
+}
+
 /// Every sentence in full, one per line: the page of notes.
 pub(crate) fn in_full(app: &App) -> Vec<String> {
     sentences(app).into_iter().flat_map(|sentence| [sentence.text, String::new()]).collect()
@@ -315,7 +328,7 @@ fn sentences(app: &App) -> Vec<Sentence> {
     let faults = faults(app);
     let has_fault = !faults.is_empty();
     for (fault, style) in faults.into_iter().zip([theme.problem, Style::new()]) {
-        add(fault, style, Place::Pane(Vec::new()));
+        add(fault, style, Place::Pane);
     }
     let Some(answer) = &app.tab.answer else { return all };
     let fresh = |style: Style| if app.tab.is_stale() { theme.faint } else { style };
@@ -347,17 +360,10 @@ fn sentences(app: &App) -> Vec<Sentence> {
         let named = [(Standing::Exceeded, &exceeded), (Standing::Unknown, &unknown)];
         let named: Vec<String> = named.into_iter().filter_map(symbols).collect();
         if !named.is_empty() {
-            add(format!("! Limit {}.", named.join("; ")), theme.problem, Place::Pane(Vec::new()));
+            add(format!("! Limit {}.", named.join("; ")), theme.problem, Place::Pane);
         }
-        let age = age(app, answer);
-        let is_pending = answer.strikes() && app.tab.lacks(Stage::Clearing);
-        let verdict = |remarks| {
-            let verdict = digest::remarked(solution, app.settings.units, is_pending, remarks);
-            symbol(&format!("{age}{verdict}"), app.look.ascii).into_owned()
-        };
-        let shorter = [Remarks::Ratios, Remarks::OfMesh, Remarks::None].map(verdict).to_vec();
-        let place = if has_fault { Place::Room } else { Place::Pane(shorter) };
-        add(verdict(Remarks::All), fresh(theme.focus), place);
+        let place = if has_fault { Place::Room } else { Place::Verdict };
+        add(remarked(app, Remarks::All).unwrap_or_default(), fresh(theme.focus), place);
         for verdict in exceeded.into_iter().chain(unknown) {
             add(format!("! {}", limit(verdict)), theme.problem, Place::Room);
         }
